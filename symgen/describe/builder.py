@@ -1,0 +1,104 @@
+"""The mechanism file's vocabulary in Python; what is collected passes the same validator as a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Self
+
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.toml import to_toml
+from symgen.describe.validate import validate
+from symgen.errors import InputError
+
+
+class MechanismBuilder:
+    """Collects bodies, joints and forces, then makes a `Mechanism` or the text of a file.
+
+    Every method takes the keys of the file's table as keyword arguments and returns the builder. Nothing but names is
+    checked before `build`.
+
+    Parameters
+    ----------
+    name : str
+        Lower-case words joined by dashes.
+    **keys
+        Further keys of ``[mechanism]``: ``title``, ``source``, ``space``, ``gravity``.
+
+    Examples
+    --------
+    >>> pendulum = (
+    ...     MechanismBuilder("rod-pendulum", gravity=(0.0, -9.81))
+    ...     .parameter("length", 0.8, unit="m")
+    ...     .body("rod", mass=1.2, inertia="1.2*length**2/12", points={"top": (0.0, "length/2")})
+    ...     .joint("pin", "revolute", between=("ground", "rod"), at=((0.0, 0.0), "top"))
+    ... )
+    >>> pendulum.build().bodies[0].coordinates
+    ('x', 'y', 'theta')
+    """
+
+    def __init__(self, name: str, **keys: Any) -> None:
+        self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
+
+    def run(self, **keys: float) -> Self:
+        """Set run defaults: ``until``, ``step``, ``output_step``, ``predictable_until`` [s]."""
+        self._raw["run"] = self._raw.get("run", {}) | _plain(keys)
+        return self
+
+    def parameter(self, name: str, value: float | str, unit: str = "", note: str = "") -> Self:
+        """Add a number that stays adjustable at run time."""
+        keys = {"value": value, "unit": unit, "note": note}
+        return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
+
+    def table(self, name: str, x: Any, y: Any) -> Self:
+        """Add a function of one argument by linear interpolation."""
+        return self._add("tables", name, {"x": list(x), "y": list(y)})
+
+    def body(self, name: str, **keys: Any) -> Self:
+        """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
+        return self._add("bodies", name, keys)
+
+    def joint(self, name: str, type: str, **keys: Any) -> Self:
+        """Add a joint of a type, with that type's keys."""
+        return self._add("joints", name, {"type": type} | keys)
+
+    def force(self, name: str, type: str, **keys: Any) -> Self:
+        """Add a force element of a type, with that type's keys."""
+        return self._add("forces", name, {"type": type} | keys)
+
+    @property
+    def source(self) -> str:
+        """What messages call this description."""
+        return f"builder '{self._raw['mechanism']['name']}'"
+
+    def raw(self) -> dict[str, dict[str, Any]]:
+        """Return a copy of the nested dictionary, as a file would give it."""
+        copied: dict[str, dict[str, Any]] = _plain(self._raw)
+        return copied
+
+    def build(self) -> Mechanism:
+        """Return the validated mechanism."""
+        return validate(self.raw(), self.source)
+
+    def to_toml(self) -> str:
+        """Return the text of the file that describes the same mechanism."""
+        return to_toml(self.raw())
+
+    def _add(self, section: str, name: str, content: dict[str, Any]) -> Self:
+        entries = self._raw.setdefault(section, {})
+        if name in entries:
+            raise InputError(f"{self.source}: {section}.{name}", "a name used once", f"'{name}' twice")
+        entries[name] = _plain(content)
+        return self
+
+
+def _plain(value: Any) -> Any:
+    """Return `value` as a file would give it: tables, lists, texts, numbers (NumPy's too) and truth values."""
+    if isinstance(value, Mapping):
+        return {key: _plain(item) for key, item in value.items()}
+    if isinstance(value, str | bool | int):
+        return value
+    if hasattr(value, "__float__") and not getattr(value, "shape", ()):
+        return float(value)
+    if hasattr(value, "__iter__"):
+        return [_plain(item) for item in value]
+    return value

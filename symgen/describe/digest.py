@@ -1,0 +1,64 @@
+"""A model's digest: equal for two descriptions exactly when they lead to the same generated code.
+
+The start (positions, angles, velocities), title, source, run defaults and the values and notes of parameters stay
+outside: they can change without compiling again. A number written in place of a parameter is inside.
+"""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.mechanism import Mechanism
+
+#: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
+FORM = 1
+
+
+def canonical(mechanism: Mechanism) -> str:
+    """Return the text of everything in `mechanism` that the equations depend on.
+
+    Bodies, joints, forces, parameters and rows keep the declared order, which is the order of coordinates, multipliers
+    and parameters in the generated code; tables and named points are sorted, as their order means nothing.
+    """
+    bodies = [
+        [
+            body.name,
+            _text(body.mass),
+            _text(body.inertia),
+            _text(body.centre_of_mass),
+            sorted([name, _text(point)] for name, point in body.points),
+        ]
+        for body in mechanism.bodies
+    ]
+    parts = [
+        ["form", str(FORM)],
+        ["name", mechanism.name],
+        ["space", mechanism.space],
+        ["gravity", _text(mechanism.gravity)],
+        ["parameters", [[p.name, p.unit] for p in mechanism.parameters]],
+        ["tables", sorted([table.name, _text(table.x), _text(table.y)] for table in mechanism.tables)],
+        ["bodies", bodies],
+        ["joints", [_text(joint) for joint in mechanism.joints]],
+        ["forces", [_text(force) for force in mechanism.forces]],
+    ]
+    return "\n".join(_text(part) for part in parts)
+
+
+def digest(mechanism: Mechanism) -> str:
+    """Return the SHA-256 of the canonical text in hexadecimal digits."""
+    import hashlib
+
+    return hashlib.sha256(canonical(mechanism).encode()).hexdigest()
+
+
+def _text(value: object) -> str:
+    """Return `value` as text that differs wherever values differ: strings quoted, floats to the last digit."""
+    if isinstance(value, msgspec.Struct):
+        inner = " ".join(f"{field}={_text(getattr(value, field))}" for field in value.__struct_fields__)
+        return f"{type(value).__name__}({inner})"
+    if isinstance(value, list | tuple):
+        return "[" + " ".join(_text(item) for item in value) + "]"
+    if isinstance(value, float):
+        # -0.0 equals 0.0 and leads to the same equations.
+        return repr(value + 0.0)
+    return repr(value)

@@ -1,0 +1,140 @@
+"""The types a file's keys may have, and the one function that reads a table into a Struct of such fields.
+
+The description on each type is what an error message says was expected and what the JSON schema publishes.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
+
+import msgspec
+from msgspec import Meta
+
+from symgen.describe.names import quoted
+from symgen.errors import InputError, nearest
+
+Text = Annotated[str, Meta(description="a text")]
+PlainScalar = Annotated[float | str, Meta(description="a number or an expression of numbers")]
+Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
+TimeFunction = Annotated[float | str, Meta(description="a number or an expression of t and parameters")]
+StateFunction = Annotated[
+    float | str,
+    Meta(description="a number or an expression of t, parameters and body coordinates such as crank.theta"),
+]
+Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
+PotentialPair = Annotated[
+    tuple[float | str, float | str], Meta(description="two expressions [x, y], the first of x, the second of y")
+]
+Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters [x, y]")]
+Axis = Annotated[tuple[float | str, float | str], Meta(description="a direction [x, y] in the body's frame")]
+StatePair = Annotated[
+    tuple[float | str, float | str], Meta(description="two numbers or expressions [x, y] of t, parameters and state")
+]
+Point = Annotated[
+    str | tuple[float | str, float | str],
+    Meta(description="a point of the body: its name, 'centre' or coordinates [x, y]"),
+]
+BodyName = Annotated[str, Meta(description="the name of a body or 'ground'")]
+BodyPair = Annotated[tuple[str, str], Meta(description="the names of two bodies, one of which may be 'ground'")]
+PointPair = Annotated[
+    tuple[str | tuple[float | str, float | str], str | tuple[float | str, float | str]],
+    Meta(description="two points, one of each body: a name, 'centre' or coordinates [x, y]"),
+]
+Points = Annotated[dict[str, Pair], Meta(description="a table of points, name = [x, y] in the body's frame")]
+Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
+PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
+
+T = TypeVar("T")
+
+_AT = re.compile(r" - at `\$(.*)`$")
+
+
+def found(value: object) -> str:
+    """Return what was found, in words short enough for a message."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Mapping):
+        return "a table" if value else "an empty table"
+    if isinstance(value, list | tuple):
+        text = "[" + ", ".join(found(item) for item in value[:30]) + "]"
+        return text if len(text) <= 60 else f"a list of {len(value)}"
+    if isinstance(value, str):
+        return quoted(value)
+    if isinstance(value, int) and abs(value) > 1e18:
+        return "an integer beyond 1e18"
+    if isinstance(value, int | float):
+        return repr(value)
+    return "nothing" if value is None else f"a {type(value).__name__}"
+
+
+def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) -> T:
+    """Return the table `raw` as a `kind`, or raise `InputError` about the first key that is wrong.
+
+    Parameters
+    ----------
+    kind : type
+        A Struct whose fields are the table's keys.
+    raw : object
+        What the file has there.
+    where : str
+        File and table, for the message.
+    further : tuple of str, optional
+        Further keys, read elsewhere, that the message should list.
+    """
+    if not isinstance(raw, Mapping):
+        raise InputError(where, "a table", found(raw))
+    fields = {field.name: field for field in msgspec.structs.fields(cast(type[msgspec.Struct], kind))}
+    for key in raw:
+        if key not in fields:
+            known = [*further, *fields]
+            hint = nearest(str(key), known)
+            got = f"the unknown key {quoted(key)}"
+            raise InputError(where, f"the keys {', '.join(known)}", got, "" if hint.startswith("known") else hint)
+    for key, field in fields.items():
+        if field.required and key not in raw:
+            raise InputError(f"{where}.{key}", describe_type(field.type), "no such key")
+    return kind(**{key: read_value(fields[key].type, value, f"{where}.{key}") for key, value in raw.items()})
+
+
+def read_value(type_: Any, value: object, where: str) -> Any:
+    """Return `value` converted to the type, or raise `InputError` naming the part that is wrong."""
+    try:
+        return msgspec.convert(value, type_)
+    except (msgspec.ValidationError, OverflowError) as error:
+        items = _items(type_)
+        if items is not None and isinstance(value, Mapping):
+            for key, item in value.items():
+                read_value(items, item, f"{where}.{key}")
+        path = _AT.search(str(error))
+        raise InputError(where, describe_type(type_), found(_follow(value, path.group(1) if path else ""))) from None
+
+
+def _items(type_: Any) -> Any:
+    """Return the type of the entries where the type is a table of freely named entries, else None."""
+    for part in (type_, *get_args(type_)):
+        inner = getattr(part, "__origin__", part) if hasattr(part, "__metadata__") else part
+        if get_origin(inner) is dict:
+            return get_args(inner)[1]
+    return None
+
+
+def _follow(value: object, path: str) -> object:
+    """Return the part of `value` that a path such as ``[0][1]`` leads to, or `value` where it leads nowhere."""
+    part: Any = value
+    for index in re.findall(r"\[(\d+)\]", path):
+        if not isinstance(part, list | tuple) or int(index) >= len(part):
+            return value
+        part = part[int(index)]
+    return part
+
+
+def describe_type(type_: Any) -> str:
+    """Return in words what a value of this type is."""
+    for note in getattr(type_, "__metadata__", ()):
+        if isinstance(note, Meta) and note.description:
+            return note.description
+    if get_origin(type_) is Literal:
+        return " or ".join(f"'{argument}'" for argument in get_args(type_))
+    return next((describe_type(part) for part in get_args(type_) if part is not type(None)), "a valid value")

@@ -1,0 +1,104 @@
+"""From the word after a command to a mechanism: a catalogue name or the path of a file."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.names import quoted
+from symgen.describe.validate import validate
+from symgen.errors import InputError, nearest
+
+LARGEST_FILE = 1_000_000
+DEEPEST = 20
+
+_CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
+
+
+def load(model: str | os.PathLike[str]) -> Mechanism:
+    """Return the mechanism called `model` in the catalogue or described in the file `model`.
+
+    Parameters
+    ----------
+    model : str or path
+        ``"four-bar"``, ``"n-four-bar:40"`` or the path of a TOML file.
+
+    Raises
+    ------
+    InputError
+        If there is no such mechanism or its description is wrong.
+    """
+    raw, source = read_raw(model)
+    return validate(raw, source)
+
+
+def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
+    """Return the nested dictionary of `model`, not yet validated, and the name messages give to its origin."""
+    from symgen import catalogue
+
+    text = os.fspath(model)
+    match = _CATALOGUE.fullmatch(text)
+    if match and match.group("name") in catalogue.names():
+        size = match.group("size")
+        return catalogue.raw(match.group("name"), None if size is None else int(size)), text
+    path = Path(text)
+    if _is_file(path):
+        return read_toml(path), path.name
+    if path.suffix == ".toml" or "/" in text or os.sep in text:
+        raise InputError("model", "a catalogue name or the path of a file", f"{quoted(text)}, which is no file")
+    known = catalogue.names()
+    hint = nearest(text.partition(":")[0], known)
+    if ":" in text and not hint.startswith("known"):
+        hint = f"a size is written as in {catalogue.example_of_size()}"
+    raise InputError("model", "a catalogue name or the path of a file", quoted(text), hint)
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):  # a name too long for the system, or with a null character
+        return False
+
+
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return the tables of the TOML file at `path`, not yet validated."""
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise InputError(str(path), "a file that can be read", error.strerror or "an error") from None
+    if len(content) > LARGEST_FILE:
+        raise InputError(path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
+    try:
+        text = content.decode()
+    except UnicodeDecodeError as error:
+        raise InputError(path.name, "text in UTF-8", f"another byte at position {error.start}") from None
+    return parse_toml(text, path.name)
+
+
+def parse_toml(text: str, source: str) -> dict[str, Any]:
+    """Return the tables of TOML text, not yet validated."""
+    import tomllib
+
+    try:
+        raw = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, ValueError) as error:
+        slip = str(error)
+        raise InputError(source, "a TOML file", f"a slip: {slip[:1].lower() + slip[1:]}") from None
+    except (RecursionError, MemoryError):
+        raise InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting") from None
+    _check_depth(raw, source)
+    return raw
+
+
+def _check_depth(raw: dict[str, Any], source: str) -> None:
+    stack: list[tuple[object, int]] = [(raw, 0)]
+    while stack:
+        value, depth = stack.pop()
+        if depth > DEEPEST:
+            raise InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting")
+        inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+        stack.extend((item, depth + 1) for item in inner)

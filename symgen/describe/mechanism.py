@@ -1,0 +1,113 @@
+"""The described mechanism: the frozen value that enters the pipeline. No SymPy, no NumPy."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.vocabulary.expressions import ZERO, Expr
+from symgen.vocabulary.measures import Effort, Measure, Row
+
+
+class Parameter(msgspec.Struct, frozen=True):
+    """A named number that stays adjustable at run time (``p`` of the emitted functions)."""
+
+    name: str
+    value: float
+    unit: str = ""
+    note: str = ""
+
+
+class Table(msgspec.Struct, frozen=True):
+    """A function of one argument by interpolation, linear (constant beyond its ends); used as ``NAME(x)``."""
+
+    name: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+
+
+class Body(msgspec.Struct, frozen=True):
+    """A planar rigid body or point mass.
+
+    All points are relative to the body frame's origin; `position` is where that origin starts (approximately: assembly
+    closes the mechanism) and `angle` how far the body frame is turned from the ground frame.
+    """
+
+    name: str
+    mass: Expr
+    inertia: Expr | None = None  # about the centre of mass [kg m^2]; None for a point mass, which has no angle
+    centre_of_mass: tuple[Expr, Expr] = (ZERO, ZERO)
+    points: tuple[tuple[str, tuple[Expr, Expr]], ...] = ()
+    position: tuple[Expr, Expr] = (ZERO, ZERO)
+    angle: Expr = ZERO
+    velocity: tuple[Expr | None, Expr | None] = (None, None)  # of the centre of mass; None: completed by assembly
+    angular_velocity: Expr | None = None
+
+    @property
+    def is_point(self) -> bool:
+        """Whether the body is a point mass: coordinates x and y only."""
+        return self.inertia is None
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the coordinates, without the body's."""
+        return ("x", "y") if self.is_point else ("x", "y", "theta")
+
+    @property
+    def speeds(self) -> tuple[str, ...]:
+        """Names of the velocities, without the body's."""
+        return ("vx", "vy") if self.is_point else ("vx", "vy", "omega")
+
+
+class Joint(msgspec.Struct, frozen=True):
+    """A joint, driver or nonholonomic condition of any kind, resolved to rows on measures.
+
+    The first body of `bodies` is the one on which reactions are reported; `coordinates` are the measures that results
+    report, e.g. ``("angle", Angle(a, b))``.
+    """
+
+    name: str
+    kind: str
+    bodies: tuple[str, ...]
+    rows: tuple[Row, ...]
+    coordinates: tuple[tuple[str, Measure], ...] = ()
+
+
+class Force(msgspec.Struct, frozen=True):
+    """A force element of any kind, resolved to efforts along measures."""
+
+    name: str
+    kind: str
+    bodies: tuple[str, ...]
+    efforts: tuple[Effort, ...]
+
+
+class Defaults(msgspec.Struct, frozen=True):
+    """What a run uses where nothing else is asked for."""
+
+    until: float = 10.0
+    step: float = 1e-3
+    output_step: float | None = None
+    predictable_until: float | None = None  # None: not chaotic, or not known to be
+    source: str = ""
+
+
+class Mechanism(msgspec.Struct, frozen=True):
+    """A validated planar mechanism.
+
+    Bodies, joints and forces stand in the order of the file, which is the order of coordinates and multipliers.
+    """
+
+    name: str
+    title: str
+    space: str
+    gravity: tuple[Expr, Expr]
+    parameters: tuple[Parameter, ...]
+    tables: tuple[Table, ...]
+    bodies: tuple[Body, ...]
+    joints: tuple[Joint, ...]
+    forces: tuple[Force, ...]
+    defaults: Defaults = Defaults()
+
+    def body(self, name: str) -> Body:
+        """Return the body called `name`."""
+        return next(b for b in self.bodies if b.name == name)

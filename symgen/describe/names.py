@@ -1,0 +1,50 @@
+"""Which names a file may use: they become identifiers in emitted code, so they are checked where they were typed."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+from symgen.errors import InputError
+from symgen.vocabulary.expressions import FUNCTIONS
+
+#: Tree functions that are written as operators, not by name.
+OPERATORS = frozenset({"add", "sub", "mul", "div", "pow", "neg", "lt", "le", "gt", "ge", "and", "or", "not", "where"})
+#: Functions a formula may call.
+CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
+#: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
+RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE
+LONGEST = 64
+
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+
+
+def quoted(text: object, longest: int = 60) -> str:
+    """Return `text` in quotes, shortened and without control characters, fit for a one-line message."""
+    shown = repr(text) if isinstance(text, str) else "'" + str(text) + "'"
+    return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
+
+
+def check_identifier(name: str, where: str, what: str) -> str:
+    """Return `name` if it may name a body, joint, force, parameter, table or point; else raise `InputError`."""
+    if len(name) > LONGEST:
+        raise InputError(where, f"a {what} name of at most {LONGEST} characters", f"{len(name)} characters")
+    if not _IDENTIFIER.fullmatch(name):
+        hint = ""
+        cured = re.sub(r"[^A-Za-z0-9_]", "_", name).lstrip("_0123456789")
+        if cured and not keyword.iskeyword(cured) and cured not in RESERVED:
+            hint = f"for example '{cured}'"
+        raise InputError(where, f"a {what} name of letters, digits and _, a letter first", quoted(name), hint)
+    if name in RESERVED or keyword.iskeyword(name):
+        raise InputError(where, f"a {what} name that has no meaning of its own", quoted(name), f"'{name}_' is free")
+    return name
+
+
+def check_mechanism_name(name: str, where: str) -> str:
+    """Return `name` if it may name a mechanism: lower-case words joined by dashes."""
+    if len(name) > LONGEST or not _KEBAB.fullmatch(name):
+        cured = re.sub(r"[^a-z0-9]+", "-", name.lower()).strip("-0123456789")[:LONGEST].strip("-")
+        hint = f"for example '{cured}'" if cured else ""
+        raise InputError(where, "lower-case words joined by dashes, such as 'four-bar'", quoted(name), hint)
+    return name

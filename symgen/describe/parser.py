@@ -1,0 +1,309 @@
+"""Formula text to expression tree, letting through only what is listed here.
+
+The text is cut into tokens first, which refuses every character and word that has no place in a formula; Python's own
+grammar then gives the structure, of which a handful of node types is translated. Nothing is ever evaluated.
+"""
+
+from __future__ import annotations
+
+import ast
+import keyword
+import math
+import re
+from collections.abc import Mapping
+
+import msgspec
+
+from symgen.describe.names import CALLABLE, quoted
+from symgen.errors import InputError, nearest
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, call, number
+
+LONGEST_TEXT = 10_000
+DEEPEST = 200
+MOST_NODES = 5_000
+LARGEST_EXPONENT = 64.0
+
+_TOKEN = re.compile(
+    r"""(?P<space>\s+)
+      | (?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![A-Za-z0-9_.]))
+      | (?P<word>[A-Za-z][A-Za-z0-9_]*)
+      | (?P<operator>\*\*|<=|>=|[-+*/<>(),.](?!=))""",
+    re.VERBOSE,
+)
+_WORDS = frozenset({"and", "or", "not", "if", "else"})
+_HINTS = {
+    "^": "a power is written **",
+    "%": "there is no remainder",
+    "=": "conditions are written with <, <=, > and >=",
+    "!": "conditions are written with <, <=, > and >=, and 'not'",
+    "&": "write 'and'",
+    "|": "write 'or'",
+    "[": "a formula has no lists",
+    '"': "a formula has no text in it",
+    "'": "a formula has no text in it",
+}
+_BINARY: Mapping[type, str] = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.Pow: "pow"}
+_COMPARE: Mapping[type, str] = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge"}
+
+
+class Names(msgspec.Struct, frozen=True):
+    """What the names in a formula may be.
+
+    Parameters
+    ----------
+    what : str
+        The formula in words, for messages: ``"an expression of parameters and t"``.
+    plain : mapping of str to str
+        Name as written -> name in the tree (they differ for an element's own words, ``length`` -> ``s``).
+    coordinates : mapping of str to tuple of str
+        Body -> its coordinates and velocities that may be written ``body.coordinate``.
+    tables : tuple of str
+        Tables that may be called.
+    elsewhere : frozenset of str
+        Names that exist, though not in this formula; only the message differs.
+    """
+
+    what: str
+    plain: Mapping[str, str] = {}
+    coordinates: Mapping[str, tuple[str, ...]] = {}
+    tables: tuple[str, ...] = ()
+    elsewhere: frozenset[str] = frozenset()
+
+
+def parse(text: str, names: Names, where: str) -> Expr:
+    """Return the tree of the formula `text`, or raise `InputError` with one sentence about what is wrong.
+
+    Parameters
+    ----------
+    text : str
+        The formula as written.
+    names : Names
+        The names it may use.
+    where : str
+        File and key, for the message.
+    """
+    return _Reader(names, where).read(text)
+
+
+class _Reader:
+    """One formula being read; holds what its messages need."""
+
+    def __init__(self, names: Names, where: str) -> None:
+        self.names, self.where, self.nodes = names, where, 0
+
+    def fail(self, got: str, hint: str = "", expected: str = "") -> InputError:
+        return InputError(self.where, expected or self.names.what, got, hint)
+
+    def read(self, text: str) -> Expr:
+        if len(text) > LONGEST_TEXT:
+            raise self.fail(f"{len(text)} characters", expected=f"a formula of at most {LONGEST_TEXT} characters")
+        if not text.strip():
+            raise self.fail("an empty text")
+        self.scan(text)
+        try:
+            # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
+            tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
+        except SyntaxError as error:
+            raise self.fail(f"{quoted(text)}, which breaks off or has a slip at column {error.offset or 1}") from None
+        except (MemoryError, RecursionError, ValueError):
+            raise self.too_deep() from None
+        result = self.quantity(tree.body, 0)
+        if _depth(result) > DEEPEST:
+            raise self.too_deep()
+        return result
+
+    def too_deep(self) -> InputError:
+        expected = f"a formula nested at most {DEEPEST} levels deep"
+        return self.fail("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
+
+    def scan(self, text: str) -> None:
+        """Refuse every character and word that has no place in a formula."""
+        position = 0
+        while position < len(text):
+            token = _TOKEN.match(text, position)
+            if token is None:
+                sign = text[position]
+                if sign.isdigit() or sign == ".":
+                    end = re.compile(r"[A-Za-z0-9_.]*").match(text, position)
+                    sign = end.group() if end else sign
+                    raise self.fail(f"{quoted(sign)}, which is not a number, at column {position + 1}")
+                raise self.fail(f"the character {quoted(sign)} at column {position + 1}", _HINTS.get(sign, ""))
+            word = token.group("word")
+            if word and keyword.iskeyword(word) and word not in _WORDS:
+                raise self.fail(f"the word '{word}' at column {position + 1}")
+            position = token.end()
+        if "//" in text:
+            raise self.fail(f"'//' at column {text.index('//') + 1}", "a division is written /")
+
+    def convert(self, node: ast.expr, depth: int) -> Expr:
+        """Translate one node of Python's tree; anything not named here is refused."""
+        self.nodes += 1
+        if depth > DEEPEST:
+            raise self.too_deep()
+        if self.nodes > MOST_NODES:
+            raise self.fail("more", expected=f"a formula of at most {MOST_NODES} terms")
+        match node:
+            case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
+                return self.literal(value)
+            case ast.Name(id=name):
+                return self.name(name)
+            case ast.Attribute(value=ast.Name(id=body), attr=coordinate):
+                return self.coordinate(body, coordinate)
+            case ast.UnaryOp(op=ast.UAdd(), operand=operand):
+                return self.quantity(operand, depth)
+            case ast.UnaryOp(op=ast.USub(), operand=operand):
+                return self.apply("neg", self.quantity(operand, depth))
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return self.apply("not", self.condition(operand, depth))
+            case ast.BinOp(left=left, op=operator, right=right) if type(operator) in _BINARY:
+                return self.binary(_BINARY[type(operator)], self.quantity(left, depth), self.quantity(right, depth))
+            case ast.BoolOp(op=operator, values=values):
+                word = "and" if isinstance(operator, ast.And) else "or"
+                return self.chain(word, [self.condition(value, depth) for value in values])
+            case ast.Compare(left=left, ops=operators, comparators=others) if all(
+                type(o) in _COMPARE for o in operators
+            ):
+                sides = [self.quantity(side, depth) for side in (left, *others)]
+                pairs = zip(operators, sides, sides[1:], strict=False)
+                return self.chain("and", [self.apply(_COMPARE[type(o)], a, b) for o, a, b in pairs])
+            case ast.IfExp(test=test, body=yes, orelse=no):
+                return where(self.condition(test, depth), self.quantity(yes, depth), self.quantity(no, depth))
+            case ast.Call(func=ast.Name(id=function), args=arguments, keywords=[]):
+                return self.function(function, arguments, depth)
+        raise self.fail(f"{quoted(ast.unparse(node))}, which is no formula")
+
+    def quantity(self, node: ast.expr, depth: int) -> Expr:
+        """Translate a node whose value must be a number."""
+        if _is_condition(node):
+            text = quoted(ast.unparse(node))
+            raise self.fail(f"the condition {text} in place of a number", "write '1 if ... else 0'")
+        return self.convert(node, depth + 1)
+
+    def condition(self, node: ast.expr, depth: int) -> Expr:
+        """Translate a node whose value must be true or false; constant conditions become the literals 1 and 0."""
+        if not _is_condition(node):
+            raise self.fail(f"{quoted(ast.unparse(node))} in place of a condition", "a condition has <, <=, > or >=")
+        return self.convert(node, depth + 1)
+
+    def literal(self, value: float) -> Expr:
+        try:
+            result = float(value)
+        except OverflowError:
+            result = math.inf
+        if not math.isfinite(result):
+            raise self.fail("a number beyond 1.8e308")
+        return Number(result)
+
+    def name(self, name: str) -> Expr:
+        if name == "pi":
+            return Number(math.pi)
+        if name in self.names.plain:
+            return Name(self.names.plain[name])
+        if name in self.names.elsewhere:
+            raise self.fail(f"'{name}', which has no meaning here")
+        if name in CALLABLE or name in self.names.tables:
+            raise self.fail(f"the function '{name}' without its argument", f"write {name}(...)")
+        if name in self.names.coordinates:
+            listed = ", ".join(f"{name}.{c}" for c in self.names.coordinates[name])
+            raise self.fail(f"the body '{name}' in place of a number", f"it has {listed}")
+        raise self.fail(f"the unknown name {quoted(name)}", nearest(name, [*self.names.plain, "pi"]))
+
+    def coordinate(self, body: str, coordinate: str) -> Expr:
+        if not self.names.coordinates:
+            raise self.fail(f"'{body}.{coordinate}', which has no meaning here")
+        if body not in self.names.coordinates:
+            raise self.fail(f"the unknown body {quoted(body)}", nearest(body, self.names.coordinates))
+        if coordinate not in self.names.coordinates[body]:
+            hint = f"it has {', '.join(self.names.coordinates[body])}"
+            raise self.fail(f"{quoted(coordinate)}, which body '{body}' has not", hint)
+        return Name(f"{body}.{coordinate}")
+
+    def binary(self, function: str, left: Expr, right: Expr) -> Expr:
+        if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
+            limit = f"an exponent between -{LARGEST_EXPONENT:.0f} and {LARGEST_EXPONENT:.0f}"
+            raise self.fail(f"{right.value!r}", expected=limit)
+        return self.apply(function, left, right)
+
+    def apply(self, function: str, *arguments: Expr) -> Expr:
+        """Return the call, folded where its arguments are literals, refused where they have no finite value."""
+        result = logic(function, arguments) if function in ("and", "or", "not") else call(function, *arguments)
+        if isinstance(result, Call) and all(isinstance(a, Number) for a in result.arguments):
+            from symgen.describe.printer import to_text
+
+            raise self.fail(f"'{to_text(result)}', which has no finite value")
+        return result
+
+    def chain(self, function: str, operands: list[Expr]) -> Expr:
+        result = operands[0]
+        for operand in operands[1:]:
+            result = self.apply(function, result, operand)
+        return result
+
+    def function(self, function: str, nodes: list[ast.expr], depth: int) -> Expr:
+        if function in self.names.tables:
+            self.count(function, nodes, 1)
+            return Call(f"table:{function}", (self.quantity(nodes[0], depth),))
+        if function not in CALLABLE:
+            if function in self.names.elsewhere:
+                raise self.fail(f"the table '{function}', which has no meaning here")
+            raise self.fail(
+                f"the unknown function {quoted(function)}", nearest(function, [*CALLABLE, *self.names.tables])
+            )
+        if function == "piecewise":
+            return self.piecewise(nodes, depth)
+        if function in ("min", "max"):
+            if len(nodes) < 2:
+                raise self.fail(f"{function}() with {len(nodes)}", expected="two arguments or more")
+        else:
+            self.count(function, nodes, FUNCTIONS[function][0])
+        arguments = [self.quantity(node, depth) for node in nodes]
+        return self.chain(function, arguments) if function in ("min", "max") else self.apply(function, *arguments)
+
+    def count(self, function: str, nodes: list[ast.expr], wanted: int) -> None:
+        if len(nodes) != wanted:
+            expected = "one argument" if wanted == 1 else f"{wanted} arguments"
+            raise self.fail(f"{function}() with {len(nodes)}", expected=expected)
+
+    def piecewise(self, nodes: list[ast.expr], depth: int) -> Expr:
+        if len(nodes) < 3 or len(nodes) % 2 == 0:
+            expected = "piecewise(condition, value, ..., value otherwise)"
+            raise self.fail(f"{len(nodes)} arguments", expected=expected)
+        result = self.quantity(nodes[-1], depth)
+        for i in range(len(nodes) - 3, -1, -2):
+            result = where(self.condition(nodes[i], depth), self.quantity(nodes[i + 1], depth), result)
+        return result
+
+
+def _is_condition(node: ast.expr) -> bool:
+    """Whether what is written is true or false; asked of the text, as a folded condition is a plain number."""
+    negated = isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not)
+    return negated or isinstance(node, ast.Compare | ast.BoolOp)
+
+
+def where(condition: Expr, yes: Expr, no: Expr) -> Expr:
+    """Return the choice, already made where the condition is a literal."""
+    if isinstance(condition, Number):
+        return yes if condition.value else no
+    return call("where", condition, yes, no)
+
+
+def logic(function: str, operands: tuple[Expr, ...]) -> Expr:
+    """Return and, or, not with literal operands folded away: a condition in a tree is never a literal."""
+    if function == "not":
+        return call("not", operands[0])
+    left, right = operands
+    absorbing = 0.0 if function == "and" else 1.0
+    for literal, other in ((left, right), (right, left)):
+        if isinstance(literal, Number):
+            return number(absorbing) if bool(literal.value) == bool(absorbing) else other
+    return call(function, left, right)
+
+
+def _depth(expression: Expr) -> int:
+    deepest, stack = 0, [(expression, 1)]
+    while stack:
+        node, depth = stack.pop()
+        deepest = max(deepest, depth)
+        if isinstance(node, Call):
+            stack.extend((argument, depth + 1) for argument in node.arguments)
+    return deepest

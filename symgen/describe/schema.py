@@ -1,0 +1,61 @@
+"""JSON schema of a mechanism file, for editors: completion and checking while a file is written."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterable
+from typing import Any
+
+import msgspec
+
+from symgen.describe.sections import BodySection, MechanismSection, ParameterSection, RunSection, TableSection
+
+_NAME = "^[A-Za-z][A-Za-z0-9_]{0,63}$"
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON schema (draft 2020-12) of a mechanism file, with every joint and force type."""
+    from symgen.forces import FORCES
+    from symgen.joints import JOINTS
+
+    parameter = {"anyOf": [{"type": ["number", "string"]}, _table(ParameterSection)]}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "symgen mechanism",
+        "type": "object",
+        "required": ["mechanism", "bodies"],
+        "additionalProperties": False,
+        "properties": {
+            "mechanism": _table(MechanismSection),
+            "run": _table(RunSection),
+            "parameters": _named(parameter),
+            "tables": _named(_table(TableSection)),
+            "bodies": _named(_table(BodySection)) | {"minProperties": 1},
+            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases)}),
+            "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
+        },
+    }
+
+
+def _named(entry: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "object", "additionalProperties": entry, "propertyNames": {"pattern": _NAME}}
+
+
+def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str]) -> list[dict[str, Any]]:
+    """Return one alternative for each kind, told apart by its type."""
+    result = []
+    for name, kind in kinds:
+        table = _table(kind)
+        table["properties"] = {"type": {"enum": [name, *(a for a, t in aliases.items() if t == name)]}} | table[
+            "properties"
+        ]
+        table["required"] = ["type", *table.get("required", [])]
+        result.append(table)
+    return result
+
+
+def _table(struct: type[Any]) -> dict[str, Any]:
+    """Return the schema of one table, in place rather than by reference: no table contains another kind of table."""
+    found = msgspec.json.schema(struct)
+    (table,) = found["$defs"].values()
+    return dict(table) | {"description": inspect.cleandoc(struct.__doc__ or "")}

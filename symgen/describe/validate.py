@@ -1,0 +1,236 @@
+"""Nested dictionary to `Mechanism`: the one validator behind files, catalogue and builder."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from symgen.describe.evaluate import evaluate
+from symgen.describe.fields import PlainScalar, found, read, read_value
+from symgen.describe.mechanism import Body, Defaults, Force, Joint, Mechanism, Parameter, Table
+from symgen.describe.names import check_identifier, check_mechanism_name, quoted
+from symgen.describe.parser import Names, parse
+from symgen.describe.scope import CENTRE, Model, Scope
+from symgen.describe.sections import (
+    NAMED,
+    SECTIONS,
+    BodySection,
+    MechanismSection,
+    ParameterSection,
+    RunSection,
+    TableSection,
+)
+from symgen.errors import InputError, nearest
+from symgen.vocabulary.expressions import ZERO, Expr
+
+Raw = Mapping[str, Any]
+
+
+def validate(raw: Raw, source: str) -> Mechanism:
+    """Return the mechanism that the nested dictionary `raw` describes.
+
+    Parameters
+    ----------
+    raw : mapping
+        Sections as in a mechanism file.
+    source : str
+        File name or other origin, with which every message begins.
+
+    Raises
+    ------
+    InputError
+        At the first thing that is wrong.
+    """
+    return _Validator(raw, source).mechanism()
+
+
+class _Validator:
+    """One description being read, section by section; joints may refer to each other and are resolved on demand."""
+
+    def __init__(self, raw: Raw, source: str) -> None:
+        self.raw, self.source = raw, source
+        self._joints: dict[str, Joint | None] = {}
+
+    def where(self, path: str) -> str:
+        return f"{self.source}: {path}"
+
+    def mechanism(self) -> Mechanism:
+        for key in self.raw:
+            if key not in SECTIONS:
+                expected = f"the sections {', '.join(SECTIONS)}"
+                raise InputError(self.source, expected, f"the unknown section {quoted(key)}", nearest(key, SECTIONS))
+        if "mechanism" not in self.raw:
+            raise InputError(self.where("mechanism"), "a section [mechanism] with a name", "no such section")
+        head = read(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
+        check_mechanism_name(head.name, self.where("mechanism.name"))
+        self.unique()
+        parameters = tuple(self.parameter(name, value) for name, value in self.entries("parameters"))
+        tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
+        self.model = Model(
+            self.source, {p.name: p.value for p in parameters}, tuple(t.name for t in tables), {}, self.joint
+        )
+        bodies = tuple(self.body(name, value) for name, value in self.entries("bodies"))
+        if not bodies:
+            raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
+        self.model = Model(
+            self.source, self.model.values, self.model.tables, {body.name: body for body in bodies}, self.joint
+        )
+        scope = Scope(self.model, "mechanism")
+        return Mechanism(
+            name=head.name,
+            title=head.title,
+            space=head.space,
+            gravity=(scope.constant("gravity", head.gravity[0]), scope.constant("gravity", head.gravity[1])),
+            parameters=parameters,
+            tables=tables,
+            bodies=bodies,
+            joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
+            forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
+            defaults=self.defaults(head.source),
+        )
+
+    # Names ---------------------------------------------------------------------------------------------------------
+
+    def entries(self, section: str) -> Iterator[tuple[str, Any]]:
+        """Yield name and content of a section's entries, names checked."""
+        content = self.raw.get(section, {})
+        if not isinstance(content, Mapping):
+            raise InputError(self.where(section), f"a table of {section}, one entry a name", found(content))
+        for name, value in content.items():
+            yield check_identifier(name, self.where(section), NAMED[section]), value
+
+    def unique(self) -> None:
+        """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
+        for group in (("bodies", "joints", "forces"), ("parameters", "tables")):
+            seen: dict[str, str] = {}
+            for section in group:
+                for name, _ in self.entries(section):
+                    if name in seen:
+                        got = f"'{name}', which is a {NAMED[seen[name]]} already"
+                        raise InputError(self.where(f"{section}.{name}"), "a name used once", got)
+                    seen[name] = section
+
+    # Sections ------------------------------------------------------------------------------------------------------
+
+    def defaults(self, source: str) -> Defaults:
+        where = self.where("run")
+        run = read(RunSection, self.raw.get("run", {}), where)
+        for key in ("until", "step", "output_step", "predictable_until"):
+            value = getattr(run, key)
+            if value is not None and not math.isfinite(value):
+                raise InputError(f"{where}.{key}", "a finite number", str(value))
+        if run.step > run.until:
+            raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(run.step))
+        return Defaults(run.until, run.step, run.output_step, run.predictable_until, source)
+
+    def parameter(self, name: str, raw: object) -> Parameter:
+        where = self.where(f"parameters.{name}")
+        if isinstance(raw, Mapping):
+            section = read(ParameterSection, raw, where)
+        else:
+            section = ParameterSection(value=read_value(PlainScalar, raw, where))
+        value = section.value
+        if isinstance(value, str):
+            value = evaluate(parse(value, Names("a number or an expression of numbers"), where), {}, where)
+        if not math.isfinite(value):
+            raise InputError(where, "a finite number", str(value))
+        return Parameter(name, float(value), section.unit, section.note)
+
+    def table(self, name: str, raw: object) -> Table:
+        where = self.where(f"tables.{name}")
+        section = read(TableSection, raw, where)
+        if len(section.x) < 2:
+            raise InputError(f"{where}.x", "two numbers or more", str(len(section.x)))
+        if len(section.y) != len(section.x):
+            raise InputError(f"{where}.y", f"as many numbers as x has, {len(section.x)}", str(len(section.y)))
+        for key in ("x", "y"):
+            for value in getattr(section, key):
+                if not math.isfinite(value):
+                    raise InputError(f"{where}.{key}", "finite numbers", str(value))
+        for left, right in zip(section.x, section.x[1:], strict=False):
+            if not left < right:
+                raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
+        return Table(name, section.x, section.y)
+
+    def body(self, name: str, raw: object) -> Body:
+        scope = Scope(self.model, f"bodies.{name}")
+        section = read(BodySection, raw, scope.where(""))
+        is_point = section.type == "point"
+        if is_point:
+            for key in ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"):
+                if getattr(section, key) is not None:
+                    raise scope.error(key, "no such key, as a point mass has none", found(getattr(section, key)))
+        elif section.inertia is None:
+            hint = 'a body without one is written type = "point"'
+            raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
+        points = []
+        for point, coordinates in (section.points or {}).items():
+            check_identifier(point, scope.where("points"), "point")
+            if point == CENTRE:
+                raise scope.error("points", "another name", f"'{CENTRE}', which is the centre of mass")
+            points.append((point, self.vector(scope, f"points.{point}", coordinates)))
+        vx, vy = section.velocity or (None, None)
+        return Body(
+            name=name,
+            mass=scope.constant("mass", section.mass, positive=True),
+            inertia=None if section.inertia is None else scope.constant("inertia", section.inertia, positive=True),
+            centre_of_mass=self.vector(scope, "centre_of_mass", section.centre_of_mass or (0.0, 0.0)),
+            points=tuple(points),
+            position=self.vector(scope, "position", section.position),
+            angle=ZERO if section.angle is None else self.finite(scope, "angle", section.angle),
+            velocity=(scope.optional("velocity", vx), scope.optional("velocity", vy)),
+            angular_velocity=scope.optional("angular_velocity", section.angular_velocity),
+        )
+
+    def vector(self, scope: Scope, key: str, pair: tuple[float | str, float | str]) -> tuple[Expr, Expr]:
+        return self.finite(scope, key, pair[0]), self.finite(scope, key, pair[1])
+
+    def finite(self, scope: Scope, key: str, value: float | str) -> Expr:
+        """Return the expression after finding that it has a value with the parameters' defaults."""
+        expression = scope.constant(key, value)
+        scope.value(expression, key)
+        return expression
+
+    # Joints and forces ---------------------------------------------------------------------------------------------
+
+    def split(self, path: str, raw: object, what: str) -> tuple[str, dict[str, Any]]:
+        """Return the type of a joint or force and its other keys."""
+        where = self.where(path)
+        if not isinstance(raw, Mapping):
+            raise InputError(where, "a table", found(raw))
+        kind = raw.get("type")
+        if not isinstance(kind, str):
+            got = "no such key" if kind is None else found(kind)
+            raise InputError(f"{where}.type", f"a {what}", got)
+        return kind, {key: value for key, value in raw.items() if key != "type"}
+
+    def joint(self, name: str, where: str) -> Joint:
+        """Return the joint `name`, resolved now if another one asks for it first."""
+        from symgen.joints import JOINTS
+
+        if name not in self.raw.get("joints", {}):
+            got = f"the unknown joint {quoted(name)}"
+            raise InputError(where, "the name of a joint", got, nearest(name, self.raw.get("joints", {})))
+        if name in self._joints:
+            known = self._joints[name]
+            if known is None:
+                raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
+            return known
+        self._joints[name] = None
+        path = f"joints.{name}"
+        kind, table = self.split(path, self.raw["joints"][name], "joint type")
+        struct = JOINTS.get(kind, self.where(f"{path}.type"))
+        scope = Scope(self.model, path, name, JOINTS.canonical(kind))
+        joint = read(struct, table, self.where(path), ("type",)).build(scope)
+        self._joints[name] = joint
+        return joint
+
+    def force(self, name: str, raw: object) -> Force:
+        from symgen.forces import FORCES
+
+        path = f"forces.{name}"
+        kind, table = self.split(path, raw, "force type")
+        struct = FORCES.get(kind, self.where(f"{path}.type"))
+        scope = Scope(self.model, path, name, FORCES.canonical(kind))
+        return read(struct, table, self.where(path), ("type",)).build(scope)

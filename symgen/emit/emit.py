@@ -1,0 +1,153 @@
+"""From programs to source text: the only stage that knows Jinja2."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import jinja2
+from jinja2 import meta
+
+from symgen.emit.printer import ElementAccess, Lines, print_block
+from symgen.formulate.equations import Equations
+from symgen.ir.program import COUNTERS, FORMAT, STATUS, Block, LawProgram, Layout, ModelProgram
+from symgen.lower.algebra import SKIP
+
+
+def templates_folder() -> Path:
+    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
+
+    Raises
+    ------
+    FileNotFoundError
+        If neither exists.
+    """
+    package = Path(__file__).resolve().parent.parent
+    inside, beside = package / "templates", package.parent / "templates"
+    for folder in (inside, beside):
+        if (folder / "numba").is_dir():
+            return folder
+    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")
+
+
+@dataclass(frozen=True)
+class Function:
+    """A printed block: what the function template needs."""
+
+    name: str
+    purpose: str
+    arguments: tuple[str, ...]
+    lines: Lines
+    operations: int
+    tree_operations: int
+
+
+@lru_cache(maxsize=1)
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder()),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+    )
+
+
+def render(template: str, values: Mapping[str, Any]) -> str:
+    """Render a template; the keys given must be exactly those it asks for.
+
+    Raises
+    ------
+    KeyError
+        Naming the keys that are missing or superfluous.
+    """
+    environment = _environment()
+    source = (templates_folder() / template).read_text(encoding="utf-8")
+    wanted = meta.find_undeclared_variables(environment.parse(source))
+    if wanted != set(values):
+        missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
+        raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
+    return environment.get_template(template).render(values)
+
+
+@lru_cache(maxsize=1)
+def templates_digest() -> str:
+    """Return the digest of all templates, for the emitted header and the cache key."""
+    digest = hashlib.sha256()
+    for path in sorted((templates_folder() / "numba").glob("*.j2")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+def emit_model(program: ModelProgram, equations: Equations) -> str:
+    """Return the source of the module that all methods of a model share."""
+    layout = program.layout
+    return render(
+        "numba/model.py.j2",
+        {
+            "name": program.name,
+            "digest": program.digest,
+            "format": FORMAT,
+            "templates_digest": templates_digest(),
+            "layout": layout,
+            "symbols": _symbols(equations),
+            "omissions": equations.omissions,
+            "dropped_rows": equations.dropped_rows,
+            "fill": program.fill,
+            "tables": program.tables,
+            "functions": _functions(program.blocks, layout, equations),
+        },
+    )
+
+
+def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str) -> str:
+    """Return the source of the module that one method adds beside the shared one."""
+    layout = program.layout
+    own = {b.name for b in program.blocks}
+    return render(
+        "numba/law.py.j2",
+        {
+            "name": model.name,
+            "digest": model.digest,
+            "format": FORMAT,
+            "templates_digest": templates_digest(),
+            "layout": layout,
+            "program": program,
+            "summary": summary,
+            "reference": reference,
+            "shared": sorted(
+                {"drift", "energies", "geometry", *(("spread",) if program.position_correction else ())} - own
+            ),
+            "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
+            "counters": {name: i for i, name in enumerate(COUNTERS)},
+            "skip": SKIP,
+            "functions": _functions(program.blocks, layout, equations),
+        },
+    )
+
+
+def _functions(blocks: Sequence[Block], layout: Layout, equations: Equations) -> list[Function]:
+    names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
+    names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
+    names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
+    access = ElementAccess(layout, names)
+    return [
+        Function(b.name, b.purpose, b.arguments, print_block(b, access), b.operations, b.tree_operations)
+        for b in blocks
+    ]
+
+
+def _symbols(equations: Equations) -> list[tuple[str, str, str]]:
+    """Return (element, name, unit) of everything that has an index."""
+    nq = equations.nq
+    table = [(f"y[{i}]", q.name, q.unit) for i, q in enumerate(equations.coordinates)]
+    table += [(f"y[{nq + i}]", v.name, v.unit) for i, v in enumerate(equations.velocities)]
+    table.append((f"y[{nq + equations.nv}]", "work of forces without potential and of drivers", "J"))
+    table += [(f"p[{i}]", p.name, p.unit) for i, p in enumerate(equations.parameters)]
+    table += [(f"row {i}", r.name, r.unit) for i, r in enumerate(equations.rows)]
+    return table

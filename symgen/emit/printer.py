@@ -1,0 +1,145 @@
+"""Prints blocks as straight-line Python that Numba compiles. The only place that knows the syntax of an operation."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from symgen.ir.graph import Graph
+from symgen.ir.program import Block, Layout, Target
+
+_BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
+_COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
+_MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh".split())
+#: A term used once is written where it is used, up to this many characters.
+_INLINE = 90
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The three parts of a straight-line function's body."""
+
+    inputs: tuple[str, ...]
+    terms: tuple[str, ...]
+    outputs: tuple[str, ...]
+    flag: str | None
+
+
+@dataclass(frozen=True)
+class ElementAccess:
+    """How elements of arrays and scratch sections are written in a target: here, plain indexing."""
+
+    layout: Layout
+    names: Mapping[tuple[str, int], str]
+
+    def read(self, space: str, index: int) -> tuple[str, str]:
+        """Return (local name, expression) of an input."""
+        if space == "t":
+            return "t", "t"
+        if space == "q":
+            return f"q{index}", f"y[{index}]"
+        if space == "v":
+            return f"v{index}", f"y[{self.layout.nq + index}]"
+        if space in ("p", "ydot", "out"):
+            return f"{space}{index}" if space == "p" else f"{space}_{index}", f"{space}[{index}]"
+        return f"{space}_{index}", f"w[{self.layout.offset(space) + index}]"
+
+    def write(self, target: Target) -> str:
+        """Return the left-hand side of an output."""
+        if target.space in ("p", "ydot", "out"):
+            return f"{target.space}[{target.index}]"
+        return f"w[{self.layout.offset(target.space) + target.index}]"
+
+    def note(self, space: str, index: int) -> str:
+        """Return the name of an element in the model, empty where it has none."""
+        return self.names.get((space, index), "")
+
+
+def print_block(block: Block, access: ElementAccess) -> Lines:
+    """Return the body of `block` as lines of Python.
+
+    Parameters
+    ----------
+    block : Block
+        Straight-line computation.
+    access : ElementAccess
+        How its elements are read and written.
+    """
+    return _Printer(block, access).lines()
+
+
+class _Printer:
+    def __init__(self, block: Block, access: ElementAccess) -> None:
+        self.block, self.access, self.graph = block, access, block.graph
+        self.needed = self.graph.needed(block.nodes)
+        self.uses = _count_uses(self.graph, self.needed, block.nodes)
+        self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
+
+    def lines(self) -> Lines:
+        inputs: list[str] = []
+        terms: list[str] = []
+        for node in self.needed:
+            op, args, payload = self.graph.nodes[node]
+            if op == "const":
+                value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+                self.text[node] = (repr(value), 5 if value >= 0.0 else 3)
+            elif op == "input":
+                space, index = payload  # type: ignore[misc]  # an input's payload is its key
+                name, expression = self.access.read(space, index)
+                if name != expression:
+                    note = self.access.note(space, index)
+                    inputs.append(f"{name} = {expression}" + (f"  # {note}" if note else ""))
+                self.text[node] = (name, 5)
+            else:
+                text, level = self.operation(op, args, payload)
+                if self.uses[node] > 1 or len(text) > _INLINE:
+                    name = f"s{len(terms)}"
+                    terms.append(f"{name} = {text}")
+                    text, level = name, 5
+                self.text[node] = (text, level)
+        outputs = tuple(f"{self.access.write(target)} = {self.text[n][0]}" for target, n in self.block.outputs)
+        flag = None if self.block.flag is None else self.text[self.block.flag][0]
+        return Lines(tuple(inputs), tuple(terms), outputs, flag)
+
+    def operation(self, op: str, args: tuple[int, ...], payload: object) -> tuple[str, int]:
+        """Return text and precedence of one operation."""
+        if op in _BINARY:
+            sign, level = _BINARY[op]
+            left = self.wrapped(args[0], level if op != "pow" else 5)
+            right = self.wrapped(args[1], level if op == "add" else level + 1 if op != "pow" else 5)
+            return f"{left} {sign} {right}" if level == 1 else f"{left}{sign}{right}", level
+        if op == "neg":
+            return f"-{self.wrapped(args[0], 2)}", 1
+        texts = [self.text[a][0] for a in args]
+        if op in _COMPARE:
+            return f"({self.wrapped(args[0], 1)} {_COMPARE[op]} {self.wrapped(args[1], 1)})", 5
+        if op in _MATH:
+            return f"math.{op}({', '.join(texts)})", 5
+        if op in ("abs", "min", "max"):
+            return f"{op}({', '.join(texts)})", 5
+        special = {
+            "step": "1.0*({0} > {1})",
+            "not": "(not {0})",
+            "where": "({1} if {0} else {2})",
+            "sign": "1.0*(({0} > 0.0) - 1*({0} < 0.0))",
+        }
+        if op in special:
+            return special[op].format(*texts), 2 if op in ("step", "sign") else 5
+        if op == "table":
+            return f"table_{str(payload).replace(chr(39), '_slope')}({texts[0]})", 5
+        raise AssertionError(f"no syntax for operation {op}")
+
+    def wrapped(self, node: int, level: int) -> str:
+        """Return a node's text, in parentheses where it binds weaker than `level`."""
+        text, own = self.text[node]
+        return text if own >= level else f"({text})"
+
+
+def _count_uses(graph: Graph, needed: list[int], ends: tuple[int, ...]) -> dict[int, int]:
+    uses = dict.fromkeys(needed, 0)
+    for node in needed:
+        for a in graph.nodes[node].args:
+            uses[a] += 1
+    for node in ends:
+        uses[node] += 1
+    return uses

@@ -1,0 +1,81 @@
+"""Force at a point of a body."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+from symgen.describe.fields import BodyName, Point, PotentialPair, StatePair
+from symgen.describe.mechanism import Force as Resolved
+from symgen.describe.scope import CENTRE, Scope
+from symgen.vocabulary.expressions import ZERO, Expr, Name, call
+from symgen.vocabulary.measures import GROUND, X_AXIS, Y_AXIS, Component, Effort, Marker
+
+
+class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A force that acts at a point of `body` and comes from the ground.
+
+    Parameters
+    ----------
+    body : body name
+        The body.
+    at : point
+        Where it acts; the centre of mass unless given.
+    force : pair of functions of state
+        Components [N]; expressions of t, parameters and body coordinates.
+    frame : str
+        Axes of the components: ``"ground"``, or ``"body"`` for a force that turns with the body.
+    potential : pair of expressions
+        Potential energy [J] in place of `force`: the first as an expression of ``x``, the second of ``y``, the point's
+        coordinates in the ground frame [m]; the force is minus its derivative and counts as conservative.
+    """
+
+    body: BodyName
+    at: Point = CENTRE
+    force: StatePair | None = None
+    frame: Literal["ground", "body"] = "ground"
+    potential: PotentialPair | None = None
+
+    def build(self, scope: Scope) -> Resolved:
+        """Resolve to efforts along the point's two coordinates."""
+        body = scope.body("body", self.body, turns=self.frame == "body", ground=False)
+        if (self.force is None) == (self.potential is None):
+            raise scope.error(
+                "", "either the key force or the key potential", "neither" if self.force is None else "both"
+            )
+        if self.potential is not None and self.frame == "body":
+            raise scope.error("frame", "'ground', as a potential is given", "'body'")
+        point = scope.marker("at", body, self.at)
+        magnitudes = self._magnitudes(scope, body)
+        efforts = []
+        for i, (label, axis) in enumerate((("x", X_AXIS), ("y", Y_AXIS))):
+            energy = ZERO if self.potential is None else scope.potential("potential", self.potential[i], {label: "s"})
+            if magnitudes[i] != ZERO or energy != ZERO:
+                measure = Component(Marker(GROUND, (ZERO, ZERO)), point, axis)
+                efforts.append(Effort(label, measure, magnitude=magnitudes[i], potential=energy))
+        return Resolved(name=scope.name, kind=scope.kind, bodies=(body,), efforts=tuple(efforts))
+
+    def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, Expr]:
+        """Return the components in ground axes."""
+        if self.force is None:
+            return ZERO, ZERO
+        x, y = (scope.of_state("force", component) for component in self.force)
+        if self.frame == "ground":
+            return x, y
+        cosine, sine = call("cos", Name(f"{body}.theta")), call("sin", Name(f"{body}.theta"))
+        return (
+            _plus(_times(x, cosine), _times(call("neg", y), sine)),
+            _plus(_times(x, sine), _times(y, cosine)),
+        )
+
+
+def _times(a: Expr, b: Expr) -> Expr:
+    return ZERO if a == ZERO else call("mul", a, b)
+
+
+def _plus(a: Expr, b: Expr) -> Expr:
+    return b if a == ZERO else a if b == ZERO else call("add", a, b)
+
+
+KIND = Force

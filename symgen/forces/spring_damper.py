@@ -1,0 +1,64 @@
+"""Spring, damper and actuator along the line between two points."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction
+from symgen.describe.mechanism import Force
+from symgen.describe.scope import Scope
+from symgen.forces._parts import damped, spring_energy
+from symgen.vocabulary.measures import Distance, Effort
+
+
+class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A spring, a damper and an actuator between two points, along the line through them.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies.
+    at : pair of points
+        The ends, a point of each body; singular where they meet.
+    stiffness, damping : scalar
+        [N/m] and [N s/m]; 0 unless given.
+    free_length : scalar
+        Length of the unloaded spring [m]; 0 unless given.
+    actuator : function of state
+        Force that pushes the ends apart [N]; may use ``length`` [m] and ``rate`` [m/s] besides t, parameters and body
+        coordinates.
+    potential : expression
+        Further potential energy [J] as an expression of ``length`` and parameters, for a nonlinear spring.
+
+    Notes
+    -----
+    The force that pushes the ends apart is -k (length - free_length) - c rate - dU/d length + actuator; the spring and
+    the potential count as conservative.
+    """
+
+    between: BodyPair
+    at: PointPair
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    free_length: Scalar = 0.0
+    actuator: StateFunction = 0.0
+    potential: Potential = 0.0
+
+    def build(self, scope: Scope) -> Force:
+        """Resolve to an effort along the distance of the points."""
+        a, b = scope.pair("between", self.between)
+        ends = Distance(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
+        stiffness, free = scope.constant("stiffness", self.stiffness), scope.constant("free_length", self.free_length)
+        effort = Effort(
+            "force",
+            ends,
+            magnitude=damped(
+                scope.constant("damping", self.damping),
+                scope.of_state("actuator", self.actuator, {"length": "s", "rate": "rate"}),
+            ),
+            potential=spring_energy(stiffness, free, scope.potential("potential", self.potential, {"length": "s"})),
+        )
+        return Force(name=scope.name, kind=scope.kind, bodies=(a, b), efforts=(effort,))
+
+
+KIND = SpringDamper

@@ -1,0 +1,60 @@
+"""Torsional spring, damper and actuator between two bodies."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.fields import BodyPair, Potential, Scalar, StateFunction
+from symgen.describe.mechanism import Force
+from symgen.describe.scope import Scope
+from symgen.forces._parts import damped, spring_energy
+from symgen.vocabulary.measures import Angle, Effort
+
+
+class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A spring, a damper and an actuator along the angle of the second body less that of the first, turns counted.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies; the torque acts on the second, its opposite on the first.
+    stiffness, damping : scalar
+        [N m/rad] and [N m s/rad]; 0 unless given.
+    free_angle : scalar
+        Angle of the unloaded spring [rad]; 0 unless given.
+    actuator : function of state
+        Further torque on the second body [N m]; may use ``angle`` [rad] and ``rate`` [rad/s] besides t, parameters and
+        body coordinates.
+    potential : expression
+        Further potential energy [J] as an expression of ``angle`` and parameters, for a nonlinear spring.
+
+    Notes
+    -----
+    The torque on the second body is -k (angle - free_angle) - c rate - dU/d angle + actuator; the spring and the
+    potential count as conservative.
+    """
+
+    between: BodyPair
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    free_angle: Scalar = 0.0
+    actuator: StateFunction = 0.0
+    potential: Potential = 0.0
+
+    def build(self, scope: Scope) -> Force:
+        """Resolve to an effort along the angle between the bodies."""
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        stiffness, free = scope.constant("stiffness", self.stiffness), scope.constant("free_angle", self.free_angle)
+        effort = Effort(
+            "torque",
+            Angle(a, b),
+            magnitude=damped(
+                scope.constant("damping", self.damping),
+                scope.of_state("actuator", self.actuator, {"angle": "s", "rate": "rate"}),
+            ),
+            potential=spring_energy(stiffness, free, scope.potential("potential", self.potential, {"angle": "s"})),
+        )
+        return Force(name=scope.name, kind=scope.kind, bodies=(a, b), efforts=(effort,))
+
+
+KIND = TorsionalSpringDamper

@@ -1,0 +1,122 @@
+"""The derived equations of one mechanism: the frozen value between `formulate` and `lower`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from symgen.ir.graph import Graph
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A named scalar with its unit."""
+
+    name: str
+    unit: str
+
+
+@dataclass(frozen=True)
+class ConstraintRow:
+    """One constraint: ``D v = nu`` and ``D v' = gamma``; `phi` is None for a nonholonomic row.
+
+    `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
+    """
+
+    name: str
+    joint: str
+    unit: str
+    phi: int | None
+    entries: tuple[tuple[int, int], ...]
+    nu: int
+    gamma: int
+
+
+@dataclass(frozen=True)
+class MassBlock:
+    """A symmetric diagonal block of M over the velocity indices `columns`; `entries` are nodes, row by row."""
+
+    columns: tuple[int, ...]
+    entries: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class JointCoordinate:
+    """A reported joint coordinate: nodes of its value and rate."""
+
+    name: str
+    unit: str
+    value: int
+    rate: int
+
+
+@dataclass(frozen=True)
+class Omission:
+    """Something that the scene does not need and that was therefore left out, and why."""
+
+    what: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Equations:
+    """Equations of motion ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v`` as nodes of one graph.
+
+    Parameters
+    ----------
+    graph : Graph
+        Inputs ``t``, ``q``, ``v`` and ``p`` (the parameters in the order of the file).
+    coordinates, velocities : tuple of Quantity
+        Names and units of q and v.
+    q_rates : tuple of int
+        Nodes of q' = N v; the planar ones are the velocities themselves.
+    mass : tuple of MassBlock
+        M, block diagonal and independent of q.
+    rows : tuple of ConstraintRow
+        Phi, D, nu and gamma, row by row.
+    forces : tuple of int
+        f, one node a velocity.
+    power : int
+        Power of the applied forces that have no potential, f_nc^T v [W].
+    kinetic, potential : int
+        Energies [J].
+    joint_coordinates : tuple of JointCoordinate
+        What results report beside q and v.
+    tables : tuple of (name, x, y)
+        Interpolated functions.
+    omissions : tuple of Omission
+        What was left out and why.
+    dropped_rows : tuple of str
+        Rows that repeat another row for all q, named ``ROW = ROW``.
+    """
+
+    name: str
+    graph: Graph
+    parameters: tuple[Quantity, ...]
+    coordinates: tuple[Quantity, ...]
+    velocities: tuple[Quantity, ...]
+    q_rates: tuple[int, ...]
+    mass: tuple[MassBlock, ...]
+    rows: tuple[ConstraintRow, ...]
+    forces: tuple[int, ...]
+    power: int
+    kinetic: int
+    potential: int
+    joint_coordinates: tuple[JointCoordinate, ...]
+    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    omissions: tuple[Omission, ...]
+    dropped_rows: tuple[str, ...]
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+        return len(self.velocities)
+
+    @property
+    def m(self) -> int:
+        """Number of constraint rows."""
+        return len(self.rows)

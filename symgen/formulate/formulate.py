@@ -1,0 +1,201 @@
+"""From a mechanism to its equations: the only stage that uses SymPy.
+
+Derivation goes joint by joint and force by force; nothing is ever expanded, simplified or inverted over the whole system.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from symgen.describe.mechanism import Body, Mechanism
+from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
+from symgen.formulate.measures import Model
+from symgen.formulate.translate import Translator, to_sympy
+from symgen.vocabulary.expressions import ZERO, Expr, names
+from symgen.vocabulary.measures import Effort, Holonomic, Row
+
+_UNITS = {"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"}
+
+
+def formulate(mechanism: Mechanism) -> Equations:
+    """Derive the equations of motion of `mechanism`.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+
+    Returns
+    -------
+    Equations
+        Phi, D, nu, gamma, M, f, energies and power as nodes of one graph.
+    """
+    model = Model(mechanism)
+    rows, dropped, omissions = _constraints(model)
+    forces, power, potential = _forces(model)
+    mass, kinetic, gravity_potential = _inertia(model, forces)
+    joint_coordinates = tuple(
+        JointCoordinate(
+            f"{joint.name}.{label}",
+            "rad" if label == "angle" else "m",
+            (derived := model.measure(measure)).value,
+            derived.rate(model.graph, model.velocities),
+        )
+        for joint in mechanism.joints
+        for label, measure in joint.coordinates
+    )
+    coordinates, velocities = _quantities(mechanism)
+    return Equations(
+        name=mechanism.name,
+        graph=model.graph,
+        parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        coordinates=coordinates,
+        velocities=velocities,
+        q_rates=model.velocities,
+        mass=mass,
+        rows=rows,
+        forces=tuple(forces),
+        power=power,
+        kinetic=kinetic,
+        potential=model.graph.add(potential, gravity_potential),
+        joint_coordinates=joint_coordinates,
+        tables=tuple((t.name, t.x, t.y) for t in mechanism.tables),
+        omissions=tuple(omissions + _omissions(mechanism)),
+        dropped_rows=tuple(dropped),
+    )
+
+
+def _quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
+    q = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates)
+    v = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds)
+    return q, v
+
+
+# -- constraints -----------------------------------------------------------------------------------------------------
+
+
+def _constraints(model: Model) -> tuple[tuple[ConstraintRow, ...], list[str], list[Omission]]:
+    kept: dict[object, ConstraintRow] = {}
+    dropped: list[str] = []
+    omissions: list[Omission] = []
+    for joint in model.mechanism.joints:
+        for row in joint.rows:
+            derived = _row(model, joint.name, row)
+            key = (derived.phi, derived.entries, derived.nu, derived.gamma)
+            if key in kept:
+                dropped.append(f"{derived.name} = {kept[key].name}")
+                omissions.append(Omission(f"row {derived.name}", f"it repeats row {kept[key].name} for all q"))
+            else:
+                kept[key] = derived
+    return tuple(kept.values()), dropped, omissions
+
+
+def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
+    g = model.graph
+    value, slope, curvature = _time_function(model, row.value)
+    if isinstance(row, Holonomic):
+        measure = model.measure(row.measure)
+        phi, nu, gamma = g.sub(measure.value, value), slope, g.sub(curvature, measure.bias)
+    else:
+        measure = model.point_speed(row)
+        phi, nu, gamma = None, value, g.sub(slope, measure.bias)
+    entries = tuple(sorted(measure.row.items()))
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, entries, nu, gamma)
+
+
+def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:
+    """Return value, first and second time derivative of a formula of t and parameters."""
+    g = model.graph
+    if "t" not in names(e):
+        return model.expression(e), g.zero, g.zero
+    symbols = _symbols(model, e)
+    value = to_sympy(e, symbols)
+    t = symbols["t"]
+    first = sp.diff(value, t)
+    nodes = _translate(model, symbols, [value, first, sp.diff(first, t)])
+    return nodes[0], nodes[1], nodes[2]
+
+
+def _symbols(model: Model, e: Expr, *placeholders: str) -> dict[str, Any]:
+    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
+
+
+def _translate(model: Model, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
+    known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
+    return Translator(model.graph, known).all(expressions)
+
+
+# -- forces, inertia and energies ------------------------------------------------------------------------------------
+
+
+def _forces(model: Model) -> tuple[list[int], int, int]:
+    """Return f without gravity, the power of its part without potential, and its potential."""
+    g = model.graph
+    forces, power, potential = [g.zero] * model.size, g.zero, g.zero
+    for force in model.mechanism.forces:
+        for effort in force.efforts:
+            measure = model.measure(effort.measure)
+            rate = measure.rate(g, model.velocities)
+            conservative, energy = _conservative(model, effort, measure.value)
+            magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
+            total = g.add(conservative, magnitude)
+            for i, entry in sorted(measure.row.items()):
+                forces[i] = g.add(forces[i], g.mul(entry, total))
+            power = g.add(power, g.mul(magnitude, rate))
+            potential = g.add(potential, energy)
+    return forces, power, potential
+
+
+def _conservative(model: Model, effort: Effort, s: int) -> tuple[int, int]:
+    """Return -dU/ds and U of an effort's potential."""
+    if effort.potential == ZERO:
+        return model.graph.zero, model.graph.zero
+    symbols = _symbols(model, effort.potential, "s")
+    potential = to_sympy(effort.potential, symbols)
+    force, energy = _translate(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
+    return force, energy
+
+
+def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
+    """Return M, the kinetic energy and gravity's potential; adds the weights to `forces`."""
+    g = model.graph
+    gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
+    blocks: list[MassBlock] = []
+    kinetic = potential = g.zero
+    half = g.constant(0.5)
+    for body in model.mechanism.bodies:
+        first = model.first[body.name]
+        for offset, mass in enumerate(_body_masses(model, body)):
+            i = first + offset
+            blocks.append(MassBlock((i,), ((mass,),)))
+            v = model.velocities[i]
+            kinetic = g.add(kinetic, g.mul(g.mul(half, mass), g.mul(v, v)))
+            if offset < 2:
+                weight = g.mul(mass, gravity[offset])
+                forces[i] = g.add(forces[i], weight)
+                potential = g.sub(potential, g.mul(weight, g.input("q", i)))
+    return tuple(blocks), kinetic, potential
+
+
+def _body_masses(model: Model, body: Body) -> tuple[int, ...]:
+    mass = model.expression(body.mass)
+    return (mass, mass) if body.inertia is None else (mass, mass, model.expression(body.inertia))
+
+
+def _omissions(mechanism: Mechanism) -> list[Omission]:
+    found = [
+        Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
+        Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
+        Omission("gyroscopic terms", "they vanish in the plane"),
+        Omission("columns of the ground", "the ground does not move"),
+    ]
+    if all(e == ZERO for e in mechanism.gravity):
+        found.append(Omission("weights and gravity's potential", "gravity is zero"))
+    for body in mechanism.bodies:
+        if body.is_point:
+            found.append(Omission(f"angle of {body.name}", "a point mass has none"))
+        elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
+            found.append(Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin"))
+    return found

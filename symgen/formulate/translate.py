@@ -1,0 +1,187 @@
+"""SymPy into the graph, and formulas of a file into SymPy where a derivative is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from symgen.ir.graph import Graph
+from symgen.vocabulary.expressions import Call, Expr, Name, Number
+
+_UNARY = {
+    sp.sin: "sin",
+    sp.cos: "cos",
+    sp.tan: "tan",
+    sp.asin: "asin",
+    sp.acos: "acos",
+    sp.atan: "atan",
+    sp.sinh: "sinh",
+    sp.cosh: "cosh",
+    sp.tanh: "tanh",
+    sp.exp: "exp",
+    sp.log: "log",
+    sp.Abs: "abs",
+    sp.sign: "sign",
+}
+_RELATIONS = {
+    sp.StrictLessThan: "lt",
+    sp.LessThan: "le",
+    sp.StrictGreaterThan: "gt",
+    sp.GreaterThan: "ge",
+}
+
+
+class Translator:
+    """Translates SymPy expressions over known symbols into nodes of one graph.
+
+    Common subexpressions over all outputs are taken out by SymPy first (``order="canonical"``), which finds shared parts
+    of sums and products that hash-consing of binary operations alone would miss.
+    """
+
+    def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
+        self.graph = graph
+        self.known: dict[Any, int] = dict(symbols)
+
+    def all(self, expressions: Sequence[Any]) -> list[int]:
+        """Return the nodes of `expressions`, shared parts computed once."""
+        names = sp.numbered_symbols("cse_")
+        replacements, reduced = sp.cse([sp.sympify(e) for e in expressions], symbols=names, order="canonical")
+        for symbol, expression in replacements:
+            self.known[symbol] = self.node(expression)
+        return [self.node(e) for e in reduced]
+
+    def node(self, e: Any) -> int:
+        """Return the node of one expression."""
+        found = self.known.get(e)
+        if found is None:
+            found = self.known[e] = self._build(e)
+        return found
+
+    def _build(self, e: Any) -> int:
+        g = self.graph
+        if e.is_Number or e in (sp.pi, sp.E):
+            return g.constant(float(e))
+        if e.is_Add:
+            return g.total(self.node(a) for a in e.args)
+        if e.is_Mul:
+            return self._product(e)
+        if e.is_Pow:
+            return g.power(self.node(e.base), self.node(e.exp))
+        if e.func in _UNARY:
+            return g.call(_UNARY[e.func], self.node(e.args[0]))
+        if e.func in _RELATIONS:
+            return g.call(_RELATIONS[e.func], self.node(e.lhs), self.node(e.rhs))
+        if isinstance(e, sp.atan2):
+            return g.call("atan2", *(self.node(a) for a in e.args))
+        if isinstance(e, sp.Max | sp.Min):
+            return self._fold("max" if isinstance(e, sp.Max) else "min", e.args)
+        if isinstance(e, sp.And | sp.Or):
+            return self._fold("and" if isinstance(e, sp.And) else "or", e.args)
+        if isinstance(e, sp.Not):
+            return g.call("not", self.node(e.args[0]))
+        if isinstance(e, sp.Piecewise):
+            return self._piecewise(e)
+        if isinstance(e, _Table):
+            return g.call(f"table:{e.table}", self.node(e.args[0]))
+        if isinstance(e, _TableSlope):
+            return g.call(f"table:{e.table}'", self.node(e.args[0]))
+        if e in (sp.true, sp.false):
+            return g.one if e == sp.true else g.zero
+        raise TypeError(f"no graph operation for {type(e).__name__}: {e}")
+
+    def _product(self, e: Any) -> int:
+        g = self.graph
+        above, below = g.one, g.one
+        for factor in e.args:
+            if factor.is_Pow and factor.exp.is_Number and factor.exp.is_negative:
+                below = g.mul(below, g.power(self.node(factor.base), g.constant(-float(factor.exp))))
+            else:
+                above = g.mul(above, self.node(factor))
+        return g.div(above, below)
+
+    def _fold(self, function: str, args: Sequence[Any]) -> int:
+        result = self.node(args[0])
+        for a in args[1:]:
+            result = self.graph.call(function, result, self.node(a))
+        return result
+
+    def _piecewise(self, e: Any) -> int:
+        *pieces, (last, _) = e.args
+        result = self.node(last)
+        for value, condition in reversed(pieces):
+            result = self.graph.call("where", self.node(condition), self.node(value), result)
+        return result
+
+
+class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
+    """An interpolated table as a SymPy function; subclasses made by `_table` know their name."""
+
+    table = ""
+
+
+class _TableSlope(sp.Function):  # type: ignore[misc]  # SymPy is untyped
+    """The slope of a table: piecewise constant, its own derivative zero."""
+
+    table = ""
+
+    def fdiff(self, argindex: int = 1) -> Any:
+        """Return 0: the slope of a linear interpolation is constant between its points."""
+        return sp.S.Zero
+
+
+def _table(name: str) -> Any:
+    slope = type(f"slope_{name}", (_TableSlope,), {"table": name})
+
+    def fdiff(self: Any, argindex: int = 1) -> Any:
+        return slope(self.args[0])
+
+    return type(f"table_{name}", (_Table,), {"table": name, "fdiff": fdiff})
+
+
+_TO_SYMPY: dict[str, Any] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "div": lambda a, b: a / b,
+    "pow": lambda a, b: a**b,
+    "neg": lambda a: -a,
+    "sqrt": sp.sqrt,
+    "exp": sp.exp,
+    "log": sp.log,
+    "atan2": sp.atan2,
+    "abs": sp.Abs,
+    "sign": sp.sign,
+    "min": sp.Min,
+    "max": sp.Max,
+    "lt": sp.StrictLessThan,
+    "le": sp.LessThan,
+    "gt": sp.StrictGreaterThan,
+    "ge": sp.GreaterThan,
+    "and": sp.And,
+    "or": sp.Or,
+    "not": sp.Not,
+    "where": lambda c, a, b: sp.Piecewise((a, c), (b, True)),
+    **{n: getattr(sp, n) for n in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")},
+}
+
+
+def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
+    """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy."""
+    if isinstance(expression, Number):
+        return sp.Float(expression.value) if expression.value != int_or_none(expression.value) else sp.Integer(
+            int(expression.value)
+        )
+    if isinstance(expression, Name):
+        return symbols[expression.name]
+    assert isinstance(expression, Call), "the tree has three node kinds"
+    arguments = [to_sympy(a, symbols) for a in expression.arguments]
+    if expression.function.startswith("table:"):
+        return _table(expression.function.removeprefix("table:"))(*arguments)
+    return _TO_SYMPY[expression.function](*arguments)
+
+
+def int_or_none(value: float) -> int | None:
+    """Return `value` as an int where it is a small whole number: exact exponents keep derivatives polynomial."""
+    return int(value) if abs(value) < 1e6 and value == int(value) else None

@@ -1,0 +1,12 @@
+"""Integrators, one file each; `INTEGRATORS` finds them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from symgen.registry import Registry
+
+if TYPE_CHECKING:
+    from symgen.integrators._tableau import Tableau
+
+INTEGRATORS: Registry[Tableau] = Registry("symgen.integrators", "integrator")

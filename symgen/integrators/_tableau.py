@@ -1,0 +1,92 @@
+"""Explicit Runge-Kutta pairs as data: coefficients that check themselves, and what a loop needs of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """An explicit Runge-Kutta scheme, with an embedded error estimate and dense output where it has them.
+
+    Parameters
+    ----------
+    name, reference : str
+        Name as typed, and the source of the coefficients.
+    order : int
+        Order of the propagated solution.
+    a : Array, shape (s, s)
+        Strictly lower triangular.
+    b, c : Array, shape (s,)
+        Weights and nodes.
+    errors : tuple of Array, shape (s + 1,)
+        Weights of the error estimates; the last element belongs to the stage at the end of the step.
+    error_order : int
+        The step is chosen with exponent -1 / (error_order + 1).
+    extra_a, extra_c : Array
+        Stages that only dense output needs; they may use the stage at the end of the step.
+    dense : Array, shape (s + 1 + extra, degree), or None
+        y(t + x h) = y + h sum_k K_k sum_j dense[k, j] x^(j + 1).
+    real_boundary : float
+        Where the region of absolute stability ends on the negative real axis.
+    """
+
+    name: str
+    order: int
+    reference: str
+    a: Array
+    b: Array
+    c: Array
+    real_boundary: float
+    errors: tuple[Array, ...] = ()
+    error_order: int = 0
+    extra_a: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    extra_c: Array = field(default_factory=lambda: np.zeros(0))
+    dense: Array | None = None
+
+    def __post_init__(self) -> None:
+        s = self.stages
+        if self.a.shape != (s, s) or self.c.shape != (s,) or np.any(np.triu(self.a) != 0.0):
+            raise ValueError(f"tableau {self.name}: a must be strictly lower triangular, shape {(s, s)}")
+        if not np.allclose(self.a.sum(axis=1), self.c, atol=1e-13) or abs(self.b.sum() - 1.0) > 1e-13:
+            raise ValueError(f"tableau {self.name}: rows of a must add up to c, and b to 1")
+        for e in self.errors:
+            if e.shape != (s + 1,) or abs(e.sum()) > 1e-13:
+                raise ValueError(f"tableau {self.name}: error weights must add up to 0, shape {(s + 1,)}")
+        if self.dense is not None:
+            ends = self.dense.sum(axis=1)
+            if not np.allclose(ends[:s], self.b, atol=1e-12) or not np.allclose(ends[s:], 0.0, atol=1e-12):
+                raise ValueError(f"tableau {self.name}: dense output must meet the end of the step")
+
+    @property
+    def stages(self) -> int:
+        """Number of stages of one step."""
+        return int(self.b.shape[0])
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether the scheme estimates its error."""
+        return bool(self.errors)
+
+    def packed(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array, Array]:
+        """Return the nonzero coefficients row by row as the loops read them.
+
+        Rows are the stages, then b, then the stages of dense output. Row r has the entries from ``start[r]`` to
+        ``start[r + 1]`` of `column` and `value`; `nodes` holds c of all stages, 1 for the end of the step.
+        """
+        s, extra = self.stages, len(self.extra_c)
+        rows = [self.a[i] for i in range(s)] + [self.b] + [self.extra_a[i] for i in range(extra)]
+        start, column, value = [0], list[int](), list[float]()
+        for row in rows:
+            for j, x in enumerate(row):
+                if x != 0.0:
+                    column.append(j)
+                    value.append(float(x))
+            start.append(len(column))
+        nodes = np.concatenate([self.c, [1.0], self.extra_c])
+        return np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value), nodes

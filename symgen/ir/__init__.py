@@ -1,0 +1,1 @@
+"""The expression graph and the program: values between the stages."""

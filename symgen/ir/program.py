@@ -1,0 +1,154 @@
+"""The program: everything that the emitter needs, and nothing about how it is printed.
+
+A block is a named piece of computation with declared outputs. Where its elements live (``y``, ``ydot``, ``p`` or a section
+of the scratch array ``w``) is said by symbolic targets; the emitter's layout turns them into element access.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from symgen.ir.graph import Graph
+
+#: Format of the emitted modules: changes when their functions, signatures or sections do.
+FORMAT = 1
+
+#: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
+STATUS = (
+    "position_violation",  # |Phi|
+    "velocity_violation",  # |D v - nu|
+    "kinetic",  # T
+    "potential",  # V
+    "smallest_pivot",  # of D D^T with scaled rows, over the rows that are not permanently redundant
+    "rank",  # rows kept by the factorisation of D D^T
+    "length_scale",  # set by the runtime: largest coordinate, at least 1
+    "speed_scale",  # set by the runtime: largest speed, at least 1
+)
+
+#: Integers in ``iw``, in this order.
+COUNTERS = (
+    "confirmed",  # 1 while an evaluation runs with rows decided by D D^T
+    "suspects",  # evaluations in which a pivot of S was suspiciously small
+    "light",  # of these, those where D D^T found full rank: light bodies, not redundant rows
+    "iterations",  # iterations of corrections
+    "failures",  # corrections that did not converge
+)
+
+
+@dataclass(frozen=True)
+class Target:
+    """Where an output goes: element `index` of array or scratch section `space`."""
+
+    space: str
+    index: int
+
+
+@dataclass(frozen=True)
+class Block:
+    """Straight-line computation.
+
+    Parameters
+    ----------
+    name : str
+        Name of the emitted function.
+    purpose : str
+        One line: what the function computes.
+    graph : Graph
+        Holds the nodes.
+    outputs : tuple of (Target, int)
+        What is written, in order.
+    flag : int or None
+        Node whose truth the function returns; None: it returns 0.
+    arguments : tuple of str
+        Arrays passed to the function.
+    """
+
+    name: str
+    purpose: str
+    graph: Graph
+    outputs: tuple[tuple[Target, int], ...]
+    arguments: tuple[str, ...]
+    flag: int | None = None
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """All nodes that the block ends in."""
+        return tuple(n for _, n in self.outputs) + (() if self.flag is None else (self.flag,))
+
+    @property
+    def operations(self) -> int:
+        """Operations with common subexpressions computed once."""
+        return self.graph.operations(self.nodes)
+
+    @property
+    def tree_operations(self) -> int:
+        """Operations if nothing were shared."""
+        return self.graph.tree_operations(self.nodes)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Sizes of the model and the sections of the scratch array ``w`` and of ``p``."""
+
+    nq: int
+    nv: int
+    m: int
+    parameters: int
+    sections: Mapping[str, tuple[int, int]]  # name -> (offset in w, size)
+
+    @property
+    def ny(self) -> int:
+        """Length of the state: q, v and the work of forces without potential and of drivers."""
+        return self.nq + self.nv + 1
+
+    @property
+    def nw(self) -> int:
+        """Length of ``w``."""
+        return max((offset + size for offset, size in self.sections.values()), default=0)
+
+    def offset(self, section: str) -> int:
+        """Return where a section of ``w`` begins."""
+        return self.sections[section][0]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A stored entry of D: a constant of the scene, or element `slot` of the section ``jacobian``."""
+
+    row: int
+    column: int
+    constant: float | None
+    slot: int | None
+
+
+@dataclass(frozen=True)
+class ModelProgram:
+    """What every method of a model shares: module ``model`` of the emitted folder."""
+
+    name: str
+    digest: str
+    layout: Layout
+    blocks: tuple[Block, ...]
+    jacobian: tuple[Entry, ...]
+    hoisted: int  # numbers kept behind the parameters in p
+    order: tuple[int, ...]  # elimination order of the rows
+    fill: int  # entries of L that are zero in D D^T
+    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...] = ()
+
+
+@dataclass(frozen=True)
+class LawProgram:
+    """What one method adds: a module of the emitted folder beside ``model``."""
+
+    method: str
+    key: str  # file stem: the method and its structural options
+    layout: Layout
+    blocks: tuple[Block, ...]
+    parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
+    parameter_offset: int
+    hoisted: int
+    position_correction: bool
+    velocity_correction: bool
+    metric: str
+    options: Mapping[str, str] = field(default_factory=dict)

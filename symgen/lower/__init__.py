@@ -1,0 +1,1 @@
+"""From equations to programs: patterns, factorisations, laws, what is hoisted."""

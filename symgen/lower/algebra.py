@@ -1,0 +1,253 @@
+"""Block algebra on the graph: vectors, the constraint matrix, solves. Method formulas are written against it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from symgen.formulate.equations import Equations
+from symgen.ir.graph import Graph
+from symgen.lower.factor import Factor, factorise, minimum_degree
+
+#: A pivot of S below this fraction of its diagonal entry is suspicious: rank is then decided on D D^T (design.md, 1).
+SUSPICIOUS = 1e-6
+#: A pivot of D D^T (rows scaled) below this belongs to a row that depends on the others: the row is skipped.
+SKIP = 1e-12
+#: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.
+WARN = 1e-4
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A vector of nodes with elementwise arithmetic."""
+
+    graph: Graph
+    nodes: tuple[int, ...]
+
+    def __add__(self, other: Vector) -> Vector:
+        g = self.graph
+        return Vector(g, tuple(g.add(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
+
+    def __sub__(self, other: Vector) -> Vector:
+        g = self.graph
+        return Vector(g, tuple(g.sub(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
+
+    def __rmul__(self, factor: Scalar) -> Vector:
+        g = self.graph
+        return Vector(g, tuple(g.mul(factor.node, a) for a in self.nodes))
+
+    def dot(self, other: Vector) -> Scalar:
+        """Return the inner product."""
+        return Scalar(self.graph, self.graph.dot(self.nodes, other.nodes))
+
+    def __iter__(self) -> Iterator[int]:
+        return iter(self.nodes)
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """A scalar node with arithmetic, so that a method's formula reads like the textbook's."""
+
+    graph: Graph
+    node: int
+
+    def __add__(self, other: Scalar) -> Scalar:
+        return Scalar(self.graph, self.graph.add(self.node, other.node))
+
+    def __sub__(self, other: Scalar) -> Scalar:
+        return Scalar(self.graph, self.graph.sub(self.node, other.node))
+
+    def __mul__(self, other: Scalar) -> Scalar:
+        return Scalar(self.graph, self.graph.mul(self.node, other.node))
+
+    def __rmul__(self, factor: float) -> Scalar:
+        return Scalar(self.graph, self.graph.mul(self.graph.constant(factor), self.node))
+
+    def __pow__(self, exponent: int) -> Scalar:
+        return Scalar(self.graph, self.graph.power(self.node, self.graph.constant(float(exponent))))
+
+
+@dataclass(frozen=True)
+class Sparse:
+    """The constraint matrix D: for each row its (column, node) entries in increasing order of column."""
+
+    graph: Graph
+    rows: tuple[tuple[tuple[int, int], ...], ...]
+    columns: int
+
+    def __matmul__(self, x: Vector) -> Vector:
+        g = self.graph
+        return Vector(g, tuple(g.total(g.mul(e, x.nodes[j]) for j, e in row) for row in self.rows))
+
+    def transposed(self, y: Vector) -> Vector:
+        """Return D^T y."""
+        g = self.graph
+        result = [g.zero] * self.columns
+        for row, factor in zip(self.rows, y.nodes, strict=True):
+            for j, e in row:
+                result[j] = g.add(result[j], g.mul(e, factor))
+        return Vector(g, tuple(result))
+
+    def neighbours(self, coupled: Sequence[frozenset[int]] | None = None) -> list[frozenset[int]]:
+        """Return, for each row, the other rows with which D W D^T has an entry.
+
+        `coupled` gives for each column those that W couples it with; None: W is diagonal.
+        """
+        by_column: dict[int, set[int]] = {}
+        for i, row in enumerate(self.rows):
+            for j, _ in row:
+                for k in (j,) if coupled is None else coupled[j]:
+                    by_column.setdefault(k, set()).add(i)
+        own = [{j for j, _ in row} for row in self.rows]
+        return [
+            frozenset(n for j in sorted(own[i]) for n in by_column.get(j, ()) if n != i) for i in range(len(self.rows))
+        ]
+
+
+@dataclass
+class System:
+    """The equations as a method sees them: named blocks and the operations a formula may use.
+
+    Attributes
+    ----------
+    mask : list of int
+        Nodes added to the pivots of S: 0, or infinite in rows that the runtime leaves out.
+    D : Sparse
+    f, gamma, nu, phi, v : Vector
+        As in the notation; `phi` is zero in nonholonomic rows.
+    """
+
+    equations: Equations
+    parameter_names: Sequence[str] = ()
+    parameter_offset: int = 0
+
+    def __post_init__(self) -> None:
+        e = self.equations
+        g = self.graph = e.graph.copy()
+        self._parameters = {n: g.input("p", self.parameter_offset + i) for i, n in enumerate(self.parameter_names)}
+        self.mask = [g.input("mask", i) for i in range(e.m)]
+        self.D = Sparse(g, tuple(row.entries for row in e.rows), e.nv)
+        self.f = Vector(g, e.forces)
+        self.gamma = Vector(g, tuple(r.gamma for r in e.rows))
+        self.nu = Vector(g, tuple(r.nu for r in e.rows))
+        self.phi = Vector(g, tuple(g.zero if r.phi is None else r.phi for r in e.rows))
+        self.v = Vector(g, tuple(g.input("v", i) for i in range(e.nv)))
+        self.flags: list[int] = []
+
+    def parameter(self, name: str) -> Scalar:
+        """Return a parameter of the method."""
+        return Scalar(self.graph, self._parameters[name])
+
+    # -- mass matrix -------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def inverse_mass(self) -> list[dict[int, int]]:
+        """Rows of M^-1 as column -> node; blocks are inverted by elimination, single entries by their reciprocal."""
+        g = self.graph
+        result: list[dict[int, int]] = [{} for _ in range(self.equations.nv)]
+        for block in self.equations.mass:
+            n = len(block.columns)
+            matrix = {
+                (i, j): block.entries[i][j] for i in range(n) for j in range(n) if block.entries[i][j] != g.zero or i == j
+            }
+            factor = factorise(g, matrix, range(n), lambda _, pivot, __: g.div(g.one, pivot))
+            for j in range(n):
+                unit = [g.one if i == j else g.zero for i in range(n)]
+                for i, node in enumerate(factor.solve(g, unit)):
+                    if node != g.zero:
+                        result[block.columns[i]][block.columns[j]] = node
+        return result
+
+    def minv(self, x: Vector) -> Vector:
+        """Return M^-1 x."""
+        g = self.graph
+        result = [g.zero] * len(x.nodes)
+        for block in self.equations.mass:
+            if len(block.columns) == 1:
+                j = block.columns[0]
+                # two literals are divided while code is generated, so that a weight over its mass is g to the last digit
+                literal = g.value(x.nodes[j]) is not None and g.value(block.entries[0][0]) is not None
+                mass = block.entries[0][0]
+                result[j] = g.div(x.nodes[j], mass) if literal else g.mul(self.inverse_mass[j][j], x.nodes[j])
+                continue
+            for i in block.columns:
+                row = sorted(self.inverse_mass[i].items())
+                result[i] = g.total(g.mul(e, x.nodes[j]) for j, e in row)
+        return Vector(g, tuple(result))
+
+    # -- D W D^T -----------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
+        return minimum_degree(self.D.neighbours([frozenset(r) for r in self.inverse_mass]))
+
+    def gram(self, weight: Sequence[Mapping[int, int]] | None) -> dict[tuple[int, int], int]:
+        """Return D W D^T as nodes; `weight` None is the identity, else rows of W."""
+        g = self.graph
+        left: list[dict[int, int]] = []
+        for row in self.D.rows:
+            if weight is None:
+                left.append(dict(row))
+                continue
+            weighted: dict[int, int] = {}
+            for j, e in row:
+                for k, node in weight[j].items():
+                    weighted[k] = g.add(weighted.get(k, g.zero), g.mul(e, node))
+            left.append(weighted)
+        result: dict[tuple[int, int], int] = {}
+        for i, near in enumerate(self.D.neighbours([frozenset(r) for r in weight] if weight is not None else None)):
+            for j in (i, *(n for n in sorted(near) if n > i)):
+                node = g.total(g.mul(left[i][k], e) for k, e in self.D.rows[j] if k in left[i])
+                if node != g.zero or i == j:
+                    result[i, j] = result[j, i] = node
+        return result
+
+    @cached_property
+    def schur(self) -> Factor:
+        """Factor of S = D M^-1 D^T; rows masked by the runtime get a reciprocal pivot of 0, small pivots a flag."""
+        g = self.graph
+
+        def reciprocal(row: int, pivot: int, diagonal: int) -> int:
+            masked = g.add(pivot, self.mask[row])  # the mask is 0, or infinite for a row to be left out
+            if pivot != diagonal:
+                self.flags.append(g.call("lt", masked, g.mul(g.constant(SUSPICIOUS), diagonal)))
+            return g.div(g.one, masked)
+
+        return factorise(g, self.gram(self.inverse_mass), self.order, reciprocal)
+
+    def solve_schur(self, right: Vector) -> Vector:
+        """Return lambda with S lambda = right."""
+        return Vector(self.graph, tuple(self.schur.solve(self.graph, right.nodes)))
+
+    def gram_factor(self, weight: Sequence[Mapping[int, int]] | None = None) -> Factor:
+        """Return the factor of D W D^T that decides rank: dependent rows get a reciprocal pivot of 0, no branch taken."""
+        g = self.graph
+
+        def reciprocal(_: int, pivot: int, diagonal: int) -> int:
+            if pivot == diagonal:
+                return g.div(g.one, pivot)
+            keep = g.call("step", pivot, g.mul(g.constant(SKIP), diagonal))
+            return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
+
+        return factorise(g, self.gram(weight), self.order, reciprocal)
+
+    def schur_with(self, rank: Factor) -> Factor:
+        """Return the factor of S in which those rows are skipped that `rank`, the factor of D D^T, finds dependent."""
+        g = self.graph
+
+        def reciprocal(row: int, pivot: int, _: int) -> int:
+            if rank.pivots[row] == rank.diagonal[row]:
+                return g.div(g.one, pivot)
+            keep = g.call("step", rank.pivots[row], g.mul(g.constant(SKIP), rank.diagonal[row]))
+            return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
+
+        return factorise(g, self.gram(self.inverse_mass), self.order, reciprocal)
+
+    def flag(self) -> int | None:
+        """Return the node that is true where a pivot of S was suspicious."""
+        g, result = self.graph, None
+        for node in self.flags:
+            result = node if result is None else g.call("or", result, node)
+        return result

@@ -1,0 +1,78 @@
+"""What depends on parameters alone is computed once a run, not at every evaluation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symgen.ir.graph import PARAMETER, Graph
+from symgen.ir.program import Block, Target
+
+
+class Hoister:
+    """Moves parameter-only subexpressions of one module's blocks behind the parameters in ``p``.
+
+    Parameters
+    ----------
+    graph : Graph
+        The graph that all blocks of the module are built in.
+    first : int
+        Index in ``p`` of the first hoisted number.
+    """
+
+    def __init__(self, graph: Graph, first: int) -> None:
+        self.graph, self.first = graph, first
+        self.slots: dict[int, int] = {}
+
+    def block(
+        self,
+        name: str,
+        purpose: str,
+        outputs: Sequence[tuple[Target, int]],
+        arguments: tuple[str, ...],
+        flag: int | None = None,
+    ) -> Block:
+        """Return a block in a graph of its own, hoisted nodes read from ``p``."""
+        source, target = self.graph, Graph()
+        ends = [n for _, n in outputs] + ([] if flag is None else [flag])
+        image: dict[int, int] = {}
+        for node in self._reached(ends):
+            op, args, payload = source.nodes[node]
+            if self._moves(node):
+                slot = self.slots.setdefault(node, len(self.slots))
+                image[node] = target.input("p", self.first + slot)
+            elif op == "const":
+                image[node] = target.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+            elif op == "input":
+                image[node] = target.input(*payload)  # type: ignore[misc]  # an input's payload is its key
+            else:
+                image[node] = target.rebuild(op, tuple(image[a] for a in args), payload)
+        moved = tuple((where, image[n]) for where, n in outputs)
+        return Block(name, purpose, target, moved, arguments, None if flag is None else image[flag])
+
+    def _moves(self, node: int) -> bool:
+        return self.graph.depends[node] == PARAMETER and self.graph.nodes[node].op != "input"
+
+    def _reached(self, ends: Sequence[int]) -> list[int]:
+        """Nodes needed for `ends`, not looking behind what is hoisted."""
+        seen: set[int] = set()
+        stack = list(ends)
+        while stack:
+            node = stack.pop()
+            if node not in seen:
+                seen.add(node)
+                if not self._moves(node):
+                    stack.extend(self.graph.nodes[node].args)
+        return sorted(seen)
+
+    def prepare(self) -> Block:
+        """Return the block that fills the hoisted numbers; call it after all other blocks."""
+        graph = Graph()
+        nodes = sorted(self.slots, key=self.slots.__getitem__)
+        inputs = {
+            key: graph.input(*key)
+            for n in self.graph.needed(nodes)
+            if self.graph.nodes[n].op == "input" and isinstance(key := self.graph.nodes[n].payload, tuple)
+        }
+        images = graph.inline(self.graph, nodes, inputs)
+        outputs = tuple((Target("p", self.first + self.slots[n]), image) for n, image in zip(nodes, images, strict=True))
+        return Block("prepare", "numbers that depend on parameters alone", graph, outputs, ("p",))

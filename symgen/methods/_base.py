@@ -1,0 +1,132 @@
+"""What a constraint stabilisation method is: an acceleration law, a correction after each accepted step, parameters.
+
+A method is a formula over named blocks (`symgen.lower.algebra.System`), lowered like everything else, so one file serves
+every layout of the emitted code.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from symgen.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System, Vector
+
+
+@dataclass(frozen=True)
+class MethodParameter:
+    """A number that a method takes at run time.
+
+    Parameters
+    ----------
+    name, unit, note : str
+        Note says what it does and where the default comes from.
+    default, minimum : float
+        Values below `minimum` are refused.
+    """
+
+    name: str
+    default: float
+    unit: str
+    note: str
+    minimum: float = 0.0
+
+
+@dataclass(frozen=True)
+class MethodOption:
+    """A choice that changes the emitted code; the first value is the default."""
+
+    name: str
+    values: tuple[str, ...]
+    note: str
+
+
+@dataclass(frozen=True)
+class Acceleration:
+    """What a law computes: v' and the multipliers."""
+
+    acceleration: Vector
+    multipliers: Vector
+
+
+class Method(ABC):
+    """Base of all methods.
+
+    Class attributes
+    ----------------
+    name : str
+        Lower-case name, as typed.
+    summary, reference : str
+        One line, and the literature.
+    position_correction, velocity_correction : bool
+        What is corrected after each accepted step.
+    """
+
+    name: ClassVar[str]
+    summary: ClassVar[str]
+    reference: ClassVar[str]
+    form: ClassVar[str] = "ode"
+    parameters: ClassVar[tuple[MethodParameter, ...]] = ()
+    options: ClassVar[tuple[MethodOption, ...]] = ()
+    position_correction: ClassVar[bool] = False
+    velocity_correction: ClassVar[bool] = False
+
+    @abstractmethod
+    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law as a formula over the blocks of `system`."""
+
+    def complete_options(self, given: Mapping[str, str]) -> dict[str, str]:
+        """Return the structural options, defaults filled in.
+
+        Raises
+        ------
+        InputError
+            If an option or its value is not known.
+        """
+        known = {o.name: o for o in self.options}
+        for name, value in given.items():
+            if name not in known:
+                names = [*known, *(p.name for p in self.parameters)]
+                raise InputError(f"option {self.name}.{name}", "an option of the method", f"'{name}'", nearest(name, names))
+            if value not in known[name].values:
+                raise InputError(
+                    f"option {self.name}.{name}",
+                    "one of " + ", ".join(known[name].values),
+                    f"'{value}'",
+                    nearest(value, known[name].values),
+                )
+        return {o.name: given.get(o.name, o.values[0]) for o in self.options}
+
+    def stem(self, options: Mapping[str, str]) -> str:
+        """Return the file stem of the emitted module: the method and its structural options."""
+        return "_".join([self.name, *(options[o.name] for o in self.options)]).replace("-", "_")
+
+    def metric(self, options: Mapping[str, str]) -> str:
+        """Return the weight of corrections: ``identity`` or ``mass``."""
+        return "identity"
+
+    def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
+        """Return the step above which the law itself is unstable, None where it sets no limit.
+
+        Parameters
+        ----------
+        parameters : mapping
+            Values of the method's parameters.
+        boundary : float
+            Where the integrator's region of stability ends on the negative real axis.
+        """
+        return None
+
+
+def multiplier_law(system: System, gamma: Vector) -> Acceleration:
+    """Solve ``M v' + D^T lambda = f``, ``D v' = gamma`` by eliminating v'.
+
+    ``S lambda = D M^-1 f - gamma`` with ``S = D M^-1 D^T``, then ``v' = M^-1 (f - D^T lambda)``.
+    """
+    free = system.minv(system.f)
+    multipliers = system.solve_schur(system.D @ free - gamma)
+    return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)

@@ -1,0 +1,47 @@
+"""Baumgarte stabilisation: the acceleration constraint is replaced by a damped oscillator in Phi."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+_SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
+
+
+class Baumgarte(Method):
+    """``Phi'' + 2 alpha Phi' + beta^2 Phi = 0`` in place of ``Phi'' = 0``.
+
+    ``alpha = beta`` is critically damped. The roots ``-alpha +- sqrt(alpha^2 - beta^2)`` belong to the integrated
+    system, so they limit the step: ``|root| h < 2.785`` for RK4. Nonholonomic rows have no ``Phi``: there the velocity
+    residual decays with ``2 alpha``.
+    """
+
+    name = "baumgarte"
+    summary = "violations decay like a damped oscillator with gains alpha, beta"
+    reference = "Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7"
+    parameters = (
+        MethodParameter("alpha", 5.0, "1/s", f"velocity gain; {_SOURCE}"),
+        MethodParameter("beta", 5.0, "1/s", f"position gain; {_SOURCE}"),
+    )
+
+    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law: gamma - 2 alpha Phi' - beta^2 Phi, Phi' = D v - nu."""
+        alpha, beta = system.parameter("alpha"), system.parameter("beta")
+        drift = system.D @ system.v - system.nu
+        return multiplier_law(system, system.gamma - (2.0 * alpha) * drift - (beta**2) * system.phi)
+
+    def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
+        """Return ``boundary / |root|`` for the root farthest from the origin."""
+        alpha, beta = parameters["alpha"], parameters["beta"]
+        inside = alpha**2 - beta**2
+        root = alpha + math.sqrt(inside) if inside >= 0.0 else beta
+        return boundary / root if root > 0.0 else None
+
+
+KIND = Baumgarte()

@@ -1,0 +1,43 @@
+"""Direct correction of positions and velocities with the Moore-Penrose inverse of the Jacobian."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.methods._base import Acceleration, Method, MethodOption, MethodParameter, multiplier_law
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+
+class DirectCorrection(Method):
+    """As `lagrange`; after each accepted step ``dv = -D^+ Phi``, ``q <- q + N dv`` until small, then ``v -= D^+ (D v - nu)``.
+
+    ``D^+ = W^-1 D^T (D W^-1 D^T)^-1``: with weight W = 1 the Moore-Penrose inverse of the source; with W = M the
+    mass-orthogonal projection. The minimum-norm metric weighs 1 rad like 1 m: well defined, not unit-invariant.
+    """
+
+    name = "direct-correction"
+    summary = "positions and velocities are projected after each step with the pseudoinverse of D"
+    reference = (
+        "Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; "
+        "Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064"
+    )
+    parameters = (
+        MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
+    )
+    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),)
+    position_correction = True
+    velocity_correction = True
+
+    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law: that of `lagrange`."""
+        return multiplier_law(system, system.gamma)
+
+    def metric(self, options: Mapping[str, str]) -> str:
+        """Return the chosen weight."""
+        return options["weight"]
+
+
+KIND = DirectCorrection()

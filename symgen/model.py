@@ -1,0 +1,212 @@
+"""A compiled model: the emitted functions with what the runtime has to know about them, readable without SymPy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.store.modules import load_module
+
+if TYPE_CHECKING:
+    from symgen.formulate.equations import Equations
+    from symgen.ir.program import LawProgram, ModelProgram
+
+Array = NDArray[np.float64]
+
+
+class Quantity(msgspec.Struct, frozen=True):
+    """A named scalar with its unit."""
+
+    name: str
+    unit: str
+
+
+class Row(msgspec.Struct, frozen=True):
+    """A constraint row."""
+
+    name: str
+    joint: str
+    unit: str
+    holonomic: bool
+
+
+class ModelInfo(msgspec.Struct, frozen=True):
+    """Metadata of an emitted ``model`` module.
+
+    `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
+    or None, slot or None) of D's structural entries.
+    """
+
+    name: str
+    digest: str
+    parameters: tuple[Quantity, ...]
+    coordinates: tuple[Quantity, ...]
+    velocities: tuple[Quantity, ...]
+    rows: tuple[Row, ...]
+    joint_coordinates: tuple[Quantity, ...]
+    sections: dict[str, tuple[int, int]]
+    jacobian: tuple[tuple[int, int, float | None, int | None], ...]
+    hoisted: int
+    dropped_rows: tuple[str, ...]
+    operations: dict[str, int]
+
+    @classmethod
+    def of(cls, program: ModelProgram, equations: Equations) -> ModelInfo:
+        """Collect the metadata of a program."""
+        return cls(
+            name=program.name,
+            digest=program.digest,
+            parameters=tuple(Quantity(p.name, p.unit) for p in equations.parameters),
+            coordinates=tuple(Quantity(q.name, q.unit) for q in equations.coordinates),
+            velocities=tuple(Quantity(v.name, v.unit) for v in equations.velocities),
+            rows=tuple(Row(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
+            joint_coordinates=tuple(Quantity(c.name, c.unit) for c in equations.joint_coordinates),
+            sections=dict(program.layout.sections),
+            jacobian=tuple((e.row, e.column, e.constant, e.slot) for e in program.jacobian),
+            hoisted=program.hoisted,
+            dropped_rows=equations.dropped_rows,
+            operations={b.name: b.operations for b in program.blocks},
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+        return len(self.velocities)
+
+    @property
+    def m(self) -> int:
+        """Number of constraint rows."""
+        return len(self.rows)
+
+    @property
+    def ny(self) -> int:
+        """Length of the state: q, v and the work."""
+        return self.nq + self.nv + 1
+
+
+class LawInfo(msgspec.Struct, frozen=True):
+    """Metadata of an emitted law module; `parameters` are (name, default) pairs."""
+
+    method: str
+    key: str
+    options: dict[str, str]
+    parameters: tuple[tuple[str, float], ...]
+    parameter_offset: int
+    hoisted: int
+    position_correction: bool
+    velocity_correction: bool
+    nw: int
+    operations: dict[str, int]
+
+    @classmethod
+    def of(cls, program: LawProgram) -> LawInfo:
+        """Collect the metadata of a program."""
+        return cls(
+            method=program.method,
+            key=program.key,
+            options=dict(program.options),
+            parameters=program.parameters,
+            parameter_offset=program.parameter_offset,
+            hoisted=program.hoisted,
+            position_correction=program.position_correction,
+            velocity_correction=program.velocity_correction,
+            nw=program.layout.nw,
+            operations={b.name: b.operations for b in program.blocks},
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+
+@dataclass(frozen=True)
+class CompiledModel:
+    """Emitted functions of one model and one method, ready for the loops.
+
+    Nothing is compiled by loading: each function is compiled, or read from the cache, when a loop first takes it.
+    """
+
+    info: ModelInfo
+    law: LawInfo
+    model: ModuleType
+    law_module: ModuleType
+    derive_seconds: float = 0.0
+    emit_seconds: float = 0.0
+
+    def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
+        """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""
+        law = self.law
+        p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
+        for i, q in enumerate(self.info.parameters):
+            p[i] = parameters[q.name]
+        for i, (name, default) in enumerate(law.parameters):
+            p[law.parameter_offset + i] = method_parameters.get(name, default)
+        return p
+
+    def scratch(self) -> Array:
+        """Return a new scratch array ``w``."""
+        w = np.zeros(max(1, self.law.nw))
+        self.section(w, "pivot")[:] = 1.0
+        return w
+
+    def section(self, w: Array, name: str) -> Array:
+        """Return a view of one section of ``w``."""
+        offset, size = self.info.sections[name]
+        return w[offset : offset + size]
+
+    def jacobian(self, w: Array) -> Array:
+        """Return D as a dense matrix from what ``geometry`` left in ``w``; shape (m, nv)."""
+        values = self.section(w, "jacobian")
+        d = np.zeros((self.info.m, self.info.nv))
+        for row, column, constant, slot in self.info.jacobian:
+            d[row, column] = constant if slot is None else values[slot]
+        return d
+
+
+def load_compiled(
+    folder: Path,
+    stem: str,
+    model: Mapping[str, Any],
+    law: Mapping[str, Any],
+    derive_seconds: float = 0.0,
+    emit_seconds: float = 0.0,
+) -> CompiledModel:
+    """Load the emitted modules of a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Holds ``model.py`` and ``<stem>.py``.
+    stem : str
+        File stem of the law.
+    model, law : mapping
+        Their metadata.
+    derive_seconds, emit_seconds : float
+        What generating them took, 0 if they were found.
+    """
+    return CompiledModel(
+        info=msgspec.convert(model, ModelInfo),
+        law=msgspec.convert(law, LawInfo),
+        model=load_module(folder / "model.py"),
+        law_module=load_module(folder / f"{stem}.py"),
+        derive_seconds=derive_seconds,
+        emit_seconds=emit_seconds,
+    )

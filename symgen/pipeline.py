@@ -1,0 +1,157 @@
+"""The one function whose lines are the stages.
+
+    mechanism --formulate--> equations --lower--> program --emit--> source --load--> compiled model
+
+`generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and loads
+it. SymPy and Jinja2 are imported only when something has to be generated.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from symgen.describe.digest import digest as mechanism_digest
+from symgen.describe.mechanism import Mechanism
+from symgen.ir.program import FORMAT
+from symgen.methods import METHODS
+from symgen.methods._base import Method
+from symgen.model import CompiledModel, LawInfo, ModelInfo, load_compiled
+from symgen.store.entries import Entries, FolderName
+
+
+@dataclass(frozen=True)
+class Generated:
+    """Emitted source with its metadata: ``model`` and one module a law, by file stem."""
+
+    folder: str
+    modules: Mapping[str, tuple[str, Mapping[str, Any]]]
+    derive_seconds: float
+    emit_seconds: float
+
+
+@dataclass(frozen=True)
+class MethodChoice:
+    """A method with its structural options, as asked for."""
+
+    method: Method
+    options: Mapping[str, str]
+
+    @property
+    def stem(self) -> str:
+        """File stem of its module."""
+        return self.method.stem(self.options)
+
+
+def choose_method(name: str, options: Mapping[str, str] | None = None) -> MethodChoice:
+    """Return the method called `name` with its options, defaults filled in.
+
+    Raises
+    ------
+    InputError
+        If there is no such method or option.
+    """
+    method = METHODS.get(name, "--method")
+    return MethodChoice(method, method.complete_options(options or {}))
+
+
+def folder_of(mechanism: Mechanism) -> str:
+    """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
+    digest = hashlib.sha256(f"{mechanism_digest(mechanism)} {generator_digest()}".encode()).hexdigest()
+    return str(FolderName(mechanism.name, digest, FORMAT))
+
+
+@lru_cache(maxsize=1)
+def generator_digest() -> str:
+    """Return the digest of everything that shapes emitted code: sources, templates and SymPy's version."""
+    package = Path(__file__).resolve().parent
+    inside, beside = package / "templates", package.parent / "templates"
+    templates = inside if inside.is_dir() else beside
+    digest = hashlib.sha256(_sympy_version().encode())
+    for folder in ("formulate", "ir", "lower", "emit", "methods"):
+        for path in sorted((package / folder).glob("*.py")):
+            digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    for path in sorted((templates / "numba").glob("*.j2")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def _sympy_version() -> str:
+    """Return SymPy's version without importing SymPy, which costs more than a whole warm run."""
+    spec = find_spec("sympy")
+    if spec is None or spec.origin is None:
+        return "absent"
+    return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
+
+
+def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...]) -> Generated:
+    """Derive, lower and emit `mechanism` with every method of `choices`.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choices : tuple of MethodChoice
+        One law module is emitted for each.
+
+    Returns
+    -------
+    Generated
+        The source of ``model`` and of every law, with metadata.
+    """
+    from symgen.emit.emit import emit_law, emit_model
+    from symgen.formulate.formulate import formulate
+    from symgen.lower.lower import lower_law, lower_model
+
+    began = time.perf_counter()
+    folder = folder_of(mechanism)
+    equations = formulate(mechanism)
+    derived = time.perf_counter()
+    program = lower_model(equations, mechanism_digest(mechanism))
+    modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
+    modules["model"] = (emit_model(program, equations), ModelInfo.of(program, equations).to_dict())
+    for choice in choices:
+        law = lower_law(equations, program, choice.method, choice.options)
+        source = emit_law(law, program, equations, choice.method.summary, choice.method.reference)
+        modules[choice.stem] = (source, LawInfo.of(law).to_dict())
+    return Generated(folder, modules, derived - began, time.perf_counter() - derived)
+
+
+def compile_model(mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None) -> CompiledModel:
+    """Return the compiled model of `mechanism` for one method, generated only if the cache does not have it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choice : MethodChoice
+        The method and its structural options.
+    entries : Entries, optional
+        The cache; by default the user's.
+    """
+    store = Entries() if entries is None else entries
+    folder = folder_of(mechanism)
+    derive_seconds = emit_seconds = 0.0
+    found = _find(store, folder, choice.stem)
+    if found is None:
+        with store.building(folder):
+            found = _find(store, folder, choice.stem)  # another process may have built it while this one waited
+            if found is None:
+                generated = generate(mechanism, (choice,))
+                derive_seconds, emit_seconds = generated.derive_seconds, generated.emit_seconds
+                for stem, (source, metadata) in generated.modules.items():
+                    store.put(folder, stem, source, metadata)
+                found = generated.modules["model"][1], generated.modules[choice.stem][1]
+    path = store.path(folder, choice.stem).parent
+    return load_compiled(path, choice.stem, found[0], found[1], derive_seconds, emit_seconds)
+
+
+def _find(store: Entries, folder: str, stem: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
+    model, law = store.get(folder, "model"), store.get(folder, stem)
+    return None if model is None or law is None else (model, law)

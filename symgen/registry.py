@@ -1,0 +1,108 @@
+"""Kinds found by looking: every module of a package folder is one kind, named after its file.
+
+The file ``pin_in_slot.py`` is the kind ``pin-in-slot``. Names are known from the file names alone; a module is imported
+when its kind is asked for. Adding a kind is adding a file.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+from collections.abc import Iterator, Mapping
+from typing import Generic, TypeVar, cast
+
+from symgen.errors import InputError, nearest
+
+T = TypeVar("T")
+
+_NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
+
+
+class Registry(Generic[T]):
+    """The kinds that live as modules in one package, plus any registered by hand.
+
+    Parameters
+    ----------
+    package : str
+        Dotted name of the package whose modules are kinds; modules with a leading underscore are not.
+    what : str
+        What one kind is called in messages, e.g. ``"joint type"``.
+    aliases : mapping of str to str, optional
+        Other names of kinds, e.g. ``{"prismatic": "translational"}``.
+    attribute : str, optional
+        The module's attribute that is the kind.
+    """
+
+    def __init__(
+        self, package: str, what: str, aliases: Mapping[str, str] | None = None, attribute: str = "KIND"
+    ) -> None:
+        self.package, self.what, self.attribute = package, what, attribute
+        self.aliases: dict[str, str] = dict(aliases or {})
+        self._modules: dict[str, str] | None = None
+        self._loaded: dict[str, T] = {}
+
+    def _scan(self) -> dict[str, str]:
+        """Return kind name -> module name, looking at the folder once."""
+        if self._modules is None:
+            found: dict[str, str] = {}
+            for module in pkgutil.iter_modules(importlib.import_module(self.package).__path__):
+                if not module.name.startswith("_"):
+                    found[self._checked(module.name.replace("_", "-"), found)] = module.name
+            for alias, target in self.aliases.items():
+                self._checked(alias, found)
+                if target not in found:
+                    raise ValueError(f"{self.what} alias '{alias}' stands for '{target}', which does not exist")
+            self._modules = found
+        return self._modules
+
+    def _checked(self, name: str, taken: Mapping[str, object]) -> str:
+        if not _NAME.fullmatch(name):
+            raise ValueError(f"{self.what} '{name}' is not a lower-case name with dashes")
+        if name in taken:
+            raise ValueError(f"{self.what} '{name}' is registered twice")
+        return name
+
+    def register(self, name: str, kind: T) -> T:
+        """Add `kind` under `name` for this process; a name that is taken is an error."""
+        self._checked(name, {**self._scan(), **self.aliases, **self._loaded})
+        self._loaded[name] = kind
+        return kind
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All kinds in alphabetical order, without aliases."""
+        return tuple(sorted({*self._scan(), *self._loaded}))
+
+    def canonical(self, name: str, where: str = "") -> str:
+        """Return `name` with an alias resolved, or raise `InputError` naming the nearest spelling."""
+        resolved = self.aliases.get(name, name)
+        if resolved not in self._loaded and resolved not in self._scan():
+            known = (*self.names, *self.aliases)
+            hint = nearest(name, known)
+            if not hint.startswith("known"):
+                hint += " (known: " + ", ".join(sorted(known)) + ")"
+            raise InputError(where or self.what, f"a {self.what}", f"'{name}'", hint)
+        return resolved
+
+    def get(self, name: str, where: str = "") -> T:
+        """Return the kind called `name` (or so by an alias), importing its module if need be."""
+        resolved = self.canonical(name, where)
+        if resolved not in self._loaded:
+            module = importlib.import_module(f"{self.package}.{self._scan()[resolved]}")
+            self._loaded[resolved] = cast(T, getattr(module, self.attribute))
+        return self._loaded[resolved]
+
+    def items(self) -> Iterator[tuple[str, T]]:
+        """Yield every name and kind in alphabetical order; imports all of them."""
+        for name in self.names:
+            yield name, self.get(name)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._loaded or name in self._scan() or name in self.aliases
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __len__(self) -> int:
+        return len(self.names)

@@ -1,0 +1,1 @@
+"""Results: labelled arrays, conversion, files."""

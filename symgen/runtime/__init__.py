@@ -1,0 +1,1 @@
+"""Loops and starts: imports NumPy and Numba only."""

@@ -1,0 +1,192 @@
+"""Consistent starts: positions closed by minimum-norm Newton, velocities completed by least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import AssemblyError, InputError
+from symgen.runtime.probe import call_masses, call_measure, call_prepare
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+
+Array = NDArray[np.float64]
+
+#: A pivot of D D^T (rows scaled) below this belongs to a dependent row; as in the emitted code.
+SKIP = 1e-12
+#: Singular values of D with scaled rows below this count as zero when the start is judged: the root of SKIP.
+RANK_CUTOFF = 1e-6
+_ITERATIONS = 60
+
+
+@dataclass(frozen=True)
+class Start:
+    """A consistent start.
+
+    Attributes
+    ----------
+    y : Array, shape (ny,)
+        State q, v and work 0.
+    p, w : Array
+        Parameters and scratch, prepared: scales and the mask of redundant rows are set.
+    rank : int
+        Rank of D at the start.
+    redundant_rows : tuple of str
+        Rows that depend on others at the start.
+    notes : tuple of str
+        What was changed to make the start consistent, one sentence each.
+    """
+
+    y: Array
+    p: Array
+    w: Array
+    rank: int
+    redundant_rows: tuple[str, ...]
+    notes: tuple[str, ...]
+
+
+def assemble(
+    compiled: CompiledModel, q: Array, v: Sequence[float | None], p: Array, t0: float = 0.0, strict: bool = False
+) -> Start:
+    """Close the mechanism from an approximate start.
+
+    Positions: ``dv = -D^+ Phi``, ``q <- q + N dv`` with the Moore-Penrose inverse until ``|Phi|`` is at rounding.
+    Velocities: the given ones are kept and the others are the smallest that satisfy ``D v = nu``; where the given ones
+    contradict the constraints, all are projected in the metric of the mass matrix.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    q : Array, shape (nq,)
+        Approximate coordinates.
+    v : sequence of float or None, length nv
+        Given velocities; None where they are to be completed.
+    p : Array
+        Parameters, not yet prepared.
+    t0 : float
+        Time of the start [s].
+    strict : bool
+        Refuse a start that is not consistent instead of projecting it.
+
+    Raises
+    ------
+    AssemblyError
+        If the mechanism stays open; says at which joint and by how much.
+    InputError
+        If `strict` and the start had to be changed.
+    """
+    info = compiled.info
+    call_prepare(compiled.model.prepare, p)
+    call_prepare(compiled.law_module.prepare, p)
+    w = compiled.scratch()
+    call_masses(compiled.model.masses, p, w)
+    masses = compiled.section(w, "mass")
+    if not np.all(masses > 0.0):
+        name = info.velocities[int(np.argmin(masses))].name.split(".")[0]
+        raise InputError(f"parameters: mass or inertia of {name}", "a value above 0", f"{float(masses.min()):g}")
+    if not np.all(np.isfinite(p)):
+        raise InputError("parameters", "values for which every formula is finite", "one that divides by 0 or overflows")
+    y = np.zeros(info.ny)
+    y[: info.nq] = q
+    notes: list[str] = []
+
+    moved = _close(compiled, t0, y, p, w)
+    if moved > 1e-9 * max(1.0, float(np.abs(q).max(initial=0.0))):
+        notes.append(f"initial positions were closed by minimum-norm Newton, moving a coordinate by up to {moved:.3g}")
+    d = compiled.jacobian(w)
+    changed = _complete_velocities(compiled, y, v, d, w)
+    if changed:
+        notes.append(changed)
+    if notes and strict:
+        raise InputError("initial state", "a consistent start (--strict)", f"{notes[0]}")
+
+    pivots = compiled.section(w, "pivot")
+    mask = compiled.section(w, "mask")
+    mask[pivots < SKIP] = np.inf
+    redundant = tuple(info.rows[i].name for i in np.flatnonzero(pivots < SKIP))
+    status = compiled.section(w, "status")
+    status[6] = max(1.0, float(np.abs(y[: info.nq]).max(initial=0.0)))
+    status[7] = max(1.0, float(np.abs(y[info.nq : -1]).max(initial=0.0)))
+    return Start(y, p, w, _rank(d), redundant, tuple(notes))
+
+
+def _scaled(d: Array) -> Array:
+    norms = np.linalg.norm(d, axis=1, keepdims=True)
+    return np.asarray(d / np.where(norms > 0.0, norms, 1.0))
+
+
+def _rank(d: Array) -> int:
+    if d.size == 0:
+        return 0
+    return int(np.sum(np.linalg.svd(_scaled(d), compute_uv=False) > RANK_CUTOFF))
+
+
+def _close(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> float:
+    """Close positions in place; return by how much a coordinate moved."""
+    info = compiled.info
+    first = y[: info.nq].copy()
+    phi = compiled.section(w, "phi")
+    best, stalled = np.inf, 0
+    for _ in range(_ITERATIONS):
+        call_measure(compiled.model.geometry, t0, y, p, w)
+        size = float(np.linalg.norm(phi))
+        if not np.isfinite(size):
+            break
+        floor = 1e-15 * max(1.0, float(np.abs(y).max())) * max(1, info.m)
+        stalled = stalled + 1 if size > 0.5 * best else 0
+        best = min(best, size)
+        if size <= floor or (stalled >= 3 and size < 1e-9 * max(1.0, float(np.abs(y).max()))):
+            return float(np.abs(y[: info.nq] - first).max(initial=0.0))
+        if stalled >= 15:
+            break
+        step = np.linalg.lstsq(compiled.jacobian(w), -phi, rcond=RANK_CUTOFF)[0]
+        # far from closed, a full Newton step can turn bodies by several radians
+        y[: info.nq] += step * min(1.0, 1.0 / max(float(np.abs(step).max(initial=0.0)), 1e-300))
+    open_by: dict[str, float] = {}
+    for row, residual in zip(info.rows, phi, strict=True):
+        open_by[row.joint] = float(np.hypot(open_by.get(row.joint, 0.0), residual))
+    worst = max(open_by, key=lambda joint: open_by[joint] if np.isfinite(open_by[joint]) else np.inf)
+    raise AssemblyError(
+        f"{info.name}: the mechanism cannot be assembled from this start: joint '{worst}' stays open by "
+        f"{open_by[worst]:.3g} m or rad; check its points and the positions of the bodies it joins"
+    )
+
+
+def _complete_velocities(
+    compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array, w: Array
+) -> str:
+    """Set the velocities in place; return a sentence if given ones had to be changed."""
+    info = compiled.info
+    velocity = y[info.nq : info.nq + info.nv]
+    given = np.array([x is not None for x in v], dtype=bool)
+    velocity[:] = [0.0 if x is None else x for x in v]
+    nu = compiled.section(w, "nu")
+    if info.m == 0:
+        return ""
+    residual = nu - d @ velocity
+    scale = max(1.0, float(np.abs(velocity).max()))
+    if not given.all():
+        velocity[~given] += np.linalg.lstsq(d[:, ~given], residual, rcond=RANK_CUTOFF)[0]
+        residual = nu - d @ velocity
+    if np.linalg.norm(residual) <= 1e-9 * scale:
+        # what is left is rounding: take it out without touching the given values noticeably
+        velocity += np.linalg.lstsq(d, residual, rcond=RANK_CUTOFF)[0]
+        return ""
+    before = velocity.copy()
+    for _ in range(2):
+        root = 1.0 / np.sqrt(compiled.section(w, "mass"))
+        velocity += root * np.linalg.lstsq(d * root, nu - d @ velocity, rcond=RANK_CUTOFF)[0]
+    if np.linalg.norm(nu - d @ velocity) > 1e-8 * scale:
+        raise AssemblyError(f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other")
+    k = int(np.argmax(np.abs(velocity - before)))
+    name = info.velocities[k]
+    return (
+        f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix; "
+        f"{name.name} changed from {before[k]:.6g} to {velocity[k]:.6g} {name.unit}"
+    )

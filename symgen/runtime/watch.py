@@ -1,0 +1,91 @@
+"""What happens at each accepted state, whatever the integrator: measures, limits and passages near singular positions."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.runtime import abi
+from symgen.store.jit import jit
+
+_PHI, _DRIFT, _KINETIC, _POTENTIAL, _PIVOT, _RANK = abi.PHI, abi.DRIFT, abi.KINETIC, abi.POTENTIAL, abi.PIVOT, abi.RANK
+_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
+_TIME, _MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.TIME, abi.MAX_PHI, abi.MAX_DRIFT, abi.MAX_ENERGY
+_START, _SCALE, _POTENTIAL_START = abi.ENERGY_START, abi.ENERGY_SCALE, abi.POTENTIAL_START
+_LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY
+_WARN, _SMALLEST, _ENTRY, _JUMP = abi.WARN_PIVOT, abi.SMALLEST_PIVOT, abi.ENERGY_ENTRY, abi.MAX_ENERGY_JUMP
+_EVENTS, _IN_ZONE, _LAST_RANK = abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK
+_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
+_IN, _OUT, _EVENT_RANK, _EVENT_PIVOT = abi.EVENT_IN, abi.EVENT_OUT, abi.EVENT_RANK, abi.EVENT_PIVOT
+_DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, abi.POSITION, abi.VELOCITY, abi.ENERGY
+
+
+@jit
+def keep_maxima(w: Any, work: float, gauges: Any) -> float:
+    """Update the largest violations and energy error from the status in `w`; return the energy error."""
+    if w[_PHI] > gauges[_MAX_PHI]:
+        gauges[_MAX_PHI] = w[_PHI]
+    if w[_DRIFT] > gauges[_MAX_DRIFT]:
+        gauges[_MAX_DRIFT] = w[_DRIFT]
+    error = w[_KINETIC] + w[_POTENTIAL] - gauges[_START] - work
+    if abs(error) > gauges[_MAX_ENERGY]:
+        gauges[_MAX_ENERGY] = abs(error)
+    return error
+
+
+@jit
+def watch(t: float, w: Any, work: float, gauges: Any, control: Any, events: Any) -> int:
+    """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
+
+    Parameters
+    ----------
+    t : float
+        Time of the state [s].
+    w : Array
+        Scratch with the status that ``accept`` left.
+    work : float
+        Work of forces without potential and of drivers so far [J].
+    gauges, control, events : Array
+        See `symgen.runtime.abi`; updated.
+    """
+    gauges[_TIME] = t
+    error = keep_maxima(w, work, gauges)
+    scale = max(w[_KINETIC], abs(w[_POTENTIAL] - gauges[_POTENTIAL_START]), abs(work))
+    if scale > gauges[_SCALE]:
+        gauges[_SCALE] = scale
+
+    pivot, rank = w[_PIVOT], int(w[_RANK])
+    if pivot < gauges[_SMALLEST]:
+        gauges[_SMALLEST] = pivot
+    near = pivot < gauges[_WARN]
+    if near or control[_IN_ZONE] == 1 or rank != control[_LAST_RANK]:
+        if near and control[_IN_ZONE] == 0:
+            gauges[_ENTRY] = error
+        elif not near and control[_IN_ZONE] == 1:
+            gauges[_JUMP] = max(gauges[_JUMP], abs(error - gauges[_ENTRY]))
+        k = control[_EVENTS] - 1
+        fresh = (near and control[_IN_ZONE] == 0) or (not near and control[_IN_ZONE] == 0 and rank != control[_LAST_RANK])
+        if fresh:
+            k += 1
+            control[_EVENTS] += 1
+            if k < _MAX_EVENTS:
+                events[k * _N_EVENT + _IN] = t
+                events[k * _N_EVENT + _EVENT_PIVOT] = pivot
+                events[k * _N_EVENT + _EVENT_RANK] = rank
+        if 0 <= k < _MAX_EVENTS:
+            events[k * _N_EVENT + _OUT] = t
+            events[k * _N_EVENT + _EVENT_PIVOT] = min(pivot, events[k * _N_EVENT + _EVENT_PIVOT])
+            events[k * _N_EVENT + _EVENT_RANK] = min(rank, events[k * _N_EVENT + _EVENT_RANK])
+        control[_IN_ZONE] = 1 if near else 0
+        control[_LAST_RANK] = rank
+
+    total = w[_PHI] + w[_DRIFT] + error
+    if not math.isfinite(total):
+        return _NOT_FINITE
+    if w[_PHI] > gauges[_LIMIT_PHI]:
+        return _POSITION
+    if w[_DRIFT] > gauges[_LIMIT_DRIFT]:
+        return _VELOCITY
+    if abs(error) > gauges[_LIMIT_ENERGY] * gauges[_SCALE] + 1e-9:
+        return _ENERGY
+    return _DONE

@@ -1,0 +1,197 @@
+"""Emitted modules in the cache: pairs of ``X.py`` and ``X.json``, in one folder for each model.
+
+The Python file is written first and its description, which holds the digest, last. A kill at any moment therefore
+leaves a valid pair or something that does not count, and two processes that write the same pair do not disturb each
+other.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from symgen.errors import SymgenError
+from symgen.store import private, upkeep
+from symgen.store.paths import ENVIRONMENT_VARIABLE, cache_root, private_folder
+
+FORMAT = 1
+
+_STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
+
+
+@dataclass(frozen=True)
+class FolderName:
+    """The name of a model's folder, ``<name>_<digest16>_<format>``, in its parts.
+
+    Attributes
+    ----------
+    name : str
+        The model's name: letters, digits, ``_`` and ``-``, at most 64.
+    digest : str
+        The first 16 hexadecimal digits of the digest of all that the modules are made from.
+    format : int
+        Number of the emitted format.
+    """
+
+    name: str
+    digest: str
+    format: int
+
+    def __str__(self) -> str:
+        text = f"{self.name}_{self.digest[:16]}_{self.format}"
+        if upkeep.MODEL_FOLDER.fullmatch(text) is None:
+            raise ValueError(f"'{text}' is not a folder name of the form '<name>_<digest16>_<format>'")
+        return text
+
+    @classmethod
+    def parse(cls, text: str) -> FolderName | None:
+        """Return the parts of a folder name, or None if it is not one."""
+        found = upkeep.MODEL_FOLDER.fullmatch(text)
+        return cls(found["name"], found["digest"], int(found["format"])) if found else None
+
+
+class Entries:
+    """The emitted modules below one cache folder.
+
+    Parameters
+    ----------
+    root : Path, optional
+        The cache folder; by default that of this process.
+    """
+
+    def __init__(self, root: Path | None = None) -> None:
+        self.root = cache_root() if root is None else root
+
+    def path(self, folder: str, stem: str) -> Path:
+        """Return where the Python file of an entry is, or would be.
+
+        Parameters
+        ----------
+        folder : str
+            Text of a `FolderName`.
+        stem : str
+            Name of the module, a Python identifier.
+
+        Returns
+        -------
+        Path
+            Path of ``<stem>.py``.
+        """
+        if FolderName.parse(folder) is None:
+            raise ValueError(f"'{folder}' is not a folder name of the form '<name>_<digest16>_<format>'")
+        if _STEM.fullmatch(stem) is None:
+            raise ValueError(f"'{stem}' is not the name of a module")
+        return self.root / upkeep.MODELS / folder / f"{stem}.py"
+
+    def get(self, folder: str, stem: str) -> dict[str, Any] | None:
+        """Return the description of an entry if the entry is there and whole, and note that it was used.
+
+        Parameters
+        ----------
+        folder, stem : str
+            As for `path`.
+
+        Returns
+        -------
+        dict or None
+            What was given to `put`; None if there is no valid entry. An invalid one is made to count no more.
+        """
+        path = self.path(folder, stem)
+        metadata = _validated(path)
+        if metadata is not None:
+            private.touch(path.with_suffix(".json"))
+        else:
+            # The description alone: another process may have written the new Python file just now and be about to
+            # describe it, and a Python file without description does not count anyway.
+            private.remove(path.with_suffix(".json"))
+        return metadata
+
+    def put(self, folder: str, stem: str, source: str, metadata: Mapping[str, Any]) -> None:
+        """Write an entry, over whatever is there.
+
+        Parameters
+        ----------
+        folder, stem : str
+            As for `path`.
+        source : str
+            The emitted module.
+        metadata : mapping
+            Whatever JSON can express, without nan and infinity.
+
+        Raises
+        ------
+        SymgenError
+            If the cache folder cannot be written.
+        """
+        path = self.path(folder, stem)
+        content = source.encode()
+        description = {"format": FORMAT, "sha256": hashlib.sha256(content).hexdigest(), "metadata": dict(metadata)}
+        text = json.dumps(description, allow_nan=False, indent=1, sort_keys=True) + "\n"
+        try:
+            private_folder(self.root)
+            private.write_own(path, content)
+            private.write_own(path.with_suffix(".json"), text.encode())
+        except OSError as error:
+            raise SymgenError(
+                f"The cache folder '{self.root}' cannot be written ({error.strerror or error}); "
+                f"set {ENVIRONMENT_VARIABLE} to another folder."
+            ) from error
+        upkeep.prune_sometimes(self.root)
+
+    @contextmanager
+    def building(self, folder: str) -> Iterator[None]:
+        """Hold a model's folder while its modules are being made; a second process waits here.
+
+        Ask `get` again inside: the process that was first may have made the entry. Where files cannot be locked there
+        is no waiting; both then do the work and write the same. Not to be nested for one folder.
+
+        Parameters
+        ----------
+        folder : str
+            As for `path`.
+        """
+        self.path(folder, "model")  # refuses a wrong name before it becomes a file
+        lock = upkeep.folder_lock(self.root, folder)
+        try:
+            lock.acquire(poll_interval=0.02)
+        except (OSError, NotImplementedError):
+            yield
+            return
+        try:
+            yield
+        finally:
+            lock.release()
+
+    def info(self) -> upkeep.CacheInfo:
+        """Return what the whole cache holds: emitted modules, compiled functions and bytes."""
+        return upkeep.info(self.root)
+
+    def clear(self) -> upkeep.CacheInfo:
+        """Remove all that symgen wrote below the root, except what another process is making; return what is left."""
+        return upkeep.clear(self.root)
+
+    def prune(self, limit: int = upkeep.LIMIT) -> upkeep.CacheInfo:
+        """Remove what was not used for longest until no more than `limit` bytes are left; return what is left."""
+        return upkeep.prune(self.root, limit)
+
+
+def _validated(path: Path) -> dict[str, Any] | None:
+    text = private.read_own(path.with_suffix(".json"))
+    content = private.read_own(path)
+    if text is None or content is None:
+        return None
+    try:
+        description = json.loads(text)
+    except (ValueError, RecursionError):  # a UnicodeDecodeError is a ValueError
+        return None
+    if not isinstance(description, dict) or description.get("format") != FORMAT:
+        return None
+    metadata = description.get("metadata")
+    whole = description.get("sha256") == hashlib.sha256(content).hexdigest()
+    return metadata if whole and isinstance(metadata, dict) else None

@@ -1,0 +1,212 @@
+"""Emitted modules as Python modules: found by path, named by their folder, with the crash-safe cache attached.
+
+The name is what Numba writes into machine code, so it is the same in every process:
+``symgen_generated.<folder>.<stem>``. The package exists in memory only; an emitted module may import its siblings
+(``from .model import geometry``), and these are loaded from the same folder first. What counts is content: nothing here
+looks at a file's time, and no byte code is written beside the modules.
+"""
+
+from __future__ import annotations
+
+import dis
+import hashlib
+import importlib.util
+import marshal
+import re
+import sys
+import threading
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.machinery import ModuleSpec
+from pathlib import Path
+from types import CodeType, ModuleType
+
+from symgen.errors import InputError
+from symgen.store import private
+from symgen.store.paths import cache_location
+from symgen.store.upkeep import BYTECODE
+
+PACKAGE = "symgen_generated"
+
+
+_STAMP = "__symgen_stamp__"
+_lock = threading.RLock()
+
+
+@dataclass(frozen=True)
+class _Source:
+    """An emitted file that was read: where, its content's digest, its code, and the siblings it imports."""
+
+    path: Path
+    digest: str
+    code: CodeType
+    siblings: tuple[str, ...]
+
+
+def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleType:
+    """Load an emitted module, from the cache or from any folder, and let its functions use the cache.
+
+    Loading the same content again gives the same module. If other content is already loaded under the name, the new
+    module goes into a package of its own whose name holds a digest.
+
+    Parameters
+    ----------
+    path : str or Path
+        The emitted file.
+    qualified_name : str, optional
+        Dotted name with at least one package; by default ``symgen_generated.<folder>.<stem>``.
+
+    Returns
+    -------
+    ModuleType
+        The executed module, registered in ``sys.modules``.
+
+    Raises
+    ------
+    InputError
+        If the file, or a sibling that it imports, is missing or is not Python.
+    """
+    path = Path(path).absolute()
+    package, _, stem = (qualified_name or _default_name(path)).rpartition(".")
+    if not package:
+        raise InputError("qualified_name", "a dotted name such as 'package.module'", f"'{qualified_name}'")
+    with _lock:
+        sources = {source.path.stem: source for source in _closure(path)}
+        stamps = {name: _stamp(name, sources) for name in sources}
+        names = {name: stem if name == path.stem else name for name in sources}
+        if any(_taken(f"{package}.{names[name]}", stamps[name]) for name in sources):
+            package += f"_{stamps[path.stem][:16]}"
+        _register_package(package)
+        for name, source in sources.items():  # siblings come before those who import them
+            module = _execute(f"{package}.{names[name]}", source, stamps[name])
+    return module
+
+
+def _default_name(path: Path) -> str:
+    return f"{PACKAGE}.{path.parent.name.replace('.', '_')}.{path.stem}"
+
+
+def _closure(path: Path) -> Iterator[_Source]:
+    """Give the file and all siblings it needs, those first that are needed by others."""
+    seen: set[Path] = set()
+
+    def visit(file: Path) -> Iterator[_Source]:
+        seen.add(file)
+        source = _read(file)
+        for name in source.siblings:
+            sibling = file.with_name(f"{name}.py")
+            if sibling not in seen:
+                yield from visit(sibling)
+        yield source
+
+    return visit(path)
+
+
+def _read(path: Path) -> _Source:
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputError(str(path), "a generated module", error.strerror or "an unreadable file") from error
+    digest = hashlib.sha256(content).hexdigest()
+    code = _code(path, content, digest)
+    return _Source(path, digest, code, tuple(_siblings(code)))
+
+
+def _code(path: Path, content: bytes, digest: str) -> CodeType:
+    """Translate to byte code, which for a long module takes longer than everything else that loading does."""
+    key = f"{importlib.util.MAGIC_NUMBER.hex()} {sys.version} {path} {digest}"
+    name = hashlib.sha256(key.encode()).hexdigest()[:32]
+    location = cache_location()
+    kept = location.path / BYTECODE / f"{re.sub(r'[^0-9A-Za-z_.-]', '_', path.stem)[-60:]}-{name}{private.SUFFIX}"
+    data = private.read(kept, key) if location.persistent else None
+    if data is not None:
+        try:
+            code = marshal.loads(data)
+            if isinstance(code, CodeType):
+                return code
+        except (EOFError, ValueError, TypeError):
+            pass
+    try:
+        code = compile(content, str(path), "exec", dont_inherit=True)
+    except (SyntaxError, ValueError) as error:
+        raise InputError(str(path), "a generated module", f"text that is not Python ({error})") from error
+    if location.persistent:
+        private.write(kept, key, marshal.dumps(code))
+    return code
+
+
+def _siblings(code: CodeType) -> Iterator[str]:
+    """Give the names in ``from .name import ...`` and ``from . import name`` at the top of a module."""
+    constants: list[object] = []
+    for instruction in dis.get_instructions(code):
+        if instruction.opname == "LOAD_CONST":
+            constants.append(instruction.argval)
+        elif instruction.opname == "IMPORT_NAME":
+            level, names = constants[-2:]  # pushed just before, in this order
+            if level == 1 and instruction.argval:
+                yield instruction.argval
+            elif level == 1 and isinstance(names, tuple):
+                yield from names
+
+
+def _stamp(name: str, sources: dict[str, _Source]) -> str:
+    """Digest a module together with everything it imports, since machine code contains what it calls."""
+    reached: set[str] = set()
+    waiting = [name]
+    while waiting:
+        if (current := waiting.pop()) not in reached:
+            reached.add(current)
+            waiting.extend(sources[current].siblings)
+    text = "".join(f"{each} {sources[each].digest}\n" for each in sorted(reached))
+    return hashlib.sha256(f"{name}\n{text}".encode()).hexdigest()
+
+
+def _taken(name: str, stamp: str) -> bool:
+    return name in sys.modules and getattr(sys.modules[name], _STAMP, None) != stamp
+
+
+def _register_package(name: str) -> None:
+    """Make a package, and those around it, in memory: with an empty path nothing is imported that was not read here."""
+    parent, _, last = name.rpartition(".")
+    if name in sys.modules:
+        return
+    if parent:
+        _register_package(parent)
+    package = ModuleType(name, "Package of emitted modules; exists in memory only.")
+    package.__path__ = []
+    package.__package__ = name
+    package.__spec__ = ModuleSpec(name, None, is_package=True)
+    sys.modules[name] = package
+    if parent:
+        setattr(sys.modules[parent], last, package)
+
+
+def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
+    if name in sys.modules:
+        return sys.modules[name]
+    package, _, last = name.rpartition(".")
+    module = ModuleType(name)
+    module.__file__ = str(source.path)
+    module.__package__ = package
+    module.__spec__ = ModuleSpec(name, None, origin=str(source.path))
+    setattr(module, _STAMP, stamp)
+    # Before it is executed: Numba looks the module up by name when it takes compiled code from the cache.
+    sys.modules[name] = module
+    try:
+        exec(source.code, module.__dict__)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    setattr(sys.modules[package], last, module)
+    _attach(module, stamp)
+    return module
+
+
+def _attach(module: ModuleType, stamp: str) -> None:
+    own = [value for value in vars(module).values() if getattr(value, "py_func", None) is not None]
+    if own:
+        from symgen.store.jit import attach
+
+        for value in own:
+            if value.py_func.__module__ == module.__name__:
+                attach(value, stamp)

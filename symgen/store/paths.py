@@ -1,0 +1,164 @@
+"""Where the cache is: the user's cache folder, the folder named by ``SYMGEN_CACHE_DIR``, or a temporary one."""
+
+from __future__ import annotations
+
+import atexit
+import os
+import shutil
+import stat
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+ENVIRONMENT_VARIABLE = "SYMGEN_CACHE_DIR"
+
+_ATTEMPTS = 100
+
+_TAG_NAME = "CACHEDIR.TAG"
+_TAG_TEXT = (
+    "Signature: 8a477f597d28d172789f06886806bc55\n"
+    "# This folder is a cache made by symgen; `symgen cache clear` empties it.\n"
+    "# About cache folder tags: https://bford.info/cachedir/\n"
+)
+
+
+@dataclass(frozen=True)
+class CacheLocation:
+    """The cache folder of this process.
+
+    Attributes
+    ----------
+    path : Path
+        Folder that exists, belongs to the user and can be written.
+    persistent : bool
+        False if `path` is a temporary folder that is removed when the process ends.
+    reason : str
+        Why the wanted folder is not used, as a sentence; empty if it is used.
+    """
+
+    path: Path
+    persistent: bool
+    reason: str = ""
+
+
+# By process and wish: a forked child must not share its parent's temporary folder, which the parent removes.
+_known: dict[tuple[int, str | None], CacheLocation] = {}
+
+
+def cache_location() -> CacheLocation:
+    """Return the cache folder with the reason for it; the folder is made when it is missing.
+
+    Returns
+    -------
+    CacheLocation
+        The same object for every call, until ``SYMGEN_CACHE_DIR`` changes.
+    """
+    wish = os.environ.get(ENVIRONMENT_VARIABLE) or None
+    key = (os.getpid(), wish)
+    if key not in _known:
+        _known[key] = _locate(wish)
+    return _known[key]
+
+
+def cache_root() -> Path:
+    """Return the cache folder of this process; it exists and can be written."""
+    return cache_location().path
+
+
+def is_ours(status: os.stat_result, *, private: bool = False) -> bool:
+    """Say whether a file or folder belongs to the user and nobody else can change it.
+
+    Parameters
+    ----------
+    status : os.stat_result
+        What ``stat`` says about it.
+    private : bool, default False
+        Require that nobody else can read it either.
+
+    Returns
+    -------
+    bool
+        Always True where the system knows no owners (Windows).
+    """
+    if not hasattr(os, "geteuid"):
+        return True
+    forbidden = (stat.S_IRWXG | stat.S_IRWXO) if private else (stat.S_IWGRP | stat.S_IWOTH)
+    return status.st_uid == os.geteuid() and not status.st_mode & forbidden
+
+
+def private_folder(path: Path) -> bool:
+    """Make a folder that only the user can enter, and say whether it is one.
+
+    Parameters
+    ----------
+    path : Path
+        The folder; its parents are made as well. A link is refused.
+
+    Returns
+    -------
+    bool
+        False if it cannot be made, is no folder, or is open to others.
+    """
+    for _ in range(_ATTEMPTS):
+        try:
+            status = os.lstat(path)
+            return stat.S_ISDIR(status.st_mode) and is_ours(status, private=True)
+        except OSError:
+            pass
+        try:
+            _make(path)
+        except FileNotFoundError:  # another process, clearing the cache, removed the parent that was just made
+            continue
+        except OSError:
+            return False
+    return False
+
+
+def _locate(wish: str | None) -> CacheLocation:
+    try:
+        if wish is None:
+            import platformdirs
+
+            path = Path(platformdirs.user_cache_path("symgen", appauthor=False))
+        else:
+            path = Path(wish).expanduser().absolute()
+        reason = _refusal(path)
+    except (OSError, RuntimeError) as error:  # no home folder at all is a RuntimeError
+        return _temporary(f"the cache folder cannot be used: {error}")
+    return CacheLocation(path, persistent=True) if not reason else _temporary(reason)
+
+
+def _refusal(path: Path) -> str:
+    """Make `path` if it is missing; return why it must not be used, or nothing."""
+    try:
+        if not path.exists():
+            _make(path)
+            (path / _TAG_NAME).write_text(_TAG_TEXT, encoding="utf-8")
+        status = path.stat()
+        if not stat.S_ISDIR(status.st_mode):
+            return f"the cache folder '{path}' is not a folder"
+        if not is_ours(status):
+            return f"the cache folder '{path}' belongs to, or can be changed by, somebody else"
+        # Access rights lie on read-only file systems and for the superuser, so really write.
+        tempfile.TemporaryFile(dir=path).close()
+    except OSError as error:
+        return f"the cache folder '{path}' cannot be written: {error.strerror or error}"
+    return ""
+
+
+def _make(path: Path) -> None:
+    """Make a folder and its parents, each for the user only (`Path.mkdir` gives the mode to the last one alone)."""
+    if not path.parent.is_dir():
+        _make(path.parent)
+    path.mkdir(mode=0o700, exist_ok=True)
+
+
+def _temporary(reason: str) -> CacheLocation:
+    path = Path(tempfile.mkdtemp(prefix="symgen-"))
+    atexit.register(_remove, path, os.getpid())
+    return CacheLocation(path, persistent=False, reason=reason)
+
+
+def _remove(path: Path, process: int) -> None:
+    if os.getpid() == process:
+        shutil.rmtree(path, ignore_errors=True)

@@ -1,0 +1,159 @@
+"""Files that only we read back: they carry a digest of their content and are opened only if they are the user's own.
+
+Cached machine code and byte code are as powerful as programs, and unpickling a foreign file runs it. Such data are
+therefore read only from a regular file that belongs to the user, in a folder nobody else can enter, and only after the
+digest in the file's head has been compared with its content.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import os
+import stat
+from pathlib import Path
+
+from symgen.store.paths import is_ours, private_folder
+
+SUFFIX = ".bin"
+TEMPORARY = ".tmp-"
+
+_MAGIC = b"symgen private 1\n"
+_HEAD = len(_MAGIC) + hashlib.sha256().digest_size
+_ATTEMPTS = 100
+# Names that do not exist everywhere; without them the flags are simply not set.
+_READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+_WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+
+
+def read(path: Path, key: str) -> bytes | None:
+    """Return what was written for a key, or nothing.
+
+    Parameters
+    ----------
+    path : Path
+        File written by `write`.
+    key : str
+        The same text as given to `write`: a file renamed or copied to another key's place is a miss.
+
+    Returns
+    -------
+    bytes or None
+        None if the file is missing, damaged, or not the user's own. A damaged file is removed.
+    """
+    content = read_own(path)
+    if content is None:
+        return None
+    head, data = content[:_HEAD], content[_HEAD:]
+    if head != _head(key, data):
+        remove(path)
+        return None
+    touch(path)
+    return data
+
+
+def read_own(path: Path) -> bytes | None:
+    """Return the content of a file if it is the user's own, in a folder that nobody else can enter.
+
+    Parameters
+    ----------
+    path : Path
+        A regular file; a link is refused.
+
+    Returns
+    -------
+    bytes or None
+        None if the file cannot be read or is not the user's own.
+    """
+    try:
+        if not private_folder(path.parent):
+            return None
+        descriptor = os.open(path, _READ)
+        with open(descriptor, "rb") as file:
+            # Ask about what was opened, not about the name, which may stand for something else by now.
+            status = os.fstat(descriptor)
+            return file.read() if stat.S_ISREG(status.st_mode) and is_ours(status) else None
+    except OSError:
+        return None
+
+
+def write(path: Path, key: str, data: bytes) -> bool:
+    """Write data for a key so that a reader finds all of it or the former content.
+
+    Parameters
+    ----------
+    path : Path
+        File to be written; its folder is made when missing.
+    key : str
+        Text without which the file cannot be read back.
+    data : bytes
+        What to keep.
+
+    Returns
+    -------
+    bool
+        False if it could not be written; nothing is left behind then.
+    """
+    try:
+        write_own(path, _head(key, data) + data)
+    except OSError:
+        return False
+    return True
+
+
+def write_own(path: Path, content: bytes) -> None:
+    """Write a file through a temporary sibling, for the user only.
+
+    Parameters
+    ----------
+    path : Path
+        File to be written; its folder is made when missing.
+    content : bytes
+        All of the new content.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written or the folder is not the user's own; nothing is left behind then.
+    """
+    for attempt in range(_ATTEMPTS):
+        if not private_folder(path.parent):
+            raise PermissionError(errno.EACCES, "the folder is not private", str(path.parent))
+        sibling = path.with_name(f"{TEMPORARY}{os.urandom(12).hex()}")
+        try:
+            descriptor = os.open(sibling, _WRITE, 0o600)
+            try:
+                with open(descriptor, "wb") as file:
+                    file.write(content)
+                os.replace(sibling, path)
+            except BaseException:
+                remove(sibling)
+                raise
+            return
+        except FileNotFoundError:  # somebody cleared the cache meanwhile
+            if attempt == _ATTEMPTS - 1:
+                raise
+
+
+def remove(path: Path) -> bool:
+    """Remove a file; False if it could not be removed or was not there."""
+    try:
+        path.unlink()
+    except OSError:
+        return False
+    return True
+
+
+def touch(path: Path) -> None:
+    """Note that a file was used, for the removal of what was not used for longest."""
+    try:
+        os.utime(path)
+    except OSError:
+        pass
+
+
+def _head(key: str, data: bytes) -> bytes:
+    digest = hashlib.sha256(key.encode())
+    digest.update(b"\0")
+    digest.update(data)
+    return _MAGIC + digest.digest()

@@ -1,0 +1,28 @@
+"""How often compiled code was found in the cache, and what compiling and loading cost."""
+
+from __future__ import annotations
+
+from typing import TypedDict
+
+
+class CacheStats(TypedDict):
+    """Counters of this process since it started; take the difference of two for one run.
+
+    `compile_seconds` holds translation by Numba and writing to the cache, `load_seconds` reading from it. Functions
+    that are compiled or loaded while another one is being compiled are counted in `hits` and `misses`, and their
+    seconds belong to the outer one, so the two sums never hold the same second twice.
+    """
+
+    hits: int
+    misses: int
+    compile_seconds: float
+    load_seconds: float
+
+
+# One for the process: written only under Numba's compiler lock.
+counters = CacheStats(hits=0, misses=0, compile_seconds=0.0, load_seconds=0.0)
+
+
+def cache_stats() -> CacheStats:
+    """Return a copy of the counters of this process."""
+    return counters.copy()

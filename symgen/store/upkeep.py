@@ -1,0 +1,237 @@
+"""Size of the cache, and removal: of everything, or of what was not used for longest.
+
+Only files that this package writes are ever removed, told by folder and by name, so that a cache folder that was
+pointed at something else by mistake loses nothing. A file that another process removes or writes meanwhile is left to
+it.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen.store import private
+from symgen.store.paths import private_folder
+
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
+MODELS, NATIVE, BYTECODE, LOCKS = "models", "native", "bytecode", "locks"
+LIMIT = 10**9
+
+# `<name>_<digest16>_<format>`: the digest has a fixed length, so underscores in the name do no harm.
+MODEL_FOLDER = re.compile(
+    r"(?P<name>[A-Za-z0-9][A-Za-z0-9_-]{0,63})_(?P<digest>[0-9a-f]{16})_(?P<format>0|[1-9][0-9]{0,5})"
+)
+
+_NOTE = "pruned"
+_DAY = 86400.0
+# A temporary file older than this was left by a process that was killed.
+_ABANDONED = 3600.0
+
+
+@dataclass(frozen=True)
+class CacheInfo:
+    """What a cache holds.
+
+    Attributes
+    ----------
+    entries : int
+        Emitted modules.
+    compiled : int
+        Compiled signatures of functions.
+    bytes : int
+        Size of all files together.
+    """
+
+    entries: int
+    compiled: int
+    bytes: int
+
+
+@dataclass(frozen=True)
+class _Item:
+    """What is removed together: its files in the order of removal, when it was last used, and its size."""
+
+    files: tuple[Path, ...]
+    used: float
+    bytes: int
+
+
+def info(root: Path) -> CacheInfo:
+    """Count what is in a cache folder."""
+    models = list(_models(root))
+    native = list(_files(root / NATIVE, private.SUFFIX))
+    others = list(_files(root / BYTECODE, private.SUFFIX))
+    return CacheInfo(len(models), len(native), sum(item.bytes for item in (*models, *native, *others)))
+
+
+def clear(root: Path) -> CacheInfo:
+    """Remove all that symgen wrote, except the folders of models that another process is making now.
+
+    The locks, which are empty files, stay: two processes must not hold a lock by the same name on different files.
+
+    Parameters
+    ----------
+    root : Path
+        The cache folder; it stays.
+
+    Returns
+    -------
+    CacheInfo
+        What is left.
+    """
+    for folder in _model_folders(root):
+        lock = folder_lock(root, folder.name)
+        try:
+            lock.acquire(timeout=0)
+        except (OSError, NotImplementedError):  # Timeout is an OSError: somebody is at work there
+            continue
+        try:
+            for item in _pairs(folder):
+                _remove(item)
+            _remove_temporary(folder, 0.0)
+            _remove_folder(folder)
+        finally:
+            lock.release()
+    for name in (NATIVE, BYTECODE):
+        for item in _files(root / name, private.SUFFIX):
+            _remove(item)
+        _tidy(root / name, 0.0)
+    for name in (MODELS, NATIVE, BYTECODE):
+        _remove_folder(root / name)
+    private.remove(root / _NOTE)
+    return info(root)
+
+
+def prune(root: Path, limit: int = LIMIT) -> CacheInfo:
+    """Remove what was not used for longest until the cache is small enough, and what killed processes left behind.
+
+    Parameters
+    ----------
+    root : Path
+        The cache folder.
+    limit : int, default 1 GB
+        Bytes that may stay.
+
+    Returns
+    -------
+    CacheInfo
+        What is left.
+    """
+    items = [
+        *_models(root),
+        *_files(root / NATIVE, private.SUFFIX),
+        *_files(root / BYTECODE, private.SUFFIX),
+    ]
+    excess = sum(item.bytes for item in items) - limit
+    for item in sorted(items, key=lambda item: (item.used, item.files)):
+        if excess <= 0:
+            break
+        _remove(item)
+        excess -= item.bytes
+    for name in (NATIVE, BYTECODE):
+        _tidy(root / name, _ABANDONED)
+    for folder in _model_folders(root):
+        _remove_temporary(folder, _ABANDONED)
+        _remove_folder(folder)
+    return info(root)
+
+
+def prune_sometimes(root: Path) -> None:
+    """Prune if nobody did so for a day; looking at the date of one file is all that this costs otherwise."""
+    note = root / _NOTE
+    with suppress(OSError):
+        if note.exists() and time.time() - note.stat().st_mtime < _DAY:
+            return
+        note.touch(mode=0o600)
+        private.touch(note)
+        prune(root)
+
+
+def folder_lock(root: Path, folder: str) -> BaseFileLock:
+    """Return the lock of a model's folder, not yet taken."""
+    import filelock
+
+    private_folder(root / LOCKS)
+    return filelock.FileLock(root / LOCKS / f"{folder}.lock", mode=0o600)
+
+
+def _model_folders(root: Path) -> Iterator[Path]:
+    for folder in _listing(root / MODELS):
+        if MODEL_FOLDER.fullmatch(folder.name) and private_folder(folder):
+            yield folder
+
+
+def _models(root: Path) -> Iterator[_Item]:
+    for folder in _model_folders(root):
+        yield from _pairs(folder)
+
+
+def _pairs(folder: Path) -> Iterator[_Item]:
+    for stem in sorted({path.stem for path in _listing(folder) if path.suffix in (".py", ".json")}):
+        item = _item(folder / f"{stem}.json", folder / f"{stem}.py")
+        if item is not None:
+            yield item
+
+
+def _files(folder: Path, suffix: str) -> Iterator[_Item]:
+    """Give the files with a suffix in a folder and in the folders directly below."""
+    for path in _listing(folder):
+        if path.suffix == suffix:
+            if (item := _item(path)) is not None:
+                yield item
+        elif path.is_dir() and not path.is_symlink():
+            yield from _files(path, suffix)
+
+
+def _item(*files: Path) -> _Item | None:
+    """Give what is known of the files that exist; the first was touched when it was used."""
+    statuses = []
+    for path in files:
+        with suppress(OSError):
+            statuses.append(path.lstat())
+    if not statuses:
+        return None
+    return _Item(files, statuses[0].st_mtime, sum(status.st_size for status in statuses))
+
+
+def _listing(folder: Path) -> list[Path]:
+    """List a folder that is ours; another one is empty to us."""
+    try:
+        return sorted(folder.iterdir()) if folder.is_dir() and private_folder(folder) else []
+    except OSError:
+        return []
+
+
+def _remove(item: _Item) -> None:
+    for path in item.files:
+        private.remove(path)
+
+
+def _tidy(folder: Path, age: float) -> None:
+    """Remove abandoned files in a folder and below, and folders that are empty."""
+    _remove_temporary(folder, age)
+    for path in _listing(folder):
+        if path.is_dir() and not path.is_symlink():
+            _remove_temporary(path, age)
+            _remove_folder(path)
+
+
+def _remove_temporary(folder: Path, age: float) -> None:
+    for path in _listing(folder):
+        if path.name.startswith(private.TEMPORARY):
+            with suppress(OSError):
+                if time.time() - path.lstat().st_mtime >= age:
+                    private.remove(path)
+
+
+def _remove_folder(folder: Path) -> None:
+    with suppress(OSError):
+        os.rmdir(folder)

@@ -1,0 +1,1 @@
+"""The words every stage shares: expressions, markers and measures. Needs nothing but msgspec."""

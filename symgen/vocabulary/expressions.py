@@ -1,0 +1,106 @@
+"""The expression tree: what a formula in a mechanism file becomes after the whitelisting parser.
+
+Three node kinds only. Operators are calls too, so a consumer (SymPy translation, numeric evaluation, printing) is one
+table from function name to action.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+
+import msgspec
+
+
+class Number(msgspec.Struct, frozen=True, tag="number"):
+    """A literal; folded into the emitted code as a constant."""
+
+    value: float
+
+
+class Name(msgspec.Struct, frozen=True, tag="name"):
+    """A reference: ``t``, a parameter, ``body.x``-like coordinate or velocity, or a placeholder of a measure."""
+
+    name: str
+
+
+class Call(msgspec.Struct, frozen=True, tag="call"):
+    """A function or operator applied to arguments; `function` is a key of `FUNCTIONS` or ``table:NAME``."""
+
+    function: str
+    arguments: tuple[Expr, ...]
+
+
+Expr = Number | Name | Call
+
+
+def _where(condition: float, yes: float, no: float) -> float:
+    return yes if condition else no
+
+
+#: Name of each function -> (number of arguments, numeric evaluation). Comparisons give 1.0 or 0.0.
+FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
+    "add": (2, lambda a, b: a + b),
+    "sub": (2, lambda a, b: a - b),
+    "mul": (2, lambda a, b: a * b),
+    "div": (2, lambda a, b: a / b),
+    "pow": (2, lambda a, b: a**b),
+    "neg": (1, lambda a: -a),
+    "sqrt": (1, math.sqrt),
+    "exp": (1, math.exp),
+    "log": (1, math.log),
+    "sin": (1, math.sin),
+    "cos": (1, math.cos),
+    "tan": (1, math.tan),
+    "asin": (1, math.asin),
+    "acos": (1, math.acos),
+    "atan": (1, math.atan),
+    "atan2": (2, math.atan2),
+    "sinh": (1, math.sinh),
+    "cosh": (1, math.cosh),
+    "tanh": (1, math.tanh),
+    "abs": (1, abs),
+    "sign": (1, lambda a: float((a > 0) - (a < 0))),
+    "min": (2, min),
+    "max": (2, max),
+    "lt": (2, lambda a, b: float(a < b)),
+    "le": (2, lambda a, b: float(a <= b)),
+    "gt": (2, lambda a, b: float(a > b)),
+    "ge": (2, lambda a, b: float(a >= b)),
+    "and": (2, lambda a, b: float(bool(a) and bool(b))),
+    "or": (2, lambda a, b: float(bool(a) or bool(b))),
+    "not": (1, lambda a: float(not a)),
+    "where": (3, _where),
+}
+
+
+def names(expression: Expr) -> Iterator[str]:
+    """Yield every name that `expression` refers to, in order of appearance (with repeats)."""
+    stack: list[Expr] = [expression]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, Name):
+            yield node.name
+        elif isinstance(node, Call):
+            stack.extend(reversed(node.arguments))
+
+
+def number(value: float) -> Number:
+    """Return `value` as a literal."""
+    return Number(float(value))
+
+
+ZERO = number(0.0)
+ONE = number(1.0)
+
+
+def call(function: str, *arguments: Expr) -> Expr:
+    """Return the call, folded to a literal where all arguments are literals and the value is finite."""
+    if all(isinstance(a, Number) for a in arguments) and function in FUNCTIONS:
+        try:
+            value = FUNCTIONS[function][1](*(a.value for a in arguments if isinstance(a, Number)))
+            if not isinstance(value, complex) and math.isfinite(value):
+                return Number(float(value))
+        except (ArithmeticError, ValueError):
+            pass
+    return Call(function, tuple(arguments))

@@ -1,0 +1,121 @@
+"""Each test has a cache of its own; what must happen in another process goes through `python`."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+MODEL = """\
+import math
+import numba
+
+@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
+def geometry(y, w):
+    w[0] = math.sin(y[0])
+"""
+
+LAW = """\
+import numba
+from .model import geometry
+
+@numba.njit(nogil=True, error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    geometry(y, w)
+    ydot[0] = y[1]
+    ydot[1] = -p[0] * w[0]
+    iw[0] += 1
+    return 0
+"""
+
+LOOPS = """\
+from numba import types
+from symgen.store.jit import jit
+
+RHS = types.FunctionType(
+    types.int64(
+        types.float64, types.float64[::1], types.float64[::1], types.float64[::1], types.int64[::1], types.float64[::1]
+    )
+)
+ARRAY = types.float64[::1]
+
+@jit
+def advance(y, ydot, h):
+    for i in range(y.shape[0]):
+        y[i] += h * ydot[i]
+
+@jit(types.int64(RHS, types.int64, types.float64, ARRAY, ARRAY, ARRAY, types.int64[::1], ARRAY))
+def euler(rhs, steps, h, y, p, w, iw, ydot):
+    for k in range(steps):
+        status = rhs(k * h, y, p, w, iw, ydot)
+        if status != 0:
+            return status
+        advance(y, ydot, h)
+    return 0
+
+@jit("float64(float64)")
+def never_called(x):
+    return 3.0 * x
+"""
+
+# Runs the loop with the emitted function and prints the state reached and the counters.
+RUN = """\
+import json, sys
+import numpy as np
+from symgen.store.modules import load_module
+from symgen.store.jit import cache_stats
+import loops
+
+law = load_module(sys.argv[1])
+y, ydot = np.array([1.0, 0.0]), np.zeros(2)
+status = loops.euler(law.rhs, 10, 0.01, y, np.array([9.81]), np.zeros(4), np.zeros(2, np.int64), ydot)
+print(json.dumps({"y": y.tolist(), "status": status, **cache_stats()}))
+"""
+
+FOLDER = "four-bar_0123456789abcdef_1"
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The cache folder of this test, not yet made."""
+    root = tmp_path / "cache"
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(root))
+    return root
+
+
+@pytest.fixture
+def generated(tmp_path: Path) -> Path:
+    """A folder with an emitted model and one law, and a library `loops` on the path of `python`."""
+    folder = tmp_path / "generated" / FOLDER
+    folder.mkdir(parents=True)
+    (folder / "model.py").write_text(MODEL)
+    (folder / "lagrange.py").write_text(LAW)
+    (tmp_path / "library").mkdir()
+    (tmp_path / "library" / "loops.py").write_text(LOOPS)
+    return folder
+
+
+@pytest.fixture
+def python(tmp_path: Path) -> Callable[..., Any]:
+    """Run a script in another process and return the JSON of its last line."""
+
+    def run(script: str, *arguments: object, **environment: str) -> Any:
+        path = os.pathsep.join([str(tmp_path / "library"), str(Path(__file__).parents[2])])
+        result = subprocess.run(
+            [sys.executable, "-W", "error", "-c", script, *map(str, arguments)],
+            env={**os.environ, "PYTHONPATH": path, **environment},
+            capture_output=True,
+            text=True,
+            timeout=120,
+            check=False,
+        )
+        assert result.returncode == 0, result.stderr
+        return json.loads(result.stdout.splitlines()[-1])
+
+    return run
