@@ -24,7 +24,7 @@ def chain(links: int, span: float = 1.5, length: float = 0.25) -> MechanismBuild
         .run(until=5.0, step=1e-3)
     )
     for i in range(links):
-        # The middle of rod i, seen from the arc's centre: angles run from -links to links chords about the lowest point.
+        # Where the middle of rod i is, seen from the arc's centre: the whole arc spans 2*links half chords.
         turn = (2 * i + 1 - links) * chord
         height = radius * math.cos(chord)
         builder.body(

@@ -2,19 +2,312 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
+from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.pipeline import MethodChoice, choose_method, compile_model
-from symgen.vocabulary.expressions import Expr
+from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.run import Array, RunSpec, integrate
 
 if TYPE_CHECKING:
+    from symgen.integrators._tableau import Tableau
     from symgen.model import CompiledModel
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.run import Array, Outcome
+    from symgen.result.result import Result
+    from symgen.vocabulary.expressions import Expr
+
+#: Adaptive runs without asked output times report this many equidistant ones.
+DEFAULT_OUTPUTS = 1001
+#: Default tolerances of adaptive runs.
+RTOL, ATOL = 1e-8, 1e-10
+
+
+def load(model: str | Path | Mechanism) -> Model:
+    """Return a model by catalogue name (``"n-four-bar:40"``), path of a TOML file, or from a `Mechanism`.
+
+    Raises
+    ------
+    InputError
+        If there is no such model or the file is wrong.
+    """
+    return Model(model if isinstance(model, Mechanism) else load_mechanism(model))
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything that shapes a run beside the model; see `Model.simulate` for the meaning."""
+
+    method: str = "direct-correction"
+    integrator: str = "rk4"
+    step: float | None = None
+    rtol: float | None = None
+    atol: float | None = None
+    until: float | None = None
+    output_step: float | None = None
+    times: Sequence[float] | None = None
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    options: Mapping[str, str | float] = field(default_factory=dict)
+    strict: bool = False
+    verify: bool = False
+    max_violation: float = 1e-6
+    max_energy_error: float = 0.05
+
+
+@dataclass(frozen=True)
+class Model:
+    """A mechanism that can be compiled and run.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        The validated description.
+    """
+
+    mechanism: Mechanism
+
+    @property
+    def name(self) -> str:
+        """Name of the mechanism."""
+        return self.mechanism.name
+
+    def parameters(self, changed: Mapping[str, float] | None = None) -> dict[str, float]:
+        """Return all parameter values, `changed` ones replaced.
+
+        Raises
+        ------
+        InputError
+            If a name is not a parameter or a value is not finite.
+        """
+        values = {p.name: p.value for p in self.mechanism.parameters}
+        for name, value in (changed or {}).items():
+            if name not in values:
+                raise InputError(f"parameter '{name}'", f"a parameter of {self.name}", "none of that name", nearest(name, values))
+            if not math.isfinite(value):
+                raise InputError(f"parameter '{name}'", "a finite number", str(value))
+            values[name] = float(value)
+        return values
+
+    def compile(self, method: str = "direct-correction", options: Mapping[str, str] | None = None) -> CompiledModel:
+        """Return the emitted functions for one method, generated if the cache does not have them.
+
+        Parameters
+        ----------
+        method : str
+            Name of the method.
+        options : mapping, optional
+            Its structural options, e.g. ``{"weight": "mass"}``.
+        """
+        return compile_model(self.mechanism, choose_method(method, options))
+
+    def initial_state(self, parameters: Mapping[str, float]) -> tuple[Array, list[float | None]]:
+        """Return q as described (not yet closed) and the given velocities, None where there is none.
+
+        Parameters
+        ----------
+        parameters : mapping
+            Values of all parameters.
+        """
+        q: list[float] = []
+        v: list[float | None] = []
+
+        def value(e: Expr, where: str) -> float:
+            return evaluate(e, parameters, f"{self.name}: {where}")
+
+        for body in self.mechanism.bodies:
+            where = f"bodies.{body.name}"
+            angle = value(body.angle, f"{where}.angle")
+            x, y = (value(e, f"{where}.position") for e in body.position)
+            cx, cy = (value(e, f"{where}.centre_of_mass") for e in body.centre_of_mass)
+            c, s = math.cos(angle), math.sin(angle)
+            q += [x + c * cx - s * cy, y + s * cx + c * cy]
+            v += [None if e is None else value(e, f"{where}.velocity") for e in body.velocity]
+            if not body.is_point:
+                q.append(angle)
+                omega = body.angular_velocity
+                v.append(None if omega is None else value(omega, f"{where}.angular_velocity"))
+        return np.array(q), v
+
+    def assemble(
+        self,
+        compiled: CompiledModel,
+        parameters: Mapping[str, float] | None = None,
+        method_parameters: Mapping[str, float] | None = None,
+        strict: bool = False,
+    ) -> Start:
+        """Return the consistent start of a run.
+
+        Raises
+        ------
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        values = self.parameters(parameters)
+        q, v = self.initial_state(values)
+        p = compiled.parameter_array(values, method_parameters or {})
+        return assemble(compiled, q, v, p, strict=strict)
+
+    def simulate(
+        self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object
+    ) -> Result:
+        """Run the model.
+
+        Parameters
+        ----------
+        settings : Settings, optional
+            All settings at once.
+        progress : callable, optional
+            Called about ten times a second with the time reached.
+        **changes
+            Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run), ``rtol``,
+            ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name), ``options``
+            (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (settle an `unverified` run by
+            a rerun at another step), ``max_violation``, ``max_energy_error``.
+
+        Returns
+        -------
+        Result
+            Also of a failed or interrupted run, with status and reason.
+        """
+        from dataclasses import replace
+
+        from symgen.result.build import build_result
+
+        chosen = replace(settings or Settings(), **changes)  # type: ignore[arg-type]  # keyword names are checked by replace
+        plan = make_plan(self, chosen)
+        compiled = compile_model(self.mechanism, plan.choice)
+        start = self.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
+        outcome = integrate(compiled, plan.tableau, start, plan.spec, progress)
+        return build_result(self, chosen, plan, compiled, outcome)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Settings resolved: method, integrator and what the loop gets."""
+
+    choice: MethodChoice
+    tableau: Tableau
+    method_parameters: Mapping[str, float]
+    spec: RunSpec
+    warnings: tuple[str, ...]
+
+
+def make_plan(model: Model, s: Settings) -> Plan:
+    """Resolve and check settings.
+
+    Raises
+    ------
+    InputError
+        If a name, option or number is wrong.
+    """
+    tableau = INTEGRATORS.get(s.integrator, "--integrator")
+    choice, method_parameters, integrator_options = split_options(s, tableau)
+    adaptive = tableau.adaptive and integrator_options.get("adaptive", "true") == "true"
+    defaults = model.mechanism.defaults
+    until = _positive("until", defaults.until if s.until is None else s.until)
+    step = s.step if adaptive or s.step is not None else defaults.step
+    if step is not None:
+        step = _positive("step", step)
+        if not adaptive and until / step > 2e9:
+            raise InputError("step", "at most 2e9 steps", f"{until / step:.3g}")
+    rtol = _positive("rtol", RTOL if s.rtol is None else s.rtol)
+    atol = _positive("atol", ATOL if s.atol is None else s.atol)
+    method, warnings = choice.method, list[str]()
+    limit = method.largest_step(
+        {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, tableau.real_boundary
+    )
+    if not adaptive and limit is not None and step is not None and step > limit:
+        warnings.append(f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}")
+    spec = RunSpec(
+        until=until,
+        step=step,
+        adaptive=adaptive,
+        times=_output_times(s, defaults.output_step, until, step, adaptive),
+        rtol=rtol,
+        atol=atol,
+        largest_step=np.inf if limit is None else limit,
+        max_violation=_positive("max_violation", s.max_violation),
+        max_energy_error=_positive("max_energy_error", s.max_energy_error),
+    )
+    return Plan(choice, tableau, method_parameters, spec, tuple(warnings))
+
+
+def split_options(s: Settings, tableau: Tableau) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:
+    """Return the method with structural options, its numeric parameters, and the integrator's options.
+
+    Keys are ``method.NAME`` or the method's own name, ``integrator.NAME`` or the integrator's own name.
+    """
+    base = choose_method(s.method).method
+    numeric = {p.name: p for p in base.parameters}
+    structural: dict[str, str] = {}
+    parameters: dict[str, float] = {}
+    integrator: dict[str, str] = {}
+    for key, value in s.options.items():
+        owner, _, name = key.partition(".")
+        if owner in ("method", base.name):
+            if name in numeric:
+                parameters[name] = _number(key, value)
+                if parameters[name] < numeric[name].minimum:
+                    raise InputError(f"option {key}", f"at least {numeric[name].minimum:g}", f"{value}")
+            else:
+                structural[name] = str(value)
+        elif owner in ("integrator", tableau.name):
+            allowed = ("true", "false") if tableau.adaptive and name == "adaptive" else ()
+            if str(value).lower() not in allowed:
+                known = "adaptive=true or adaptive=false" if tableau.adaptive else "no options"
+                raise InputError(f"option {key}", f"{known} for {tableau.name}", f"'{name}={value}'")
+            integrator[name] = str(value).lower()
+        else:
+            known_owners = ("method", base.name, "integrator", tableau.name)
+            raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners))
+    return choose_method(s.method, structural), parameters, integrator
+
+
+def _output_times(s: Settings, default: float | None, until: float, step: float | None, adaptive: bool) -> Array:
+    if s.times is not None:
+        times = np.asarray(s.times, dtype=np.float64)
+        if times.ndim != 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
+            raise InputError("times", "finite, increasing output times", "others")
+        if len(times) and (times[0] < 0.0 or times[-1] > until * (1.0 + 1e-12)):
+            raise InputError("times", f"output times from 0 to {until:g}", f"{times[0]:g} to {times[-1]:g}")
+        return times
+    every = s.output_step if s.output_step is not None else default
+    if every is None:
+        if adaptive:
+            return np.linspace(0.0, until, DEFAULT_OUTPUTS)
+        assert step is not None, "a constant step is given"
+        every = step
+    every = _positive("output_step", every)
+    if until / every > 2e7:
+        raise InputError("output_step", "at most 2e7 outputs", f"{until / every:.3g}")
+    count = math.floor(until / every * (1.0 + 1e-12))
+    times = np.arange(count + 1) * every
+    if until - times[-1] > 1e-9 * every:
+        times = np.append(times, until)
+    times[-1] = min(times[-1], until)
+    return times
+
+
+def _positive(name: str, value: float) -> float:
+    number = _number(name, value)
+    if not number > 0.0:
+        raise InputError(name, "a number above 0", f"{value}")
+    return number
+
+
+def _number(name: str, value: object) -> float:
+    try:
+        number = float(value)  # type: ignore[arg-type]  # anything else raises
+    except (TypeError, ValueError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise InputError(f"option {name}" if "." in name else name, "a finite number", f"'{value}'")
+    return number

@@ -139,7 +139,7 @@ class Model:
         return tree, loops
 
     def place(self) -> tuple[Array, Array]:
-        """Initial positions and velocities of the centres of mass.
+        """Give initial positions and velocities of the centres of mass.
 
         Returns
         -------
@@ -231,9 +231,7 @@ def rod(name: str, mass: float, length: float, angle: float, rate: float = 0.0) 
     return Body(name, mass, mass * length**2 / 12, angle, rate)
 
 
-def four_bar(
-    name: str, ground: float, lengths: tuple[float, float, float], masses: tuple[float, ...]
-) -> Model:
+def four_bar(name: str, ground: float, lengths: tuple[float, float, float], masses: tuple[float, ...]) -> Model:
     """Build a four-bar linkage of uniform rods with the crank at 60 degrees.
 
     Parameters
@@ -299,9 +297,7 @@ def n_four_bar(windows: int) -> Model:
         joints.append(Joint(i, (0.5, 0.0), windows + 1 + i, (-0.5, 0.0)))
         joints.append(Joint(i + 1, (0.5, 0.0), windows + 1 + i, (0.5, 0.0)))
     parameters = {"windows": float(windows)}
-    return Model(
-        f"n-four-bar:{windows}", tuple(bodies), tuple(joints), 10.0, 1e-3, parameters=parameters
-    )
+    return Model(f"n-four-bar:{windows}", tuple(bodies), tuple(joints), 10.0, 1e-3, parameters=parameters)
 
 
 def andrews() -> Model:

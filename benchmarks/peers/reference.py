@@ -103,7 +103,7 @@ def four_bar_shape(model: Model, phi: float) -> tuple[Array, Array, Array]:
     """Close the four-bar loop for a crank angle.
 
     Both four-bars are crank-rockers: the distance from the crank pin to the
-    rocker's pivot stays between \\|coupler - rocker\\| and coupler + rocker for
+    rocker's pivot stays above the difference of coupler and rocker and below their sum for
     every crank angle, so the upper assembly exists and is regular throughout.
 
     Parameters
@@ -232,7 +232,7 @@ def _andrews_mass(q: Array) -> Array:
 
 
 def _andrews_force(q: Array, v: Array) -> Array:
-    """Applied and velocity-dependent forces of the seven coordinates."""
+    """Return applied and velocity-dependent forces of the seven coordinates."""
     sin, cos = np.sin(q), np.cos(q)
     x = 0.02 * cos[2] + 0.018 * sin[2] - 0.03635 - 0.014
     y = 0.02 * sin[2] - 0.018 * cos[2] + 0.03273 - 0.072
@@ -243,8 +243,7 @@ def _andrews_force(q: Array, v: Array) -> Array:
         [
             0.033 - k2 * v[1] * (v[1] + 2 * v[0]) * sin[1],
             k2 * v[0] ** 2 * sin[1],
-            pull * x * (0.018 * cos[2] - 0.02 * sin[2])
-            + pull * y * (0.02 * cos[2] + 0.018 * sin[2]),
+            pull * x * (0.018 * cos[2] - 0.02 * sin[2]) + pull * y * (0.02 * cos[2] + 0.018 * sin[2]),
             k4 * v[4] ** 2 * cos[3],
             -k4 * v[3] * (v[3] + 2 * v[4]) * cos[3],
             -k6 * v[6] ** 2 * cos[5],
@@ -286,9 +285,7 @@ def _andrews_rates(_: float, state: Array) -> Array:
     cos, sin = np.cos(turned), np.sin(turned)
     jacobian = np.vstack([(_LENGTHS * -sin) @ _ARMS, (_LENGTHS * cos) @ _ARMS])
     gamma = np.concatenate([_LENGTHS @ (cos * spin**2), _LENGTHS @ (sin * spin**2)])
-    solved = np.linalg.solve(
-        _andrews_mass(q), np.column_stack([_andrews_force(q, v), jacobian.T])
-    )
+    solved = np.linalg.solve(_andrews_mass(q), np.column_stack([_andrews_force(q, v), jacobian.T]))
     free, spread = solved[:, 0], solved[:, 1:]
     pull = np.linalg.solve(jacobian @ spread, jacobian @ free - gamma)
     return np.concatenate([v, free - spread @ pull])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -18,13 +19,15 @@ DEEPEST = 20
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 
 
-def load(model: str | os.PathLike[str]) -> Mechanism:
+def load(model: str | os.PathLike[str], parameters: Mapping[str, float] | None = None) -> Mechanism:
     """Return the mechanism called `model` in the catalogue or described in the file `model`.
 
     Parameters
     ----------
     model : str or path
         ``"four-bar"``, ``"n-four-bar:40"`` or the path of a TOML file.
+    parameters : mapping of str to float, optional
+        Values in place of the defaults of some parameters; what depends on them is checked with these.
 
     Raises
     ------
@@ -32,7 +35,31 @@ def load(model: str | os.PathLike[str]) -> Mechanism:
         If there is no such mechanism or its description is wrong.
     """
     raw, source = read_raw(model)
-    return validate(raw, source)
+    return validate(with_parameters(raw, parameters, source) if parameters else raw, source)
+
+
+def with_parameters(raw: Mapping[str, Any], values: Mapping[str, float], source: str) -> dict[str, Any]:
+    """Return the description `raw` with other values for some of its parameters.
+
+    Parameters
+    ----------
+    raw : mapping
+        The description, not yet validated.
+    values : mapping of str to float
+        New values; a name that is no parameter is an error.
+    source : str
+        File name or other origin, for messages.
+    """
+    known = raw.get("parameters", {})
+    entries = dict(known) if isinstance(known, Mapping) else {}
+    for name, value in values.items():
+        if name not in entries:
+            got = f"the unknown parameter {quoted(name)}"
+            hint = nearest(name, entries) or "it has no parameters"
+            raise InputError(f"{source}: parameters", "the name of a parameter", got, hint)
+        before = entries[name]
+        entries[name] = {**before, "value": value} if isinstance(before, Mapping) else value
+    return {**raw, "parameters": entries}
 
 
 def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:

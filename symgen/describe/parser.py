@@ -19,7 +19,7 @@ from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, call, number
 
 LONGEST_TEXT = 10_000
-DEEPEST = 200
+DEEPEST = 100
 MOST_NODES = 5_000
 LARGEST_EXPONENT = 64.0
 
@@ -104,7 +104,8 @@ class _Reader:
             # A formula may span lines in the file; Python's grammar would take the line end for the formula's.
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
-            raise self.fail(f"{quoted(text)}, which breaks off or has a slip at column {error.offset or 1}") from None
+            near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
+            raise self.fail(f"{quoted(text)}, which breaks off or has a slip{near}") from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep() from None
         result = self.quantity(tree.body, 0)
@@ -118,16 +119,20 @@ class _Reader:
 
     def scan(self, text: str) -> None:
         """Refuse every character and word that has no place in a formula."""
-        position = 0
+        position = brackets = 0
         while position < len(text):
             token = _TOKEN.match(text, position)
             if token is None:
                 sign = text[position]
-                if sign.isdigit() or sign == ".":
-                    end = re.compile(r"[A-Za-z0-9_.]*").match(text, position)
-                    sign = end.group() if end else sign
-                    raise self.fail(f"{quoted(sign)}, which is not a number, at column {position + 1}")
+                if sign in "0123456789.":
+                    wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
+                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}")
                 raise self.fail(f"the character {quoted(sign)} at column {position + 1}", _HINTS.get(sign, ""))
+            brackets += {"(": 1, ")": -1}.get(token.group(), 0)
+            if brackets > DEEPEST:
+                raise self.too_deep()
+            if token.group("number") and not math.isfinite(float(token.group())):
+                raise self.fail("a number beyond 1.8e308")
             word = token.group("word")
             if word and keyword.iskeyword(word) and word not in _WORDS:
                 raise self.fail(f"the word '{word}' at column {position + 1}")
@@ -144,7 +149,7 @@ class _Reader:
             raise self.fail("more", expected=f"a formula of at most {MOST_NODES} terms")
         match node:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
-                return self.literal(value)
+                return Number(float(value))
             case ast.Name(id=name):
                 return self.name(name)
             case ast.Attribute(value=ast.Name(id=body), attr=coordinate):
@@ -184,15 +189,6 @@ class _Reader:
         if not _is_condition(node):
             raise self.fail(f"{quoted(ast.unparse(node))} in place of a condition", "a condition has <, <=, > or >=")
         return self.convert(node, depth + 1)
-
-    def literal(self, value: float) -> Expr:
-        try:
-            result = float(value)
-        except OverflowError:
-            result = math.inf
-        if not math.isfinite(result):
-            raise self.fail("a number beyond 1.8e308")
-        return Number(result)
 
     def name(self, name: str) -> Expr:
         if name == "pi":

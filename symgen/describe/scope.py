@@ -90,7 +90,7 @@ class Scope:
     def marker(self, key: str, body: str, point: str | tuple[float | str, float | str]) -> Marker:
         """Return the point of `body` that is given by name, as ``"centre"`` or by coordinates."""
         if not isinstance(point, str):
-            return self._free_marker(key, body, (self.constant(key, point[0]), self.constant(key, point[1])))
+            return self._free_marker(key, body, self.vector(key, point))
         if body == GROUND:
             raise self.error(key, "coordinates [x, y] of a point of the ground", quoted(point))
         known = dict(self.model.bodies[body].points)
@@ -108,7 +108,7 @@ class Scope:
 
     def axis(self, key: str, body: str, vector: tuple[float | str, float | str]) -> tuple[Direction, Direction]:
         """Return the direction fixed in `body` and its left-hand normal, both of length 1."""
-        x, y = self.constant(key, vector[0]), self.constant(key, vector[1])
+        x, y = self.vector(key, vector)
         length = call("sqrt", call("add", call("mul", x, x), call("mul", y, y)))
         if not self.value(length, key) > 0:
             raise self.error(key, "a direction", "a vector of length 0")
@@ -126,18 +126,21 @@ class Scope:
     # Formulas ------------------------------------------------------------------------------------------------------
 
     def constant(self, key: str, value: float | str, *, positive: bool = False) -> Expr:
-        """Return a number or an expression of parameters; `positive`: above 0 with the parameters' defaults."""
+        """Return a number or an expression of parameters that is finite (`positive`: above 0) with their defaults."""
         names = Names(
             "a number or an expression of parameters",
             _same(self.model.values),
             elsewhere=frozenset({"t", *self.model.tables}),
         )
         expression = self._expression(key, value, names)
-        if positive:
-            size = self.value(expression, key)
-            if not size > 0:
-                raise self.error(key, "a value above 0", repr(size))
+        size = self.value(expression, key)
+        if positive and not size > 0:
+            raise self.error(key, "a value above 0", repr(size))
         return expression
+
+    def vector(self, key: str, pair: tuple[float | str, float | str]) -> tuple[Expr, Expr]:
+        """Return two numbers or expressions of parameters."""
+        return self.constant(key, pair[0]), self.constant(key, pair[1])
 
     def optional(self, key: str, value: float | str | None) -> Expr | None:
         """Return as `constant` does, None for None."""
@@ -150,7 +153,10 @@ class Scope:
         return self._expression(key, value, names)
 
     def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
-        """Return a number or an expression of t, parameters, body coordinates and the element's own words."""
+        """Return a number or an expression of t, parameters, body coordinates and the element's own words.
+
+        Coordinates are those of the centre of mass, as in results.
+        """
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"

@@ -75,5 +75,5 @@ damping = "damping"
 [forces.motor]
 type = "torque"
 body = "rod"
-torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rod.omega"
+torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rod.omega"   # also rod.x, .y (of the centre of mass), .theta, .vx, .vy
 """

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+import msgspec
+
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import PlainScalar, found, read, read_value
 from symgen.describe.mechanism import Body, Defaults, Force, Joint, Mechanism, Parameter, Table
@@ -22,7 +24,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import ZERO, Expr
+from symgen.vocabulary.expressions import ZERO
 
 Raw = Mapping[str, Any]
 
@@ -73,15 +75,13 @@ class _Validator:
         bodies = tuple(self.body(name, value) for name, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
-        self.model = Model(
-            self.source, self.model.values, self.model.tables, {body.name: body for body in bodies}, self.joint
-        )
+        self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
         scope = Scope(self.model, "mechanism")
         return Mechanism(
             name=head.name,
             title=head.title,
             space=head.space,
-            gravity=(scope.constant("gravity", head.gravity[0]), scope.constant("gravity", head.gravity[1])),
+            gravity=scope.vector("gravity", head.gravity),
             parameters=parameters,
             tables=tables,
             bodies=bodies,
@@ -169,28 +169,19 @@ class _Validator:
             check_identifier(point, scope.where("points"), "point")
             if point == CENTRE:
                 raise scope.error("points", "another name", f"'{CENTRE}', which is the centre of mass")
-            points.append((point, self.vector(scope, f"points.{point}", coordinates)))
+            points.append((point, scope.vector(f"points.{point}", coordinates)))
         vx, vy = section.velocity or (None, None)
         return Body(
             name=name,
             mass=scope.constant("mass", section.mass, positive=True),
             inertia=None if section.inertia is None else scope.constant("inertia", section.inertia, positive=True),
-            centre_of_mass=self.vector(scope, "centre_of_mass", section.centre_of_mass or (0.0, 0.0)),
+            centre_of_mass=scope.vector("centre_of_mass", section.centre_of_mass or (0.0, 0.0)),
             points=tuple(points),
-            position=self.vector(scope, "position", section.position),
-            angle=ZERO if section.angle is None else self.finite(scope, "angle", section.angle),
+            position=scope.vector("position", section.position),
+            angle=ZERO if section.angle is None else scope.constant("angle", section.angle),
             velocity=(scope.optional("velocity", vx), scope.optional("velocity", vy)),
             angular_velocity=scope.optional("angular_velocity", section.angular_velocity),
         )
-
-    def vector(self, scope: Scope, key: str, pair: tuple[float | str, float | str]) -> tuple[Expr, Expr]:
-        return self.finite(scope, key, pair[0]), self.finite(scope, key, pair[1])
-
-    def finite(self, scope: Scope, key: str, value: float | str) -> Expr:
-        """Return the expression after finding that it has a value with the parameters' defaults."""
-        expression = scope.constant(key, value)
-        scope.value(expression, key)
-        return expression
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 

@@ -111,10 +111,10 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
     hoister = Hoister(g, offset + len(method.parameters))
     blocks = [
         hoister.block(
-            "accelerate",
-            f"q', v', power and multipliers by {method.name}",
+            "rhs",
+            f"q', v', power and multipliers by {method.name}; 1 where a pivot of S is suspicious",
             outputs,
-            ("t", "y", "p", "w", "ydot"),
+            ("t", "y", "p", "w", "iw", "ydot"),
             system.flag(),
         )
     ]

@@ -2,7 +2,8 @@
 
 The state is projected after each accepted step only; the error estimate belongs to the unprojected pair; output times
 within a step are interpolated between unprojected ends (adaptive) or reached by a shortened step that is not propagated
-(fixed), and each output is then projected. Stage derivatives live in one flat buffer: views of rows cost more than a stage.
+(fixed), and each output is then projected. Stage derivatives live in one flat buffer: views of rows cost more than a stage. All working memory comes from outside in
+`room` and is handed to emitted functions without ownership (`symgen.runtime.bare`).
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from numba import types
 
 from symgen.runtime import abi
+from symgen.runtime.bare import bare, part
 from symgen.runtime.watch import keep_maxima, watch
 from symgen.store.jit import jit
 
@@ -102,10 +104,11 @@ def error_norm(
 
 
 @jit(
-    _I8(abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A),
+    _I8(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
 )
 def fixed_steps(
     rhs: Any,
+    confirm: Any,
     accept: Any,
     start: Any,
     column: Any,
@@ -125,12 +128,14 @@ def fixed_steps(
     gauges: Any,
     control: Any,
     events: Any,
+    room: Any,
 ) -> int:
     """Integrate with a constant step; an output between two steps is reached by a shortened step of its own."""
     n = y.shape[0]
-    stages = np.zeros(n_stages * n)
-    trial = np.zeros(n)
-    rate = np.zeros(n)
+    y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)
+    gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
+    column, value = bare(column), bare(value)
+    trial, stages = part(room, 0, n), part(room, n, n_stages * n)
     tiny = 1e-9 * h
     t = t0
     index = 0
@@ -157,9 +162,9 @@ def fixed_steps(
             step = following - t
         for s in range(n_stages):
             combine(n, step, start[s], start[s + 1], column, value, y, stages, trial)
-            rhs(t + nodes[s] * step, trial, p, w, iw, rate)
-            for i in range(n):
-                stages[s * n + i] = rate[i]
+            rate = part(stages, s * n, n)
+            if rhs(t + nodes[s] * step, trial, p, w, iw, rate) != 0:
+                confirm(t + nodes[s] * step, trial, p, w, iw, rate)
         combine(n, step, start[n_stages], start[n_stages + 1], column, value, y, stages, trial)
         control[_EVALUATIONS] += n_stages
         bits = accept(following, trial, p, w, iw)
@@ -171,8 +176,7 @@ def fixed_steps(
             continue
         if bits & 1:
             return _CORRECTION if math.isfinite(w[_PHI]) else _NOT_FINITE
-        for i in range(n):
-            y[i] = trial[i]
+        y, trial = trial, y
         t = following
         index += 1
         control[_STEPS] = index
@@ -188,12 +192,13 @@ def fixed_steps(
 
 @jit(
     _I8(
-        *(abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _I8, _I8, _A, _A, _A, _A, _I),
-        *(_F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A),
+        *(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _I8, _I8, _A, _A, _A, _A, _I),
+        *(_F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
     ),
 )
 def adaptive_steps(
     rhs: Any,
+    confirm: Any,
     accept: Any,
     start: Any,
     column: Any,
@@ -220,6 +225,7 @@ def adaptive_steps(
     gauges: Any,
     control: Any,
     events: Any,
+    room: Any,
 ) -> int:
     """Integrate with steps chosen from the error estimate; outputs are interpolated.
 
@@ -230,10 +236,11 @@ def adaptive_steps(
     n_error = n - 1  # the work is not controlled
     n_all = nodes.shape[0]
     degree = dense.shape[0] // n_all
-    stages = np.zeros(n_all * n)
-    new = np.zeros(n)
-    trial = np.zeros(n)
-    rate = np.zeros(n)
+    y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)
+    gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
+    column, value = bare(column), bare(value)
+    trial, new, stages = part(room, 0, n), part(room, n, n), part(room, 2 * n, n_all * n)
+    first, last = part(stages, 0, n), part(stages, n_stages * n, n)
     kept = np.zeros(_N_STATUS)
     exponent = -1.0 / (error_order + 1.0)
     end_counts = False  # whether an error estimate needs the stage at the end of the step
@@ -249,10 +256,9 @@ def adaptive_steps(
         store(out, y, w, states, status)
         out += 1
     control[_OUTPUTS] = out
-    rhs(t, y, p, w, iw, rate)
+    if rhs(t, y, p, w, iw, first) != 0:
+        confirm(t, y, p, w, iw, first)
     control[_EVALUATIONS] += 1
-    for i in range(n):
-        stages[i] = rate[i]
     if h <= 0.0:
         # Hairer, Norsett, Wanner, Solving ODEs I, section II.4
         d0 = d1 = d2 = 0.0
@@ -265,7 +271,9 @@ def adaptive_steps(
         h0 = min(h0, until - t0)
         for i in range(n):
             trial[i] = y[i] + h0 * stages[i]
-        rhs(t + h0, trial, p, w, iw, rate)
+        rate = part(stages, n, n)
+        if rhs(t + h0, trial, p, w, iw, rate) != 0:
+            confirm(t + h0, trial, p, w, iw, rate)
         control[_EVALUATIONS] += 1
         for i in range(n_error):
             d2 += ((rate[i] - stages[i]) / (atol + rtol * abs(y[i]))) ** 2
@@ -284,17 +292,16 @@ def adaptive_steps(
             return _TINY
         for s in range(1, n_stages):
             combine(n, h, start[s], start[s + 1], column, value, y, stages, trial)
-            rhs(t + nodes[s] * h, trial, p, w, iw, rate)
-            for i in range(n):
-                stages[s * n + i] = rate[i]
+            rate = part(stages, s * n, n)
+            if rhs(t + nodes[s] * h, trial, p, w, iw, rate) != 0:
+                confirm(t + nodes[s] * h, trial, p, w, iw, rate)
         combine(n, h, start[n_stages], start[n_stages + 1], column, value, y, stages, new)
         control[_EVALUATIONS] += n_stages - 1
         end_known = end_counts
         if end_counts:
-            rhs(t + h, new, p, w, iw, rate)
+            if rhs(t + h, new, p, w, iw, last) != 0:
+                confirm(t + h, new, p, w, iw, last)
             control[_EVALUATIONS] += 1
-            for i in range(n):
-                stages[n_stages * n + i] = rate[i]
         error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol)
         if not error <= 1.0:
             control[_REJECTED] += 1
@@ -317,17 +324,16 @@ def adaptive_steps(
             for i in range(_N_STATUS):
                 kept[i] = w[i]
             if not end_known:
-                rhs(following, new, p, w, iw, rate)
+                if rhs(following, new, p, w, iw, last) != 0:
+                    confirm(following, new, p, w, iw, last)
                 control[_EVALUATIONS] += 1
                 end_known = True
-                for i in range(n):
-                    stages[n_stages * n + i] = rate[i]
             for s in range(n_stages + 1, n_all):
                 combine(n, h, start[s], start[s + 1], column, value, y, stages, new)
-                rhs(t + nodes[s] * h, new, p, w, iw, rate)
+                rate = part(stages, s * n, n)
+                if rhs(t + nodes[s] * h, new, p, w, iw, rate) != 0:
+                    confirm(t + nodes[s] * h, new, p, w, iw, rate)
                 control[_EVALUATIONS] += 1
-                for i in range(n):
-                    stages[s * n + i] = rate[i]
             while out < times.shape[0] and times[out] < following:
                 x = (times[out] - t) / h
                 for i in range(n):
@@ -345,8 +351,7 @@ def adaptive_steps(
                 out += 1
             for i in range(_N_STATUS):
                 w[i] = kept[i]
-        for i in range(n):
-            y[i] = trial[i]
+        y, trial = trial, y
         t = following
         control[_STEPS] += 1
         gauges[_STEP] = h
@@ -356,13 +361,12 @@ def adaptive_steps(
         control[_OUTPUTS] = out
         # a correction changes the state: the stage at the end of the step is no longer that of the next step's beginning
         if bits & 2 or not end_known:
-            rhs(t, y, p, w, iw, rate)
+            if rhs(t, y, p, w, iw, first) != 0:
+                confirm(t, y, p, w, iw, first)
             control[_EVALUATIONS] += 1
-            for i in range(n):
-                stages[i] = rate[i]
         else:
             for i in range(n):
-                stages[i] = stages[n_stages * n + i]
+                first[i] = last[i]
         grow = min(10.0, max(0.2, 0.9 * max(error, 1e-10) ** exponent))
         h *= min(1.0, grow) if rejected else grow
         rejected = False

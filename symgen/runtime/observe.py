@@ -13,9 +13,10 @@ from symgen.store.jit import jit
 _A, _I, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
 
 
-@jit(types.int64(abi.RHS, abi.OBSERVE, _A, _M, _A, _A, _I, types.int64, types.int64, types.int64, types.int64, _M, _M, _M))
+@jit(types.int64(abi.RHS, abi.RHS, abi.OBSERVE, _A, _M, _A, _A, _I, types.int64, types.int64, types.int64, types.int64, _M, _M, _M))
 def observe_outputs(
     rhs: Any,
+    confirm: Any,
     observe: Any,
     times: Any,
     states: Any,
@@ -34,7 +35,7 @@ def observe_outputs(
 
     Parameters
     ----------
-    rhs, observe : emitted functions
+    rhs, confirm, observe : emitted functions
         See `symgen.runtime.abi`.
     times, states : Array, shapes (k,), (k, ny)
         The outputs.
@@ -49,7 +50,8 @@ def observe_outputs(
     for k in range(times.shape[0]):
         for i in range(y.shape[0]):
             y[i] = states[k, i]
-        rhs(times[k], y, p, w, iw, rate)
+        if rhs(times[k], y, p, w, iw, rate) != 0:
+            confirm(times[k], y, p, w, iw, rate)
         observe(times[k], y, p, w, rate, out)
         for i in range(nv):
             accelerations[k, i] = rate[nq + i]

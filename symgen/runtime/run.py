@@ -139,8 +139,9 @@ def integrate(
     status = np.empty((len(spec.times), abi.RANK + 1))
     packed = tableau.packed()
     law = compiled.law_module
-    common = (law.rhs, law.accept, *packed, tableau.stages)
-    tail = (spec.times, states, status, gauges, control, events)
+    common = (law.rhs, law.confirm, law.accept, *packed, tableau.stages)
+    room = np.zeros((len(packed[3]) + 2) * len(y))
+    tail = (spec.times, states, status, gauges, control, events, room)
     if spec.adaptive:
         from symgen.runtime.explicit import adaptive_steps as loop
 
@@ -263,6 +264,7 @@ def _observe(
     observed = np.zeros((k, info.m + 2 * len(info.joint_coordinates)))
     observe_outputs(
         compiled.law_module.rhs,
+        compiled.law_module.confirm,
         compiled.model.observe,
         times,
         states,

@@ -77,7 +77,7 @@ def _reached(function: Any, seen: dict[int, Any]) -> Iterable[Any]:
 
 def _near(module: types.ModuleType, function: Any) -> bool:
     """Whether a module belongs to the function's package; what is installed is covered by versions in the key."""
-    return module.__name__.partition(".")[0] == function.__module__.partition(".")[0]
+    return module.__name__.partition(".")[0] == str(function.__module__).partition(".")[0]
 
 
 def describe_function(function: Any) -> str:

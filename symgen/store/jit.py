@@ -212,6 +212,9 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         opened = self._open()
         return bool(super()._search_new_conversions(*args, **kws)) or opened
 
+    def __reduce__(self) -> str:
+        return str(self.__qualname__)  # pickled by name, as functions are: another process compiles or loads its own
+
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Answer the type inference of a caller that is being compiled."""
         self._open()
@@ -328,7 +331,7 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # Numba has no types
     def on_end(self, event: Any) -> None:
         """Add the time if nothing is being compiled any more."""
         self._here.depth = self.depth() - 1
-        if not self.depth() and isinstance(event.data["dispatcher"]._cache, _MachineCode):
+        if not self.depth() and isinstance(getattr(event.data["dispatcher"], "_cache", None), _MachineCode):
             counters["compile_seconds"] += time.perf_counter() - self._here.started
 
 

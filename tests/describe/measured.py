@@ -89,4 +89,4 @@ def complex_value(expression, values: Mapping[str, complex]) -> complex:
             return -arguments[0]
         case "pow":
             return arguments[0] ** arguments[1]
-    raise NotImplementedError(expression.function)
+    raise LookupError(expression.function)

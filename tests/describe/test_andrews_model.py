@@ -21,7 +21,7 @@ MODEL = load("andrews")
 
 
 def place(seven) -> dict[str, tuple]:
-    """Poses of the seven frames: angles as documented in the file, origins at the pins of the body that carries them."""
+    """Poses of the seven frames: angles as the file documents them, origins at the pins of the bodies that carry."""
     beta, theta, gamma, phi, delta, omega, epsilon = seven
     p = Posed(MODEL, {b.name: (0.0, 0.0, 0.0) for b in MODEL.bodies})
     fixed = {joint.name: [p.number(c) for c in joint.rows[0].measure.a.point] for joint in MODEL.joints}

@@ -155,7 +155,15 @@ print(json.dumps([[factory.apply(function, 1.0) for function in made], cache_sta
         assert (other["hits"], other["misses"]) == (0, 4)
 
 
+@jit.jit("float64(float64)")
+def at_the_top(x):
+    return x
+
+
 class TestDecorator:
+    def test_is_pickled_by_name(self):
+        assert pickle.loads(pickle.dumps(at_the_top)) is at_the_top
+
     def test_defaults_and_documentation(self, cache):
         @jit.jit
         def double(x):

@@ -1,0 +1,200 @@
+"""Exudyn: planar rigid bodies in absolute coordinates, implicit integrators.
+
+The library's build without range checks, one thread, no files, no output but
+the sensors that the error is taken from. Absolute coordinates with planar
+revolute joints were faster than a kinematic tree with loop joints.
+"""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Iterator
+from typing import Any
+
+sys.exudynFast = True  # type: ignore[attr-defined]
+
+import exudyn as exu  # noqa: E402
+import numpy as np  # noqa: E402
+from exudyn import itemInterface as items  # noqa: E402
+
+from . import reference  # noqa: E402
+from .measure import Row, best_of, row  # noqa: E402
+from .models import GROUND, Array, Model, Point  # noqa: E402
+
+NAME = "exudyn"
+VERSION = str(exu.__version__)
+REFINEMENTS = (0.5, 1.0, 2.0, 4.0, 8.0, 10.0, 12.0, 16.0, 24.0)
+LIMIT = 3.0
+SPARSE_FROM = 12
+# Index, spectral radius (None: trapezoidal rule), and when the iteration matrix
+# is renewed: every step, or where the contraction is worse than the number.
+METHODS: dict[str, tuple[int, float | None, float | None]] = {
+    "trapezoidal, index 2, new Jacobian each step": (2, None, None),
+    "trapezoidal, index 2, modified Newton 0.1": (2, None, 0.1),
+    "generalised-alpha 0.9, index 3, new Jacobian": (3, 0.9, None),
+    "generalised-alpha 0.6, index 3, new Jacobian": (3, 0.6, None),
+    "generalised-alpha 0.9, index 3, mod. Newton": (3, 0.9, 0.5),
+}
+
+
+def rows(model: Model) -> Iterator[Row]:
+    """Measure every setting.
+
+    Parameters
+    ----------
+    model : Model
+        The mechanism.
+
+    Yields
+    ------
+    Row
+        One result per setting; finer steps end once a loop takes `LIMIT` seconds.
+    """
+    warnings.simplefilter("ignore", DeprecationWarning)
+    exu.SetWriteToConsole(False)
+    truth = reference.angles(model)
+    for label, method in METHODS.items():
+        for factor in REFINEMENTS:
+            steps = round(model.duration / model.step / reference.INTERVALS * factor)
+            step = model.duration / reference.INTERVALS / steps
+            out = row(
+                NAME,
+                VERSION,
+                f"{label}, {step:.3g} s",
+                model.name,
+                lambda steps=steps, method=method: _run(model, steps, method, truth),
+            )
+            yield out
+            if (out["seconds"] or 0.0) > LIMIT:
+                break
+
+
+def build(model: Model) -> tuple[Any, Any, list[Any]]:
+    """Build a mechanism.
+
+    Parameters
+    ----------
+    model : Model
+        The mechanism.
+
+    Returns
+    -------
+    container, system
+        Exudyn's container, which must be kept, and the assembled system.
+    sensors : list
+        One sensor of the coordinates per body.
+    """
+    container = exu.SystemContainer()
+    system = container.AddSystem()
+    ground = system.AddObject(items.ObjectGround())
+    positions, velocities = model.place()
+    nodes, objects = [], []
+    for body, position, velocity in zip(model.bodies, positions, velocities, strict=True):
+        node = system.AddNode(
+            items.NodeRigidBody2D(
+                referenceCoordinates=[*position, body.angle],
+                initialVelocities=[*velocity, body.rate],
+            )
+        )
+        item = system.AddObject(items.ObjectRigidBody2D(mass=body.mass, inertia=body.inertia, nodeNumber=node))
+        nodes.append(node)
+        objects.append(item)
+        if model.gravity:
+            marker = system.AddMarker(items.MarkerBodyMass(bodyNumber=item))
+            load = [0.0, -model.gravity, 0.0]
+            system.AddLoad(items.LoadMassProportional(markerNumber=marker, loadVector=load))
+
+    def marker_at(body: int, point: Point) -> Any:
+        number = ground if body == GROUND else objects[body]
+        return system.AddMarker(items.MarkerBodyPosition(bodyNumber=number, localPosition=[*point, 0.0]))
+
+    for joint in model.joints:
+        markers = [marker_at(joint.a, joint.point_a), marker_at(joint.b, joint.point_b)]
+        system.AddObject(items.ObjectJointRevolute2D(markerNumbers=markers))
+    for spring in model.springs:
+        markers = [marker_at(GROUND, spring.anchor), marker_at(spring.body, spring.point)]
+        system.AddObject(
+            items.ObjectConnectorSpringDamper(
+                markerNumbers=markers, stiffness=spring.stiffness, referenceLength=spring.length
+            )
+        )
+    for index, torque in model.torques.items():
+        marker = system.AddMarker(items.MarkerBodyRigid(bodyNumber=objects[index]))
+        system.AddLoad(items.LoadTorqueVector(markerNumber=marker, loadVector=[0.0, 0.0, torque]))
+    sensors = [
+        system.AddSensor(
+            items.SensorNode(
+                nodeNumber=node,
+                storeInternal=True,
+                outputVariableType=exu.OutputVariableType.Coordinates,
+            )
+        )
+        for node in nodes
+    ]
+    system.Assemble()
+    return container, system, sensors
+
+
+def settings(model: Model, steps: int, method: tuple[int, float | None, float | None]) -> Any:
+    """Choose the integrator.
+
+    Parameters
+    ----------
+    model : Model
+        The mechanism.
+    steps : int
+        Steps between two samples.
+    method : tuple
+        One of `METHODS`.
+
+    Returns
+    -------
+    exudyn.SimulationSettings
+        The settings.
+    """
+    index, radius, contraction = method
+    out = exu.SimulationSettings()
+    out.solution.file.write = False
+    out.solution.sensors.writePeriod = model.duration / reference.INTERVALS
+    out.parallel.numberOfThreads = 1
+    if len(model.bodies) >= SPARSE_FROM:
+        out.linearSolver.solverType = exu.LinearSolverType.EigenSparse
+    time = out.timeIntegration
+    time.numberOfSteps = steps * reference.INTERVALS
+    time.endTime = model.duration
+    time.verboseMode = 0
+    time.adaptiveStep = False
+    time.newton.useModifiedNewton = True
+    if contraction is None:
+        time.newton.modifiedNewtonJacUpdatePerStep = True
+    else:
+        time.newton.modifiedNewtonContractivity = contraction
+    alpha = time.generalizedAlpha
+    alpha.useIndex2Constraints = index == 2
+    alpha.useNewmark = radius is None
+    if radius is not None:
+        alpha.spectralRadius = radius
+    return out
+
+
+def _run(
+    model: Model, steps: int, method: tuple[int, float | None, float | None], truth: Array
+) -> tuple[float, float, float]:
+    """Integrate with so many steps between two samples."""
+    container, system, sensors = build(model)
+    chosen = settings(model, steps, method)
+    kinds = exu.DynamicSolverType
+    kind = kinds.TrapezoidalIndex2 if method[1] is None else kinds.GeneralizedAlpha
+
+    def loop() -> None:
+        if not system.SolveDynamic(chosen, solverType=kind, showHints=False):
+            raise RuntimeError("the solver gave up")
+
+    loop()
+    turned = [np.asarray(system.GetSensorStoredData(sensor))[:, 3] for sensor in sensors]
+    values = np.array(turned).T + np.array([body.angle for body in model.bodies])
+    error = reference.largest_error(values, truth)
+    best, spread = best_of(loop)
+    del container
+    return best, spread, error

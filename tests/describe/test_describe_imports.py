@@ -1,0 +1,33 @@
+"""Describing a mechanism stays light: neither SymPy nor NumPy, nor anything that draws or compiles."""
+
+import subprocess
+import sys
+
+import pytest
+
+HEAVY = {"sympy", "numpy", "numba", "scipy", "jinja2", "rich", "click", "matplotlib", "pandas"}
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "from symgen.describe import load; [load(name) for name in ('andrews', 'n-four-bar:3', 'driven-four-bar')]",
+        "import symgen.describe.schema as s; s.schema()",
+        "from symgen import catalogue; catalogue.entries()",
+        "from symgen.describe.template import template; template()",
+        "from symgen.describe.digest import digest; from symgen.describe import load; digest(load('four-bar'))",
+    ],
+)
+def test_nothing_heavy_is_imported(statement):
+    code = f"{statement}\nimport sys\nprint(*sorted(set(sys.modules) & {HEAVY!r}))"
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout.split() == []
+
+
+def test_kinds_are_imported_only_when_asked_for():
+    code = (
+        "from symgen.describe import load; load('four-bar')\nimport sys\n"
+        "print(*sorted(m for m in sys.modules if m.startswith(('symgen.joints.', 'symgen.forces.'))))"
+    )
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert result.stdout.split() == ["symgen.joints.revolute"]
