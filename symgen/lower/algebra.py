@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import overload
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
@@ -33,10 +34,6 @@ class Vector:
         g = self.graph
         return Vector(g, tuple(g.sub(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
 
-    def __rmul__(self, factor: Scalar) -> Vector:
-        g = self.graph
-        return Vector(g, tuple(g.mul(factor.node, a) for a in self.nodes))
-
     def dot(self, other: Vector) -> Scalar:
         """Return the inner product."""
         return Scalar(self.graph, self.graph.dot(self.nodes, other.nodes))
@@ -58,8 +55,15 @@ class Scalar:
     def __sub__(self, other: Scalar) -> Scalar:
         return Scalar(self.graph, self.graph.sub(self.node, other.node))
 
-    def __mul__(self, other: Scalar) -> Scalar:
-        return Scalar(self.graph, self.graph.mul(self.node, other.node))
+    @overload
+    def __mul__(self, other: Scalar) -> Scalar: ...
+    @overload
+    def __mul__(self, other: Vector) -> Vector: ...
+    def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
+        g = self.graph
+        if isinstance(other, Vector):
+            return Vector(g, tuple(g.mul(self.node, a) for a in other.nodes))
+        return Scalar(g, g.mul(self.node, other.node))
 
     def __rmul__(self, factor: float) -> Scalar:
         return Scalar(self.graph, self.graph.mul(self.graph.constant(factor), self.node))

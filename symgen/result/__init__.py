@@ -1,1 +1,1 @@
-"""Results: labelled arrays, conversion, files."""
+"""What a run gave: labelled arrays, status, files and plots."""

@@ -1,0 +1,176 @@
+"""From what a loop left behind to a result: labels, energies, and the judgement of the run."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.result.judge import Verdict, judge
+from symgen.result.labelled import Array, Labelled
+from symgen.result.reactions import Forces
+from symgen.result.result import Rank, Result, Seconds
+from symgen.runtime import abi
+
+if TYPE_CHECKING:
+    from symgen.api import Model, Plan, Settings
+    from symgen.model import CompiledModel
+    from symgen.runtime.run import Outcome
+
+
+def build_result(
+    model: Model,
+    settings: Settings,
+    plan: Plan,
+    compiled: CompiledModel,
+    outcome: Outcome,
+    run_spread: float = 0.0,
+) -> Result:
+    """Label and judge the outcome of a run.
+
+    Parameters
+    ----------
+    model : Model
+        What was run.
+    settings, plan : Settings, Plan
+        How it was asked for, and what the loop got.
+    compiled : CompiledModel
+        The emitted functions that were run.
+    outcome : Outcome
+        What the loop gave.
+    run_spread : float, optional
+        Longest minus shortest run time of repeated runs [s].
+
+    Returns
+    -------
+    Result
+        With status, reason, warnings and notes settled. With ``settings.verify``, a run that came near a singular
+        position is run once more at another step.
+    """
+    info, spec, start = compiled.info, plan.spec, outcome.start
+    forces = _forces(model, compiled, outcome)
+    verdict = judge(settings, plan, compiled, outcome)
+    verdict = replace(verdict, notes=(*start.notes, *_redundancy(compiled, outcome, forces), *verdict.notes))
+    states, status = outcome.states, outcome.status_columns
+    kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, -1]
+    violations = np.column_stack([status[:, abi.PHI], status[:, abi.DRIFT], outcome.acceleration_violations])
+    law = compiled.law
+    return Result(
+        mechanism=model.name,
+        method=law.method,
+        integrator=plan.tableau.name,
+        step=spec.step,
+        rtol=spec.rtol if spec.adaptive else None,
+        atol=spec.atol if spec.adaptive else None,
+        until=spec.until,
+        status=verdict.status,
+        reason=verdict.reason,
+        warnings=(*plan.warnings, *verdict.warnings),
+        notes=verdict.notes,
+        parameters=model.parameters(settings.parameters),
+        t=outcome.times,
+        q=_table(states[:, : info.nq], info.coordinates),
+        v=_table(states[:, info.nq : info.nq + info.nv], info.velocities),
+        a=_accelerations(outcome.accelerations, info.velocities),
+        joint_coordinates=_joint_coordinates(compiled, outcome),
+        kinetic=kinetic,
+        potential=potential,
+        work=work,
+        energy_error=kinetic + potential - start_energy(compiled, outcome) - work,
+        violations=Labelled(violations, ("position", "velocity", "acceleration"), ("m", "m/s", "m/s^2")),
+        smallest_pivot=status[:, abi.PIVOT],
+        rank=Rank(info.m, start.rank, len(info.dropped_rows), start.redundant_rows),
+        rank_events=outcome.rank_events,
+        rank_event_count=outcome.rank_event_count,
+        steps=outcome.steps,
+        rejected=outcome.rejected,
+        evaluations=outcome.evaluations,
+        iterations=outcome.counters.get("iterations", 0),
+        seconds=Seconds(
+            compiled.derive_seconds,
+            compiled.emit_seconds,
+            outcome.compile_seconds,
+            outcome.run_seconds,
+            run_spread,
+        ),
+        position_violation_max=outcome.position_violation_max,
+        velocity_violation_max=outcome.velocity_violation_max,
+        energy_drift_max=outcome.energy_drift_max,
+        forces=forces,
+    )
+
+
+def start_energy(compiled: CompiledModel, outcome: Outcome) -> float:
+    """Return the total energy at the start of a run [J], where there need not be an output."""
+    from symgen.runtime.probe import call_measure
+
+    w = outcome.start.w.copy()
+    call_measure(compiled.model.energies, 0.0, outcome.start.y, outcome.start.p, w)
+    return float(w[abi.KINETIC] + w[abi.POTENTIAL])
+
+
+def _forces(model: Model, compiled: CompiledModel, outcome: Outcome) -> Forces:
+    return Forces(
+        compiled=compiled,
+        joints={joint.name: joint.bodies[0] for joint in model.mechanism.joints},
+        times=outcome.times,
+        states=outcome.states,
+        raw=outcome.multipliers,
+        ranks=outcome.status_columns[:, abi.RANK],
+        p=outcome.start.p,
+        w=outcome.start.w,
+        start=outcome.start.y,
+        rank=outcome.start.rank,
+    )
+
+
+def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:
+    """Return what redundant constraints mean for this run, as sentences."""
+    info, start, notes = compiled.info, outcome.start, list[str]()
+    if start.rank < info.m:
+        extra = info.m - start.rank
+        rows = f" ({', '.join(start.redundant_rows)})" if start.redundant_rows else ""
+        subject = "1 constraint row depends" if extra == 1 else f"{extra} constraint rows depend"
+        notes.append(f"{subject} on the others at the start{rows}; multipliers are those of minimum norm")
+    if forces.non_unique:
+        notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
+    return notes
+
+
+def _table(values: Array, quantities: tuple[object, ...]) -> Labelled:
+    names = tuple(q.name for q in quantities)  # type: ignore[attr-defined]  # Quantity of symgen.model
+    units = tuple(q.unit for q in quantities)  # type: ignore[attr-defined]
+    return Labelled(values, names, units)
+
+
+def _accelerations(values: Array, velocities: tuple[object, ...]) -> Labelled:
+    """Name accelerations after velocities: ``crank.ax`` for ``crank.vx``, ``crank.alpha`` for ``crank.omega``."""
+    table = _table(values, velocities)
+    names = []
+    for name in table.names:
+        body, _, component = name.rpartition(".")
+        names.append(f"{body}.{_ACCELERATION.get(component, component + '_rate')}")
+    return Labelled(values, tuple(names), tuple(f"{unit}^2" for unit in table.units))
+
+
+_ACCELERATION = {
+    "vx": "ax",
+    "vy": "ay",
+    "vz": "az",
+    "omega": "alpha",
+    "wx": "alphax",
+    "wy": "alphay",
+    "wz": "alphaz",
+}
+
+
+def _joint_coordinates(compiled: CompiledModel, outcome: Outcome) -> Labelled:
+    """Return values and rates: ``observe`` gives all values, then all rates, or one pair after the other."""
+    quantities = compiled.info.joint_coordinates
+    names = tuple(q.name for q in quantities) + tuple(f"{q.name}.rate" for q in quantities)
+    units = tuple(q.unit for q in quantities) + tuple(f"{q.unit}/s" for q in quantities)
+    return Labelled(outcome.joint_coordinates, names, units)
+
+
+__all__ = ["Verdict", "build_result", "start_energy"]

@@ -1,0 +1,80 @@
+"""An array whose columns have names and units."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError, nearest
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Labelled:
+    """Columns over time, read by name or as an array.
+
+    ``table["crank.x"]`` is one column; ``table["crank"]`` holds all columns of the body or joint; ``np.asarray(table)``
+    and ``table.values`` are the array.
+
+    Attributes
+    ----------
+    values : Array, shape (k, n)
+        One row an output.
+    names, units : tuple of str, length n
+        Labels of the columns.
+    """
+
+    values: Array
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        if self.values.ndim != 2 or not self.values.shape[1] == len(self.names) == len(self.units):
+            raise ValueError(f"{len(self.names)} names and {len(self.units)} units for an array {self.values.shape}")
+
+    def __getitem__(self, name: str) -> Array:
+        """Return the column called `name`, shape (k,), or all columns of the body or joint `name`, shape (k, c).
+
+        Raises
+        ------
+        InputError
+            If there is no such name; says the nearest one.
+        """
+        if name in self.names:
+            return self.values[:, self.names.index(name)]
+        group = [i for i, full in enumerate(self.names) if full.startswith(f"{name}.")]
+        if not group:
+            hint = nearest(name, self.names) if len(self.names) <= 40 or "." in name else ""
+            raise InputError("result", "the name of a column, a body or a joint", f"'{name}'", hint)
+        return self.values[:, group]
+
+    def unit(self, name: str) -> str:
+        """Return the unit of the column `name`."""
+        self[name]
+        return self.units[self.names.index(name)] if name in self.names else ""
+
+    def row(self, index: int = -1) -> dict[str, float]:
+        """Return one row by name, the last one unless told; empty where there are no rows."""
+        if not len(self.values):
+            return {}
+        return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
+
+    def __array__(self, dtype: object = None, copy: bool | None = None) -> Array:
+        return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[arg-type]  # NumPy's protocol
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.names)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.names
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    def __repr__(self) -> str:
+        shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
+        return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"

@@ -1,0 +1,315 @@
+"""The result of one run: frozen, labelled, and readable by programs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.errors import InputError, nearest
+from symgen.result.labelled import Array, Labelled
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from symgen.result.reactions import Forces
+    from symgen.runtime.run import RankEvent
+
+#: What a run can end as.
+OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
+#: Reason of a run that was stopped from outside.
+INTERRUPTED = "interrupted"
+
+
+@dataclass(frozen=True)
+class Rank:
+    """Rank of D at the start, and rows that were left out because they repeat another row for all q."""
+
+    rows: int
+    rank: int
+    identical_rows_dropped: int
+    redundant_rows: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Seconds:
+    """Wall-clock times [s]; `run` is the integration loop alone, the best of several where repeated."""
+
+    derive: float
+    emit: float
+    compile: float
+    run: float
+    run_spread: float = 0.0
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run gave; arrays have one row an output.
+
+    Attributes
+    ----------
+    mechanism, method, integrator : str
+        What was run.
+    step, rtol, atol : float or None
+        Constant (or asked first) step [s], and tolerances; None where they do not apply.
+    until : float
+        Asked end time [s].
+    status : str
+        ``"ok"``; ``"unverified"``: the run ended but nothing vouches for it; ``"failed"``.
+    reason : str or None
+        Why the status is not ok.
+    warnings, notes : tuple of str
+        Sentences: what to be careful with, and what was done or settled on the way.
+    parameters : mapping
+        Values of the mechanism's parameters.
+    t : Array, shape (k,)
+        Output times [s].
+    q, v, a : Labelled
+        Coordinates, velocities and accelerations.
+    joint_coordinates : Labelled
+        What joints report, and their rates (``JOINT.angle``, ``JOINT.angle.rate``).
+    kinetic, potential, work, energy_error : Array, shape (k,)
+        T, V, W (of forces without potential and of drivers) and T + V - E0 - W [J].
+    violations : Labelled
+        Norms of Phi, ``D v - nu`` and ``D v' - gamma`` (``position``, ``velocity``, ``acceleration``).
+    smallest_pivot : Array, shape (k,)
+        Of D D^T with scaled rows: how near the output is to a singular position.
+    rank : Rank
+        Rows and rank at the start.
+    rank_events : tuple of RankEvent
+        Passages near singular positions, at most 1000; `rank_event_count` counts all.
+    steps, rejected, evaluations, iterations : int
+        Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
+    seconds : Seconds
+        Where the time went.
+    """
+
+    mechanism: str
+    method: str
+    integrator: str
+    step: float | None
+    rtol: float | None
+    atol: float | None
+    until: float
+    status: str
+    reason: str | None
+    warnings: tuple[str, ...]
+    notes: tuple[str, ...]
+    parameters: Mapping[str, float]
+    t: Array
+    q: Labelled
+    v: Labelled
+    a: Labelled
+    joint_coordinates: Labelled
+    kinetic: Array
+    potential: Array
+    work: Array
+    energy_error: Array
+    violations: Labelled
+    smallest_pivot: Array
+    rank: Rank
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    steps: int
+    rejected: int
+    evaluations: int
+    iterations: int
+    seconds: Seconds
+    position_violation_max: float
+    velocity_violation_max: float
+    energy_drift_max: float
+    forces: Forces = field(repr=False)
+
+    # -- derived, when first asked for ---------------------------------------------------------------------------------
+
+    @cached_property
+    def lam(self) -> Labelled:
+        """Multipliers; where constraints are redundant, those of minimum norm."""
+        return self.forces.multipliers()
+
+    @cached_property
+    def reactions(self) -> Labelled:
+        """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
+
+        ``-D^T lambda`` of the joint's rows. The moment is about the body's centre of mass; where the first body is the
+        ground, about the ground's origin.
+        """
+        return self.forces.reactions(self.lam)
+
+    def reaction(self, joint: str) -> Array:
+        """Return the reaction of one joint, shape (k, 3): force [N] and moment [N m]."""
+        return self.reactions[joint]
+
+    @property
+    def non_unique_reactions(self) -> tuple[str, ...]:
+        """Joints whose reactions the equations of motion do not determine, because constraints are redundant."""
+        return self.forces.non_unique
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the run was stopped from outside."""
+        return self.reason == INTERRUPTED
+
+    @property
+    def ok(self) -> bool:
+        """Whether the status is ``"ok"``."""
+        return self.status == OK
+
+    @property
+    def energy(self) -> Labelled:
+        """Energies as one table: ``kinetic``, ``potential``, ``work``, ``error`` [J]."""
+        values = np.column_stack([self.kinetic, self.potential, self.work, self.energy_error])
+        return Labelled(values, ("kinetic", "potential", "work", "error"), ("J",) * 4)
+
+    def tables(self) -> dict[str, Labelled]:
+        """Return all tables by name: q, v, a, lam, reactions, joint_coordinates, energy, violations."""
+        return {
+            "q": self.q,
+            "v": self.v,
+            "a": self.a,
+            "lam": self.lam,
+            "reactions": self.reactions,
+            "joint_coordinates": self.joint_coordinates,
+            "energy": self.energy,
+            "violations": self.violations,
+        }
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``."""
+        if name == "t":
+            return self.t
+        cheap = (self.q, self.v, self.joint_coordinates)
+        for table in cheap:
+            if name in table:
+                return table[name]
+        for table in (self.lam, self.reactions):
+            if name in table:
+                return table[name]
+        known = [n for table in cheap for n in table]
+        raise InputError("result", "the name of a column", f"'{name}'", nearest(name, known))
+
+    # -- leaving Python ------------------------------------------------------------------------------------------------
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
+        last = self.t.shape[0] - 1
+        return finite(
+            {
+                "mechanism": self.mechanism,
+                "method": self.method,
+                "integrator": self.integrator,
+                "step": self.step,
+                "rtol": self.rtol,
+                "atol": self.atol,
+                "until": self.until,
+                "status": self.status,
+                "reason": self.reason,
+                "warnings": list(self.warnings),
+                "notes": list(self.notes),
+                "parameters": dict(self.parameters),
+                "steps": self.steps,
+                "rejected": self.rejected,
+                "evaluations": self.evaluations,
+                "iterations": self.iterations,
+                "seconds": {
+                    "derive": self.seconds.derive,
+                    "emit": self.seconds.emit,
+                    "compile": self.seconds.compile,
+                    "run": self.seconds.run,
+                },
+                "position_violation_max": self.position_violation_max,
+                "velocity_violation_max": self.velocity_violation_max,
+                "energy_drift_max": self.energy_drift_max,
+                "rank": {
+                    "rows": self.rank.rows,
+                    "rank": self.rank.rank,
+                    "identical_rows_dropped": self.rank.identical_rows_dropped,
+                },
+                "rank_events": [
+                    {"t_in": e.t_in, "t_out": e.t_out, "rank": e.rank, "smallest_pivot": e.smallest_pivot}
+                    for e in self.rank_events
+                ],
+                "rank_event_count": self.rank_event_count,
+                "final": {
+                    "t": float(self.t[last]) if last >= 0 else None,
+                    "q": self.q.row(),
+                    "v": self.v.row(),
+                    "lam": self.forces.final(),
+                },
+            }
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return all tables as one data frame over time; columns carry their table's name where it is needed.
+
+        Raises
+        ------
+        InputError
+            If pandas is not installed; says how to install it.
+        """
+        from symgen.result.export import to_dataframe
+
+        return to_dataframe(self)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all tables as a dataset over time, with units and what was run as attributes.
+
+        Raises
+        ------
+        InputError
+            If xarray is not installed; says how to install it.
+        """
+        from symgen.result.export import to_xarray
+
+        return to_xarray(self)
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write all tables to ``.nc`` (NetCDF), ``.parquet`` or ``.csv``; the file appears whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is not known, the library for it is missing, or the file cannot be written.
+        """
+        from symgen.result.export import save
+
+        return save(self, Path(path))
+
+    def plot(
+        self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")
+    ) -> Path:
+        """Draw panels over time into a PNG, SVG or PDF file.
+
+        Parameters
+        ----------
+        path : path
+            The file; its ending says the kind.
+        what : tuple of str
+            Any of ``positions``, ``velocities``, ``energy``, ``violations``, ``reactions``.
+        """
+        from symgen.result.plots import plot
+
+        return plot(self, Path(path), what)
+
+    def _repr_html_(self) -> str:
+        from symgen.result.summary import html
+
+        return html(self)
+
+
+def finite(value: Any) -> Any:
+    """Return `value` with every number that JSON cannot express replaced by None."""
+    if isinstance(value, dict):
+        return {key: finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
