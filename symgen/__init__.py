@@ -1,3 +1,76 @@
-"""symgen: a symbolic code-generating formulation compiler for constrained multibody systems."""
+"""symgen: a symbolic code-generating formulation compiler for constrained multibody systems.
+
+    import symgen
+
+    model = symgen.load("four-bar")
+    result = model.simulate(method="direct-correction", integrator="rk4", until=10.0)
+    result["crank.theta"], result.status, result.energy_drift_max
+
+Everything below is imported when it is first used, so that ``import symgen`` costs nothing.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from symgen.api import Model, Settings, load
+    from symgen.api import simulate as simulate
+    from symgen.describe.builder import MechanismBuilder
+    from symgen.describe.mechanism import Mechanism
+    from symgen.errors import AssemblyError, InputError, SimulationError, SymgenError
+    from symgen.result.labelled import Labelled
+    from symgen.result.result import Result
+    from symgen.study.compare import Study, compare
+
+#: Public name -> module that has it.
+_WHERE = {
+    "AssemblyError": "symgen.errors",
+    "InputError": "symgen.errors",
+    "Labelled": "symgen.result.labelled",
+    "Mechanism": "symgen.describe.mechanism",
+    "MechanismBuilder": "symgen.describe.builder",
+    "Model": "symgen.api",
+    "Result": "symgen.result.result",
+    "Settings": "symgen.api",
+    "SimulationError": "symgen.errors",
+    "Study": "symgen.study.compare",
+    "SymgenError": "symgen.errors",
+    "compare": "symgen.study.compare",
+    "load": "symgen.api",
+    "simulate": "symgen.api",
+}
+
+__all__ = [
+    "AssemblyError",
+    "InputError",
+    "Labelled",
+    "Mechanism",
+    "MechanismBuilder",
+    "Model",
+    "Result",
+    "Settings",
+    "SimulationError",
+    "Study",
+    "SymgenError",
+    "__version__",
+    "compare",
+    "load",
+    "simulate",
+]
+
+
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    if name not in _WHERE:
+        raise AttributeError(f"module 'symgen' has no attribute '{name}'")
+    value = getattr(import_module(_WHERE[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

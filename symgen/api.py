@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.pipeline import MethodChoice, choose_method, compile_model
 from symgen.runtime.assembly import Start, assemble
-from symgen.runtime.run import Array, RunSpec, integrate
+from symgen.runtime.run import Array, RunSpec
 
 if TYPE_CHECKING:
     from symgen.integrators._tableau import Tableau
@@ -60,6 +60,27 @@ class Settings:
     verify: bool = False
     max_violation: float = 1e-6
     max_energy_error: float = 0.05
+    repeat: int = 1
+
+
+def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
+    """Return `settings` with some replaced.
+
+    Raises
+    ------
+    InputError
+        If a name is not a setting; says the nearest one.
+    """
+    known = [f.name for f in fields(Settings)]
+    for name in changes:
+        if name not in known:
+            raise InputError("settings", "the name of a setting", f"'{name}'", nearest(name, known))
+    return replace(settings, **changes)  # type: ignore[arg-type]  # values are checked by make_plan
+
+
+def simulate(model: str | Path | Mechanism, settings: Settings | None = None, **changes: object) -> Result:
+    """Load and run a model in one go; see `load` and `Model.simulate`."""
+    return load(model).simulate(settings, **changes)  # type: ignore[arg-type]  # names are checked by changed
 
 
 @dataclass(frozen=True)
@@ -90,7 +111,9 @@ class Model:
         values = {p.name: p.value for p in self.mechanism.parameters}
         for name, value in (changed or {}).items():
             if name not in values:
-                raise InputError(f"parameter '{name}'", f"a parameter of {self.name}", "none of that name", nearest(name, values))
+                raise InputError(
+                    f"parameter '{name}'", f"a parameter of {self.name}", "none of that name", nearest(name, values)
+                )
             if not math.isfinite(value):
                 raise InputError(f"parameter '{name}'", "a finite number", str(value))
             values[name] = float(value)
@@ -170,23 +193,27 @@ class Model:
             Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run), ``rtol``,
             ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name), ``options``
             (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (settle an `unverified` run by
-            a rerun at another step), ``max_violation``, ``max_energy_error``.
+            a rerun at another step), ``max_violation``, ``max_energy_error``, ``repeat`` (warm up, then time that many
+            runs and report the shortest).
 
         Returns
         -------
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from dataclasses import replace
-
         from symgen.result.build import build_result
+        from symgen.store.stats import seconds_in_cache
+        from symgen.study.timing import repeated
 
-        chosen = replace(settings or Settings(), **changes)  # type: ignore[arg-type]  # keyword names are checked by replace
+        chosen = changed(settings or Settings(), changes)
         plan = make_plan(self, chosen)
         compiled = compile_model(self.mechanism, plan.choice)
+        before = seconds_in_cache()
         start = self.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
-        outcome = integrate(compiled, plan.tableau, start, plan.spec, progress)
-        return build_result(self, chosen, plan, compiled, outcome)
+        outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
+        # assembly calls emitted functions too: compiling them belongs to the run
+        outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
+        return build_result(self, chosen, plan, compiled, outcome, spread)
 
 
 @dataclass(frozen=True)
@@ -220,12 +247,16 @@ def make_plan(model: Model, s: Settings) -> Plan:
             raise InputError("step", "at most 2e9 steps", f"{until / step:.3g}")
     rtol = _positive("rtol", RTOL if s.rtol is None else s.rtol)
     atol = _positive("atol", ATOL if s.atol is None else s.atol)
+    if not isinstance(s.repeat, int) or not 1 <= s.repeat <= 1000:
+        raise InputError("repeat", "a whole number from 1 to 1000", f"{s.repeat}")
     method, warnings = choice.method, list[str]()
     limit = method.largest_step(
         {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, tableau.real_boundary
     )
     if not adaptive and limit is not None and step is not None and step > limit:
-        warnings.append(f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}")
+        warnings.append(
+            f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
+        )
     spec = RunSpec(
         until=until,
         step=step,
@@ -267,7 +298,9 @@ def split_options(s: Settings, tableau: Tableau) -> tuple[MethodChoice, dict[str
             integrator[name] = str(value).lower()
         else:
             known_owners = ("method", base.name, "integrator", tableau.name)
-            raise InputError(f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners))
+            raise InputError(
+                f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
+            )
     return choose_method(s.method, structural), parameters, integrator
 
 

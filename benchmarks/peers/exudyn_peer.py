@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 sys.exudynFast = True  # type: ignore[attr-defined]
@@ -24,18 +25,44 @@ from .models import GROUND, Array, Model, Point  # noqa: E402
 
 NAME = "exudyn"
 VERSION = str(exu.__version__)
-REFINEMENTS = (0.5, 1.0, 2.0, 4.0, 8.0, 10.0, 12.0, 16.0, 24.0)
-LIMIT = 3.0
+REFINEMENTS = (1.0, 2.0, 5.0, 8.0, 10.0, 13.0, 16.0, 24.0)
+LIMIT = 6.0
 SPARSE_FROM = 12
-# Index, spectral radius (None: trapezoidal rule), and when the iteration matrix
-# is renewed: every step, or where the contraction is worse than the number.
-METHODS: dict[str, tuple[int, float | None, float | None]] = {
-    "trapezoidal, index 2, new Jacobian each step": (2, None, None),
-    "trapezoidal, index 2, modified Newton 0.1": (2, None, 0.1),
-    "generalised-alpha 0.9, index 3, new Jacobian": (3, 0.9, None),
-    "generalised-alpha 0.6, index 3, new Jacobian": (3, 0.6, None),
-    "generalised-alpha 0.9, index 3, mod. Newton": (3, 0.9, 0.5),
-}
+
+
+@dataclass(frozen=True)
+class Method:
+    """One choice of integrator and Newton iteration.
+
+    Attributes
+    ----------
+    radius : float or None
+        Spectral radius of the generalised-alpha method on index 3, or None for
+        the trapezoidal rule on index 2.
+    contraction : float or None
+        The iteration matrix is renewed where the iteration contracts less than
+        this; None renews it once in every step.
+    tolerance : float
+        Relative tolerance of the iteration.
+    """
+
+    radius: float | None
+    contraction: float | None
+    tolerance: float
+
+    def __str__(self) -> str:
+        name = "trapezoidal, index 2" if self.radius is None else f"generalised-alpha {self.radius:g}, index 3"
+        renewal = "each step" if self.contraction is None else f"{self.contraction:g}"
+        return f"{name}, Jacobian {renewal}, {self.tolerance:.0e}"
+
+
+METHODS = (
+    Method(None, None, 1e-8),
+    Method(None, 0.02, 1e-8),
+    Method(None, 0.02, 1e-9),
+    Method(0.9, None, 1e-8),
+    Method(0.9, 0.02, 1e-9),
+)
 
 
 def rows(model: Model) -> Iterator[Row]:
@@ -54,14 +81,14 @@ def rows(model: Model) -> Iterator[Row]:
     warnings.simplefilter("ignore", DeprecationWarning)
     exu.SetWriteToConsole(False)
     truth = reference.angles(model)
-    for label, method in METHODS.items():
+    for method in METHODS:
         for factor in REFINEMENTS:
             steps = round(model.duration / model.step / reference.INTERVALS * factor)
             step = model.duration / reference.INTERVALS / steps
             out = row(
                 NAME,
                 VERSION,
-                f"{label}, {step:.3g} s",
+                f"{method}, {step:.3g} s",
                 model.name,
                 lambda steps=steps, method=method: _run(model, steps, method, truth),
             )
@@ -136,7 +163,7 @@ def build(model: Model) -> tuple[Any, Any, list[Any]]:
     return container, system, sensors
 
 
-def settings(model: Model, steps: int, method: tuple[int, float | None, float | None]) -> Any:
+def settings(model: Model, steps: int, method: Method) -> Any:
     """Choose the integrator.
 
     Parameters
@@ -145,15 +172,14 @@ def settings(model: Model, steps: int, method: tuple[int, float | None, float | 
         The mechanism.
     steps : int
         Steps between two samples.
-    method : tuple
-        One of `METHODS`.
+    method : Method
+        Integrator and iteration.
 
     Returns
     -------
     exudyn.SimulationSettings
         The settings.
     """
-    index, radius, contraction = method
     out = exu.SimulationSettings()
     out.solution.file.write = False
     out.solution.sensors.writePeriod = model.duration / reference.INTERVALS
@@ -166,26 +192,24 @@ def settings(model: Model, steps: int, method: tuple[int, float | None, float | 
     time.verboseMode = 0
     time.adaptiveStep = False
     time.newton.useModifiedNewton = True
-    if contraction is None:
+    time.newton.relativeTolerance = method.tolerance
+    if method.contraction is None:
         time.newton.modifiedNewtonJacUpdatePerStep = True
     else:
-        time.newton.modifiedNewtonContractivity = contraction
+        time.newton.modifiedNewtonContractivity = method.contraction
     alpha = time.generalizedAlpha
-    alpha.useIndex2Constraints = index == 2
-    alpha.useNewmark = radius is None
-    if radius is not None:
-        alpha.spectralRadius = radius
+    alpha.useIndex2Constraints = alpha.useNewmark = method.radius is None
+    if method.radius is not None:
+        alpha.spectralRadius = method.radius
     return out
 
 
-def _run(
-    model: Model, steps: int, method: tuple[int, float | None, float | None], truth: Array
-) -> tuple[float, float, float]:
+def _run(model: Model, steps: int, method: Method, truth: Array) -> tuple[float, float, float]:
     """Integrate with so many steps between two samples."""
     container, system, sensors = build(model)
     chosen = settings(model, steps, method)
     kinds = exu.DynamicSolverType
-    kind = kinds.TrapezoidalIndex2 if method[1] is None else kinds.GeneralizedAlpha
+    kind = kinds.TrapezoidalIndex2 if method.radius is None else kinds.GeneralizedAlpha
 
     def loop() -> None:
         if not system.SolveDynamic(chosen, solverType=kind, showHints=False):

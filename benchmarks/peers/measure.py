@@ -165,7 +165,7 @@ def table(rows: Iterable[Row]) -> Iterator[str]:
     str
         One line, a heading first.
     """
-    yield f"{'model':15} {'peer':8} {'setting':52} {'seconds':>9} {'spread':>8} {'error':>8} status"
+    yield f"{'model':15} {'peer':8} {'setting':58} {'seconds':>9} {'spread':>8} {'error':>8} status"
     for entry in rows:
         cells = [
             "-" if value is None else form.format(value)
@@ -176,6 +176,6 @@ def table(rows: Iterable[Row]) -> Iterator[str]:
             )
         ]
         yield (
-            f"{entry['model']:15} {entry['peer']:8} {entry['setting']:52} "
+            f"{entry['model']:15} {entry['peer']:8} {entry['setting']:58} "
             f"{cells[0]:>9} {cells[1]:>8} {cells[2]:>8} {entry['status']}"
         )

@@ -1,1 +1,125 @@
-"""The command line, one file a command."""
+"""The command line: the group, and what every command shares. Each command is a module, imported when it is used.
+
+Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and with
+``--json`` nothing but JSON does; everything else goes to standard error.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import click
+
+from symgen import __version__
+from symgen.errors import SymgenError, nearest
+
+OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+#: Sub-command -> (module, one line for ``symgen --help``), in the order of the help.
+COMMANDS = {
+    "list": ("symgen.cli.list", "Show the mechanisms that come with symgen."),
+    "new": ("symgen.cli.new", "Write a commented mechanism file to start from."),
+    "check": ("symgen.cli.check", "Validate and assemble a mechanism; say its degrees of freedom."),
+    "inspect": ("symgen.cli.inspect", "Show the equations of a mechanism, and what was left out."),
+    "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
+    "run": ("symgen.cli.run", "Simulate a mechanism."),
+    "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
+    "schema": ("symgen.cli.schema", "Print the JSON schema of mechanism files."),
+    "cache": ("symgen.cli.cache", "Show or empty the cache of generated and compiled code."),
+    "completion": ("symgen.cli.completion", "Print the shell's completion script."),
+}
+
+
+class LazyGroup(click.Group):
+    """A group that imports a command when it is used and knows one line about each without doing so."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return all names in the order of the table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Import and return a command, None where there is none of that name."""
+        if cmd_name not in COMMANDS:
+            return None
+        command: click.Command = import_module(COMMANDS[cmd_name][0]).command
+        return command
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command, or say the nearest name."""
+        if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
+            raise click.UsageError(f"there is no command '{args[0]}'; {nearest(args[0], COMMANDS)}", ctx)
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the table without importing anything."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]}, no_args_is_help=True)
+@click.version_option(__version__, message="symgen %(version)s")
+def group() -> None:
+    """Compile constrained multibody mechanisms into code and run them.
+
+    MODEL is a name of the catalogue (symgen list), with a size where it has one (n-four-bar:40), or the path of a
+    mechanism file.
+    """
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; return the exit code.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Words after ``symgen``; by default those of this process.
+    """
+    try:
+        code = group.main(args=arguments, prog_name="symgen", standalone_mode=False)
+        sys.stdout.flush()
+        return code if isinstance(code, int) else OK
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
+        return BAD_INPUT
+    except click.ClickException as error:
+        return complain(_sentence(error), BAD_INPUT)
+    except SymgenError as error:
+        return complain(str(error), error.exit_code)
+    except (click.Abort, KeyboardInterrupt):
+        return complain("interrupted", INTERRUPTED)
+    except BrokenPipeError:
+        # whoever read our output went away: nothing is left to say, and Python must not try at exit
+        _forget_stdout()
+        return OK
+
+
+def complain(sentence: str, code: int) -> int:
+    """Write one sentence to standard error; return `code`."""
+    click.echo(f"symgen: {sentence}", err=True)
+    return code
+
+
+def _sentence(error: click.ClickException) -> str:
+    text = " ".join(error.format_message().split())
+    context = getattr(error, "ctx", None)
+    if isinstance(error, click.NoSuchOption):
+        known = [o for p in context.command.params for o in p.opts] if context is not None else []
+        text = f"there is no option '{error.option_name}'; {nearest(error.option_name, [o for o in known if o[:2] == '--'])}"
+    hint = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
+    return text[:1].lower() + text[1:].rstrip(".") + hint
+
+
+def _forget_stdout() -> None:
+    import os
+
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def write_json(value: Any) -> None:
+    """Write a value as JSON to standard output; nan and infinity are refused."""
+    import json
+
+    click.echo(json.dumps(value, allow_nan=False))

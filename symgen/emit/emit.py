@@ -120,9 +120,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "program": program,
             "summary": summary,
             "reference": reference,
-            "shared": sorted(
-                {"drift", "energies", "geometry", *(("spread",) if program.position_correction else ())} - own
-            ),
+            "shared": sorted({"geometry", "measure", *(("spread",) if program.position_correction else ())} - own),
             "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
             "counters": {name: i for i, name in enumerate(COUNTERS)},
             "skip": SKIP,

@@ -170,8 +170,10 @@ _TO_SYMPY: dict[str, Any] = {
 def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy."""
     if isinstance(expression, Number):
-        return sp.Float(expression.value) if expression.value != int_or_none(expression.value) else sp.Integer(
-            int(expression.value)
+        return (
+            sp.Float(expression.value)
+            if expression.value != int_or_none(expression.value)
+            else sp.Integer(int(expression.value))
         )
     if isinstance(expression, Name):
         return symbols[expression.name]

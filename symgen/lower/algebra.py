@@ -153,7 +153,10 @@ class System:
         for block in self.equations.mass:
             n = len(block.columns)
             matrix = {
-                (i, j): block.entries[i][j] for i in range(n) for j in range(n) if block.entries[i][j] != g.zero or i == j
+                (i, j): block.entries[i][j]
+                for i in range(n)
+                for j in range(n)
+                if block.entries[i][j] != g.zero or i == j
             }
             factor = factorise(g, matrix, range(n), lambda _, pivot, __: g.div(g.one, pivot))
             for j in range(n):

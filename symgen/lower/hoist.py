@@ -74,5 +74,7 @@ class Hoister:
             if self.graph.nodes[n].op == "input" and isinstance(key := self.graph.nodes[n].payload, tuple)
         }
         images = graph.inline(self.graph, nodes, inputs)
-        outputs = tuple((Target("p", self.first + self.slots[n]), image) for n, image in zip(nodes, images, strict=True))
+        outputs = tuple(
+            (Target("p", self.first + self.slots[n]), image) for n, image in zip(nodes, images, strict=True)
+        )
         return Block("prepare", "numbers that depend on parameters alone", graph, outputs, ("p",))

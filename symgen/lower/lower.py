@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
 from symgen.ir.program import COUNTERS, STATUS, Block, Entry, LawProgram, Layout, ModelProgram, Target
-from symgen.lower.algebra import System, Vector
+from symgen.lower.algebra import SKIP, System, Vector
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.methods._base import Method
@@ -18,7 +18,7 @@ Outputs = list[tuple[Target, int]]
 
 
 def lower_model(equations: Equations, digest: str) -> ModelProgram:
-    """Lower what all methods share: geometry with the rank-deciding factorisation, corrections, energies, observation.
+    """Lower what all methods share: geometry with the rank-deciding factorisation, corrections, measures, observation.
 
     Parameters
     ----------
@@ -39,11 +39,9 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         "multipliers": m,
         "mask": m,
         "saved": m,
-        "phi": m,
+        "residual": m,
         "nu": m,
-        "drift": m,
         "pivot": m,
-        "right": m,
         "change": equations.nv,
         "mass": equations.nv,
         "jacobian": sum(e.slot is not None for e in jacobian),
@@ -59,20 +57,15 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         hoister.block(
             "geometry",
             "Phi, nu, D, and the factorisation of D D^T that decides rank",
-            [*_geometry_outputs(system, jacobian), *_pivot_outputs(g, factor), *stored.outputs("lower", "reciprocal")],
-            ("t", "y", "p", "w"),
-        ),
-        _spread(hoister, equations, jacobian, stored, None),
-        _drift(hoister, equations, jacobian),
-        hoister.block(
-            "energies",
-            "kinetic and potential energy",
             [
-                (Target("status", STATUS.index("kinetic")), equations.kinetic),
-                (Target("status", STATUS.index("potential")), equations.potential),
+                *_geometry_outputs(system, jacobian),
+                *_pivot_outputs(system, factor),
+                *stored.outputs("lower", "reciprocal"),
             ],
             ("t", "y", "p", "w"),
         ),
+        _spread(hoister, equations, jacobian, stored, None),
+        _measure(hoister, equations, jacobian),
         _observe(hoister, system),
         hoister.block(
             "masses",
@@ -177,22 +170,34 @@ def _jacobian(g: Graph, equations: Equations) -> tuple[Entry, ...]:
 
 def _geometry_outputs(system: System, jacobian: Sequence[Entry]) -> Outputs:
     g, rows = system.graph, system.equations.rows
-    outputs: Outputs = [(Target("phi", i), r.phi) for i, r in enumerate(rows) if r.phi is not None]
+    outputs: Outputs = [(Target("residual", i), n) for i, n in enumerate(system.phi)]
+    outputs.append(_status("position_violation", g.call("sqrt", system.phi.dot(system.phi).node)))
     outputs += [(Target("nu", i), r.nu) for i, r in enumerate(rows) if r.nu != g.zero]
     entries = [node for row in rows for _, node in row.entries]
-    outputs += [
-        (Target("jacobian", e.slot), n) for e, n in zip(jacobian, entries, strict=True) if e.slot is not None
-    ]
+    outputs += [(Target("jacobian", e.slot), n) for e, n in zip(jacobian, entries, strict=True) if e.slot is not None]
     return outputs
 
 
-def _pivot_outputs(g: Graph, factor: Factor) -> Outputs:
-    """Relative pivots: the squared sine of the angle between a row and the rows eliminated before it."""
-    return [
-        (Target("pivot", i), g.div(factor.pivots[i], factor.diagonal[i]))
-        for i in range(len(factor.order))
-        if factor.pivots[i] != factor.diagonal[i]
-    ]
+def _pivot_outputs(system: System, factor: Factor) -> Outputs:
+    """Relative pivots (the squared sine of the angle between a row and those eliminated before it), the rank they decide,
+    and the smallest one over the rows that are not masked.
+    """
+    g = system.graph
+    outputs: Outputs = []
+    rank, smallest = g.zero, g.one
+    for i in range(len(factor.order)):
+        if factor.pivots[i] == factor.diagonal[i]:
+            rank = g.add(rank, g.one)
+            continue
+        relative = g.div(factor.pivots[i], factor.diagonal[i])
+        outputs.append((Target("pivot", i), relative))
+        rank = g.add(rank, g.call("step", factor.pivots[i], g.mul(g.constant(SKIP), factor.diagonal[i])))
+        smallest = g.call("min", smallest, g.add(relative, system.mask[i]))
+    return [*outputs, _status("rank", rank), _status("smallest_pivot", smallest)]
+
+
+def _status(name: str, node: int) -> tuple[Target, int]:
+    return Target("status", STATUS.index(name)), node
 
 
 def _loaded_rows(g: Graph, jacobian: Sequence[Entry], m: int) -> list[list[tuple[int, int]]]:
@@ -206,10 +211,10 @@ def _loaded_rows(g: Graph, jacobian: Sequence[Entry], m: int) -> list[list[tuple
 def _spread(
     hoister: Hoister, equations: Equations, jacobian: Sequence[Entry], stored: _Stored, system: System | None
 ) -> Block:
-    """D^+ applied to the section ``right``: x = W^-1 D^T (D W^-1 D^T)^-1 b, W^-1 = M^-1 where `system` is given."""
+    """The correction x = -D^+ r of a residual r, D^+ = W^-1 D^T (D W^-1 D^T)^-1; W is M where `system` is given, else 1."""
     g = hoister.graph
     names = ("lower", "reciprocal") if system is None else ("law_lower", "law_reciprocal")
-    y = stored.loaded(*names).solve(g, [g.input("right", i) for i in range(equations.m)])
+    y = stored.loaded(*names).solve(g, [g.neg(g.input("residual", i)) for i in range(equations.m)])
     x = [g.zero] * equations.nv
     for i, row in enumerate(_loaded_rows(g, jacobian, equations.m)):
         for j, entry in row:
@@ -217,18 +222,25 @@ def _spread(
     if system is not None:
         x = list(system.minv(Vector(g, tuple(x))))
     outputs = [(Target("change", j), n) for j, n in enumerate(x)]
-    return hoister.block("spread", "change of v (or of q by N) = D^+ times the section `right`", outputs, ("p", "w"))
+    return hoister.block(
+        "spread", "the correction -D^+ times the section `residual`, of v, or of q by N", outputs, ("p", "w")
+    )
 
 
-def _drift(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -> Block:
+def _measure(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -> Block:
     g = hoister.graph
     outputs: Outputs = []
+    residuals: list[int] = []
     for i, row in enumerate(_loaded_rows(g, jacobian, equations.m)):
         total = g.total(g.mul(e, g.input("v", j)) for j, e in row)
         if equations.rows[i].nu != g.zero:
             total = g.sub(total, g.input("nu", i))
-        outputs.append((Target("drift", i), total))
-    return hoister.block("drift", "D v - nu with the D and nu that `geometry` left", outputs, ("y", "w"))
+        residuals.append(total)
+        outputs.append((Target("residual", i), total))
+    outputs.append(_status("velocity_violation", g.call("sqrt", g.dot(residuals, residuals))))
+    outputs += [_status("kinetic", equations.kinetic), _status("potential", equations.potential)]
+    purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
+    return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
 
 
 def _observe(hoister: Hoister, system: System) -> Block:
@@ -257,7 +269,7 @@ def _mass_metric(
         "Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T",
         [
             *_geometry_outputs(system, jacobian),
-            *_pivot_outputs(g, rank),
+            *_pivot_outputs(system, rank),
             *stored.outputs("law_lower", "law_reciprocal"),
         ],
         ("t", "y", "p", "w"),

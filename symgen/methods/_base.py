@@ -91,7 +91,9 @@ class Method(ABC):
         for name, value in given.items():
             if name not in known:
                 names = [*known, *(p.name for p in self.parameters)]
-                raise InputError(f"option {self.name}.{name}", "an option of the method", f"'{name}'", nearest(name, names))
+                raise InputError(
+                    f"option {self.name}.{name}", "an option of the method", f"'{name}'", nearest(name, names)
+                )
             if value not in known[name].values:
                 raise InputError(
                     f"option {self.name}.{name}",

@@ -25,7 +25,9 @@ class DirectCorrection(Method):
         "Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064"
     )
     parameters = (
-        MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
+        MethodParameter(
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+        ),
     )
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),)
     position_correction = True

@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from symgen.result.judge import Verdict, judge
-from symgen.result.labelled import Array, Labelled
+from symgen.result.judge import judge
+from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces
 from symgen.result.result import Rank, Result, Seconds
 from symgen.runtime import abi
@@ -49,12 +47,11 @@ def build_result(
         position is run once more at another step.
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
-    forces = _forces(model, compiled, outcome)
+    forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in model.mechanism.joints})
     verdict = judge(settings, plan, compiled, outcome)
     verdict = replace(verdict, notes=(*start.notes, *_redundancy(compiled, outcome, forces), *verdict.notes))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, -1]
-    violations = np.column_stack([status[:, abi.PHI], status[:, abi.DRIFT], outcome.acceleration_violations])
     law = compiled.law
     return Result(
         mechanism=model.name,
@@ -70,15 +67,12 @@ def build_result(
         notes=verdict.notes,
         parameters=model.parameters(settings.parameters),
         t=outcome.times,
-        q=_table(states[:, : info.nq], info.coordinates),
-        v=_table(states[:, info.nq : info.nq + info.nv], info.velocities),
-        a=_accelerations(outcome.accelerations, info.velocities),
-        joint_coordinates=_joint_coordinates(compiled, outcome),
+        q=labelled(states[:, : info.nq], info.coordinates),
+        v=labelled(states[:, info.nq : info.nq + info.nv], info.velocities),
         kinetic=kinetic,
         potential=potential,
         work=work,
-        energy_error=kinetic + potential - start_energy(compiled, outcome) - work,
-        violations=Labelled(violations, ("position", "velocity", "acceleration"), ("m", "m/s", "m/s^2")),
+        energy_error=kinetic + potential - outcome.energy_start - work,
         smallest_pivot=status[:, abi.PIVOT],
         rank=Rank(info.m, start.rank, len(info.dropped_rows), start.redundant_rows),
         rank_events=outcome.rank_events,
@@ -97,31 +91,8 @@ def build_result(
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
+        outcome=outcome,
         forces=forces,
-    )
-
-
-def start_energy(compiled: CompiledModel, outcome: Outcome) -> float:
-    """Return the total energy at the start of a run [J], where there need not be an output."""
-    from symgen.runtime.probe import call_measure
-
-    w = outcome.start.w.copy()
-    call_measure(compiled.model.energies, 0.0, outcome.start.y, outcome.start.p, w)
-    return float(w[abi.KINETIC] + w[abi.POTENTIAL])
-
-
-def _forces(model: Model, compiled: CompiledModel, outcome: Outcome) -> Forces:
-    return Forces(
-        compiled=compiled,
-        joints={joint.name: joint.bodies[0] for joint in model.mechanism.joints},
-        times=outcome.times,
-        states=outcome.states,
-        raw=outcome.multipliers,
-        ranks=outcome.status_columns[:, abi.RANK],
-        p=outcome.start.p,
-        w=outcome.start.w,
-        start=outcome.start.y,
-        rank=outcome.start.rank,
     )
 
 
@@ -136,41 +107,3 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
-
-
-def _table(values: Array, quantities: tuple[object, ...]) -> Labelled:
-    names = tuple(q.name for q in quantities)  # type: ignore[attr-defined]  # Quantity of symgen.model
-    units = tuple(q.unit for q in quantities)  # type: ignore[attr-defined]
-    return Labelled(values, names, units)
-
-
-def _accelerations(values: Array, velocities: tuple[object, ...]) -> Labelled:
-    """Name accelerations after velocities: ``crank.ax`` for ``crank.vx``, ``crank.alpha`` for ``crank.omega``."""
-    table = _table(values, velocities)
-    names = []
-    for name in table.names:
-        body, _, component = name.rpartition(".")
-        names.append(f"{body}.{_ACCELERATION.get(component, component + '_rate')}")
-    return Labelled(values, tuple(names), tuple(f"{unit}^2" for unit in table.units))
-
-
-_ACCELERATION = {
-    "vx": "ax",
-    "vy": "ay",
-    "vz": "az",
-    "omega": "alpha",
-    "wx": "alphax",
-    "wy": "alphay",
-    "wz": "alphaz",
-}
-
-
-def _joint_coordinates(compiled: CompiledModel, outcome: Outcome) -> Labelled:
-    """Return values and rates: ``observe`` gives all values, then all rates, or one pair after the other."""
-    quantities = compiled.info.joint_coordinates
-    names = tuple(q.name for q in quantities) + tuple(f"{q.name}.rate" for q in quantities)
-    units = tuple(q.unit for q in quantities) + tuple(f"{q.unit}/s" for q in quantities)
-    return Labelled(outcome.joint_coordinates, names, units)
-
-
-__all__ = ["Verdict", "build_result", "start_energy"]

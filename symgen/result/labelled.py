@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,3 +79,18 @@ class Labelled:
     def __repr__(self) -> str:
         shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
         return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"
+
+
+class Quantity(Protocol):
+    """Anything with a name and a unit."""
+
+    @property
+    def name(self) -> str: ...  # noqa: D102
+    @property
+    def unit(self) -> str: ...  # noqa: D102
+
+
+def labelled(values: Array, quantities: Iterable[Quantity]) -> Labelled:
+    """Return `values` with the names and units of `quantities`."""
+    found = tuple(quantities)
+    return Labelled(values, tuple(q.name for q in found), tuple(q.unit for q in found))

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.model import CompiledModel
 from symgen.result.labelled import Array, Labelled
+from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+    from symgen.runtime.run import Outcome
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
 CUTOFF = 1e-6
@@ -34,64 +39,42 @@ class Forces:
 
     Attributes
     ----------
-    compiled : CompiledModel
-        Gives D through its ``geometry``.
+    outcome : Outcome
+        States and raw multipliers at the outputs; its model gives D.
     joints : mapping
         Joint name -> name of its first body.
-    times, states, raw : Array, shapes (k,), (k, ny), (k, m)
-        Outputs, and the multipliers as the method computed them.
-    ranks : Array, shape (k,)
-        Rows kept at each output.
-    p, w : Array
-        Prepared parameters and scratch.
-    start : Array, shape (ny,)
-        Where the run began.
-    rank : int
-        Rank of D there.
     """
 
-    compiled: CompiledModel
+    outcome: Outcome
     joints: Mapping[str, str]
-    times: Array
-    states: Array
-    raw: Array
-    ranks: Array
-    p: Array
-    w: Array
-    start: Array
-    rank: int
+
+    @property
+    def compiled(self) -> CompiledModel:
+        """The model that was run."""
+        return self.outcome.compiled
 
     @property
     def redundant(self) -> bool:
         """Whether some rows depend on others at the start."""
-        return self.rank < self.compiled.info.m
+        return self.outcome.start.rank < self.compiled.info.m
 
     # -- multipliers ---------------------------------------------------------------------------------------------------
 
     def multipliers(self) -> Labelled:
         """Return lambda at all outputs, of minimum norm where the rows of D are dependent."""
-        values = self.raw.copy()
-        for k in np.flatnonzero(self._dependent()):
-            values[k] = self._minimum_norm(int(k))
-        info = self.compiled.info
-        units = tuple(_multiplier_unit(row.unit) for row in info.rows)
-        return Labelled(values, tuple(row.name for row in info.rows), units)
+        values = _minimum_norm(self.outcome)
+        rows = self.compiled.info.rows
+        return Labelled(values, tuple(r.name for r in rows), tuple(_multiplier_unit(r.unit) for r in rows))
 
     def final(self) -> dict[str, float]:
         """Return the multipliers at the last output by name; empty where there is no output."""
-        if not len(self.times):
+        o = self.outcome
+        if not len(o.times):
             return {}
-        last = len(self.times) - 1
-        values = self._minimum_norm(last) if self._dependent()[last] else self.raw[last]
+        # evaluated there alone: a run of which nothing else is asked need not evaluate every output again
+        last = replace(o, times=o.times[-1:], states=o.states[-1:], status_columns=o.status_columns[-1:])
+        values = _minimum_norm(last)[0]
         return {row.name: float(x) for row, x in zip(self.compiled.info.rows, values, strict=True)}
-
-    def _dependent(self) -> Array:
-        mask = np.full(len(self.times), self.redundant) | (self.ranks < self.compiled.info.m)
-        return np.asarray(mask & np.isfinite(self.raw).all(axis=1) & np.isfinite(self.states).all(axis=1))
-
-    def _minimum_norm(self, k: int) -> Array:
-        transposed = self.jacobian(self.times[k], self.states[k]).T
-        return np.asarray(np.linalg.lstsq(transposed, transposed @ self.raw[k], rcond=CUTOFF)[0])
 
     @property
     def non_unique(self) -> tuple[str, ...]:
@@ -99,7 +82,7 @@ class Forces:
         info = self.compiled.info
         found = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant:
-            d = self.jacobian(0.0, self.start)
+            d = jacobian(self.outcome, 0.0, self.outcome.start.y)
             left, singular, _ = np.linalg.svd(d, full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)
@@ -128,25 +111,25 @@ class Forces:
             if body == GROUND:
                 found = self._on_ground(generalised, columns)
             else:
-                nothing = np.zeros(len(self.times))
+                nothing = np.zeros(len(self.outcome.times))
                 found = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in columns[body]}
             labels = {label: unit for label, unit in _FORCE.values()}
             for label, value in found.items():
                 names.append(f"{joint}.{label}")
                 units.append(labels[label])
                 values.append(value)
-        stacked = np.column_stack(values) if values else np.zeros((len(self.times), 0))
+        stacked = np.column_stack(values) if values else np.zeros((len(self.outcome.times), 0))
         return Labelled(stacked, tuple(names), tuple(units))
 
     def _on_ground(self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]) -> dict[str, Array]:
         """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
-        nothing = np.zeros(len(self.times))
+        nothing = np.zeros(len(self.outcome.times))
         total = {"Fx": nothing, "Fy": nothing, "M": nothing}
         for indices in columns.values():
             part = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
             if not any(i in generalised for i, _ in indices):
                 continue
-            x, y = self.states[:, indices[0][0]], self.states[:, indices[1][0]]  # planar: q and v have the same order
+            x, y = self.outcome.states[:, indices[0][0]], self.outcome.states[:, indices[1][0]]  # planar: q and v have the same order
             moment = part.get("M", nothing) + x * part["Fy"] - y * part["Fx"]
             total = {
                 "Fx": total["Fx"] - part["Fx"],
@@ -155,31 +138,43 @@ class Forces:
             }
         return total
 
-    # -- the Jacobian --------------------------------------------------------------------------------------------------
-
-    def jacobian(self, t: float, y: Array) -> Array:
-        """Return D at one state, shape (m, nv)."""
-        from symgen.runtime.probe import call_measure
-
-        w = self.w.copy()
-        call_measure(self.compiled.model.geometry, float(t), y.copy(), self.p, w)
-        return self.compiled.jacobian(w)
-
     def _entries(self) -> list[tuple[int, int, Array]]:
         """Return (row, column, values at all outputs) of D's structural entries."""
         from symgen.runtime.probe import call_measure
 
-        w = self.w.copy()
+        o = self.outcome
+        w = o.w.copy()
         stored = self.compiled.section(w, "jacobian")
-        values = np.empty((len(self.times), len(stored)))
-        for k, t in enumerate(self.times):
-            call_measure(self.compiled.model.geometry, float(t), self.states[k], self.p, w)
+        values = np.empty((len(o.times), len(stored)))
+        for k, t in enumerate(o.times):
+            call_measure(self.compiled.model.geometry, float(t), o.states[k], o.p, w)
             values[k] = stored
-        constant = np.ones(len(self.times))
+        constant = np.ones(len(o.times))
         return [
             (row, column, constant * (number or 0.0) if slot is None else values[:, slot])
             for row, column, number, slot in self.compiled.info.jacobian
         ]
+
+
+def jacobian(outcome: Outcome, t: float, y: Array) -> Array:
+    """Return D at one state, shape (m, nv), without compiling anything."""
+    from symgen.runtime.probe import interpreted
+
+    w = outcome.w.copy()
+    interpreted(outcome.compiled.model.geometry)(float(t), y.copy(), outcome.p, w)
+    return outcome.compiled.jacobian(w)
+
+
+def _minimum_norm(outcome: Outcome) -> Array:
+    """Return the multipliers at all outputs, shape (k, m), of minimum norm where the rows of D are dependent."""
+    m = outcome.compiled.info.m
+    dependent = (outcome.status_columns[:, abi.RANK] < m) | (outcome.start.rank < m)
+    values = outcome.multipliers.copy()
+    usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
+    for k in np.flatnonzero(dependent & usable):
+        transposed = jacobian(outcome, float(outcome.times[k]), outcome.states[k]).T
+        values[k] = np.linalg.lstsq(transposed, transposed @ values[k], rcond=CUTOFF)[0]
+    return values
 
 
 def _multiplier_unit(row_unit: str) -> str:

@@ -20,8 +20,17 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.result.reactions import Forces
-    from symgen.runtime.run import RankEvent
+    from symgen.runtime.run import Outcome, RankEvent
 
+_ACCELERATIONS = {
+    "vx": "ax",
+    "vy": "ay",
+    "vz": "az",
+    "omega": "alpha",
+    "wx": "alphax",
+    "wy": "alphay",
+    "wz": "alphaz",
+}
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
 #: Reason of a run that was stopped from outside.
@@ -71,14 +80,10 @@ class Result:
         Values of the mechanism's parameters.
     t : Array, shape (k,)
         Output times [s].
-    q, v, a : Labelled
-        Coordinates, velocities and accelerations.
-    joint_coordinates : Labelled
-        What joints report, and their rates (``JOINT.angle``, ``JOINT.angle.rate``).
+    q, v : Labelled
+        Coordinates and velocities.
     kinetic, potential, work, energy_error : Array, shape (k,)
         T, V, W (of forces without potential and of drivers) and T + V - E0 - W [J].
-    violations : Labelled
-        Norms of Phi, ``D v - nu`` and ``D v' - gamma`` (``position``, ``velocity``, ``acceleration``).
     smallest_pivot : Array, shape (k,)
         Of D D^T with scaled rows: how near the output is to a singular position.
     rank : Rank
@@ -106,13 +111,10 @@ class Result:
     t: Array
     q: Labelled
     v: Labelled
-    a: Labelled
-    joint_coordinates: Labelled
     kinetic: Array
     potential: Array
     work: Array
     energy_error: Array
-    violations: Labelled
     smallest_pivot: Array
     rank: Rank
     rank_events: tuple[RankEvent, ...]
@@ -125,9 +127,35 @@ class Result:
     position_violation_max: float
     velocity_violation_max: float
     energy_drift_max: float
+    outcome: Outcome = field(repr=False)
     forces: Forces = field(repr=False)
 
     # -- derived, when first asked for ---------------------------------------------------------------------------------
+
+    @cached_property
+    def a(self) -> Labelled:
+        """Accelerations v', named after the velocities: ``crank.ax``, ``crank.alpha``."""
+        names, units = [], []
+        for name, unit in zip(self.v.names, self.v.units, strict=True):
+            body, _, component = name.rpartition(".")
+            names.append(f"{body}.{_ACCELERATIONS[component]}")
+            units.append(f"{unit}^2")
+        return Labelled(self.outcome.accelerations, tuple(names), tuple(units))
+
+    @cached_property
+    def joint_coordinates(self) -> Labelled:
+        """What joints report, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
+        quantities = self.outcome.compiled.info.joint_coordinates
+        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
+        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
+        return Labelled(self.outcome.joint_coordinates, names, units)
+
+    @cached_property
+    def violations(self) -> Labelled:
+        """Norms of Phi, ``D v - nu`` and ``D v' - gamma``: ``position``, ``velocity``, ``acceleration``."""
+        status = self.outcome.status_columns
+        values = np.column_stack([status[:, 0], status[:, 1], self.outcome.acceleration_violations])
+        return Labelled(values, ("position", "velocity", "acceleration"), ("m", "m/s", "m/s^2"))
 
     @cached_property
     def lam(self) -> Labelled:
@@ -185,14 +213,13 @@ class Result:
         """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``."""
         if name == "t":
             return self.t
-        cheap = (self.q, self.v, self.joint_coordinates)
-        for table in cheap:
-            if name in table:
-                return table[name]
-        for table in (self.lam, self.reactions):
-            if name in table:
-                return table[name]
-        known = [n for table in cheap for n in table]
+        known: list[str] = []
+        # cheap ones first: a table behind the one that has the name is never computed
+        for table in ("q", "v", "joint_coordinates", "a", "lam", "reactions"):
+            found: Labelled = getattr(self, table)
+            if name in found:
+                return found[name]
+            known += found.names
         raise InputError("result", "the name of a column", f"'{name}'", nearest(name, known))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------

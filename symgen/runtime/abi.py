@@ -17,12 +17,8 @@ _I = types.int64[::1]
 RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
-#: geometry(t, y, p, w), energies(t, y, p, w).
+#: geometry(t, y, p, w).
 MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
-#: masses(p, w).
-MASSES = types.FunctionType(types.int64(_A, _A))
-#: prepare(p).
-PREPARE = types.FunctionType(types.int64(_A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 

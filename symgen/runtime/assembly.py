@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError, InputError
-from symgen.runtime.probe import call_masses, call_measure, call_prepare
+from symgen.runtime.probe import call_measure, interpreted
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -82,10 +82,10 @@ def assemble(
         If `strict` and the start had to be changed.
     """
     info = compiled.info
-    call_prepare(compiled.model.prepare, p)
-    call_prepare(compiled.law_module.prepare, p)
     w = compiled.scratch()
-    call_masses(compiled.model.masses, p, w)
+    for function in (compiled.model.prepare, compiled.law_module.prepare):
+        interpreted(function)(p)
+    interpreted(compiled.model.masses)(p, w)
     masses = compiled.section(w, "mass")
     if not np.all(masses > 0.0):
         name = info.velocities[int(np.argmin(masses))].name.split(".")[0]
@@ -131,7 +131,7 @@ def _close(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> 
     """Close positions in place; return by how much a coordinate moved."""
     info = compiled.info
     first = y[: info.nq].copy()
-    phi = compiled.section(w, "phi")
+    phi = compiled.section(w, "residual")
     best, stalled = np.inf, 0
     for _ in range(_ITERATIONS):
         call_measure(compiled.model.geometry, t0, y, p, w)
@@ -158,9 +158,7 @@ def _close(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> 
     )
 
 
-def _complete_velocities(
-    compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array, w: Array
-) -> str:
+def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array, w: Array) -> str:
     """Set the velocities in place; return a sentence if given ones had to be changed."""
     info = compiled.info
     velocity = y[info.nq : info.nq + info.nv]
@@ -183,7 +181,9 @@ def _complete_velocities(
         root = 1.0 / np.sqrt(compiled.section(w, "mass"))
         velocity += root * np.linalg.lstsq(d * root, nu - d @ velocity, rcond=RANK_CUTOFF)[0]
     if np.linalg.norm(nu - d @ velocity) > 1e-8 * scale:
-        raise AssemblyError(f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other")
+        raise AssemblyError(
+            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+        )
     k = int(np.argmax(np.abs(velocity - before)))
     name = info.velocities[k]
     return (

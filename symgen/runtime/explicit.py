@@ -16,7 +16,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.watch import keep_maxima, watch
+from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
 
 _F8, _I8 = types.float64, types.int64
@@ -141,6 +141,7 @@ def fixed_steps(
     index = 0
     out = 0
     accept(t, y, p, w, iw)
+    begin(w, gauges)
     code = watch(t, w, y[n - 1], gauges, control, events)
     if code != _DONE:
         return code
@@ -249,6 +250,7 @@ def adaptive_steps(
     t = t0
     out = 0
     accept(t, y, p, w, iw)
+    begin(w, gauges)
     code = watch(t, w, y[n - 1], gauges, control, events)
     if code != _DONE:
         return code

@@ -10,39 +10,64 @@ from numba import types
 from symgen.runtime import abi
 from symgen.store.jit import jit
 
-_A, _I, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
+_A, _I, _M, _I8 = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64
 
 
-@jit(types.int64(abi.RHS, abi.RHS, abi.OBSERVE, _A, _M, _A, _A, _I, types.int64, types.int64, types.int64, types.int64, _M, _M, _M))
-def observe_outputs(
+@jit(_I8(abi.RHS, abi.RHS, _A, _M, _A, _A, _I, _I8, _I8, _M, _M))
+def observe_rates(
     rhs: Any,
     confirm: Any,
-    observe: Any,
     times: Any,
     states: Any,
     p: Any,
     w: Any,
     iw: Any,
     nq: int,
-    nv: int,
-    m: int,
     multipliers: int,
     accelerations: Any,
     lam: Any,
-    observed: Any,
 ) -> int:
-    """Evaluate v', lambda and what ``observe`` gives at every output.
+    """Evaluate v' and lambda at every output.
 
     Parameters
     ----------
-    rhs, confirm, observe : emitted functions
+    rhs, confirm : emitted functions
         See `symgen.runtime.abi`.
     times, states : Array, shapes (k,), (k, ny)
         The outputs.
-    nq, nv, m, multipliers : int
-        Sizes, and where the multipliers begin in `w`.
-    accelerations, lam, observed : Array
-        Results, one row an output.
+    nq, multipliers : int
+        Number of coordinates, and where the multipliers begin in `w`.
+    accelerations, lam : Array, shapes (k, nv), (k, m)
+        Results.
+    """
+    y = np.zeros(states.shape[1])
+    rate = np.zeros(states.shape[1])
+    for k in range(times.shape[0]):
+        for i in range(y.shape[0]):
+            y[i] = states[k, i]
+        if rhs(times[k], y, p, w, iw, rate) != 0:
+            confirm(times[k], y, p, w, iw, rate)
+        for i in range(accelerations.shape[1]):
+            accelerations[k, i] = rate[nq + i]
+        for i in range(lam.shape[1]):
+            lam[k, i] = w[multipliers + i]
+    return 0
+
+
+@jit(_I8(abi.OBSERVE, _A, _M, _M, _A, _A, _I8, _M))
+def observe_rows(
+    observe: Any, times: Any, states: Any, accelerations: Any, p: Any, w: Any, nq: int, observed: Any
+) -> int:
+    """Evaluate D v' - gamma and the joint coordinates with their rates at every output.
+
+    Parameters
+    ----------
+    observe : emitted function
+        See `symgen.runtime.abi`.
+    times, states, accelerations : Array, shapes (k,), (k, ny), (k, nv)
+        The outputs.
+    observed : Array, shape (k, m + 2 n)
+        Result, in the order that ``observe`` writes.
     """
     y = np.zeros(states.shape[1])
     rate = np.zeros(states.shape[1])
@@ -50,13 +75,9 @@ def observe_outputs(
     for k in range(times.shape[0]):
         for i in range(y.shape[0]):
             y[i] = states[k, i]
-        if rhs(times[k], y, p, w, iw, rate) != 0:
-            confirm(times[k], y, p, w, iw, rate)
+        for i in range(accelerations.shape[1]):
+            rate[nq + i] = accelerations[k, i]
         observe(times[k], y, p, w, rate, out)
-        for i in range(nv):
-            accelerations[k, i] = rate[nq + i]
-        for i in range(m):
-            lam[k, i] = w[multipliers + i]
         for i in range(observed.shape[1]):
             observed[k, i] = out[i]
     return 0

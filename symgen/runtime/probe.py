@@ -14,23 +14,16 @@ _F8, _A, _I = types.float64, types.float64[::1], types.int64[::1]
 
 @jit(types.int64(abi.MEASURE, _F8, _A, _A, _A))
 def call_measure(function: Any, t: float, y: Any, p: Any, w: Any) -> int:
-    """Call ``geometry`` or ``energies``."""
+    """Call ``geometry``."""
     return int(function(t, y, p, w))
-
-
-@jit(types.int64(abi.PREPARE, _A))
-def call_prepare(function: Any, p: Any) -> int:
-    """Call ``prepare``."""
-    return int(function(p))
-
-
-@jit(types.int64(abi.MASSES, _A, _A))
-def call_masses(function: Any, p: Any, w: Any) -> int:
-    """Call ``masses``."""
-    return int(function(p, w))
 
 
 @jit(types.int64(abi.RHS, _F8, _A, _A, _A, _I, _A))
 def call_rhs(function: Any, t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
     """Call ``rhs``."""
     return int(function(t, y, p, w, iw, ydot))
+
+
+def interpreted(function: Any) -> Any:
+    """Return the plain Python form of an emitted function: what runs once a run is not worth compiling."""
+    return getattr(function, "py_func", function)

@@ -6,6 +6,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -75,7 +76,8 @@ class RankEvent:
 class Outcome:
     """What a run gave; arrays have one row an output.
 
-    `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank.
+    `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
+    evaluations at the outputs is computed when it is first asked for.
     """
 
     code: int
@@ -84,16 +86,13 @@ class Outcome:
     times: Array
     states: Array
     status_columns: Array
-    accelerations: Array
-    multipliers: Array
-    acceleration_violations: Array
-    joint_coordinates: Array
     steps: int
     rejected: int
     evaluations: int
     counters: dict[str, int]
     position_violation_max: float
     velocity_violation_max: float
+    energy_start: float
     energy_drift_max: float
     energy_scale: float
     energy_jump: float
@@ -102,7 +101,52 @@ class Outcome:
     rank_event_count: int
     run_seconds: float
     compile_seconds: float
+    compiled: CompiledModel = field(repr=False)
     start: Start = field(repr=False)
+    p: Array = field(repr=False)
+    w: Array = field(repr=False)
+
+    @property
+    def accelerations(self) -> Array:
+        """Return v' at the outputs, shape (k, nv)."""
+        return self._rates[0]
+
+    @property
+    def multipliers(self) -> Array:
+        """Return lambda at the outputs, shape (k, m)."""
+        return self._rates[1]
+
+    @property
+    def acceleration_violations(self) -> Array:
+        """Return |D v' - gamma| at the outputs, shape (k,)."""
+        return np.asarray(np.linalg.norm(self._rows[:, : self.compiled.info.m], axis=1))
+
+    @property
+    def joint_coordinates(self) -> Array:
+        """Return value and rate of every joint coordinate in turns at the outputs, shape (k, 2 n)."""
+        return self._rows[:, self.compiled.info.m :]
+
+    @cached_property
+    def _rates(self) -> tuple[Array, Array]:
+        from symgen.runtime.observe import observe_rates
+
+        info, law, k = self.compiled.info, self.compiled.law_module, len(self.times)
+        accelerations, multipliers = np.zeros((k, info.nv)), np.zeros((k, info.m))
+        observe_rates(
+            *(law.rhs, law.confirm, self.times, self.states, self.p, self.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
+            *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
+        )
+        return accelerations, multipliers
+
+    @cached_property
+    def _rows(self) -> Array:
+        from symgen.runtime.observe import observe_rows
+
+        info = self.compiled.info
+        observed = np.zeros((len(self.times), info.m + 2 * len(info.joint_coordinates)))
+        arrays = (self.times, self.states, self.accelerations, self.p, self.w.copy(), info.nq, observed)
+        observe_rows(self.compiled.model.observe, *arrays)
+        return observed
 
 
 def integrate(
@@ -135,36 +179,14 @@ def integrate(
     before = cache_stats()
     w, iw, gauges, control, events = _arrays(compiled, start, spec)
     y, p = start.y.copy(), start.p.copy()
-    states = np.empty((len(spec.times), len(y)))
-    status = np.empty((len(spec.times), abi.RANK + 1))
-    packed = tableau.packed()
-    law = compiled.law_module
-    common = (law.rhs, law.confirm, law.accept, *packed, tableau.stages)
-    room = np.zeros((len(packed[3]) + 2) * len(y))
-    tail = (spec.times, states, status, gauges, control, events, room)
-    if spec.adaptive:
-        from symgen.runtime.explicit import adaptive_steps as loop
-
-        assert tableau.dense is not None, "every adaptive tableau has dense output"
-        arguments: tuple[Any, ...] = (
-            *common,
-            np.concatenate(tableau.errors),
-            len(tableau.errors),
-            tableau.error_order,
-            np.ascontiguousarray(tableau.dense).ravel(),
-            *(y, p, w, iw, 0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol),
-            *tail,
-        )
-    else:
-        from symgen.runtime.explicit import fixed_steps as loop
-
-        assert spec.step is not None, "a constant step is given"
-        arguments = (*common, y, p, w, iw, 0.0, spec.step, spec.until, *tail)
-    _warm(loop, arguments, control)
-    code, seconds = _in_thread(loop, arguments, gauges, control, progress)
+    outputs = spec.times, np.empty((len(spec.times), len(y))), np.empty((len(spec.times), abi.RANK + 1))
+    loop, arguments = _loop(compiled, tableau, spec, y, p, w, iw)
+    watched = gauges, control, events
+    room = np.zeros((tableau.stages + 3 + len(tableau.extra_c)) * len(y))  # all stages, and two states
+    _warm(loop, arguments, outputs, (*watched, room))
+    code, seconds = _in_thread(loop, (*arguments, *outputs, *watched, room), gauges, control, progress)
 
     k = int(control[abi.OUTPUTS])
-    observed = _observe(compiled, spec.times[:k], states[:k], p, w, iw)
     after = cache_stats()
     n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
     table = events.reshape(-1, abi.N_EVENT)[:n_events]
@@ -172,19 +194,16 @@ def integrate(
         code=code,
         reason=_reason(code, w, gauges, spec),
         end=float(gauges[abi.TIME]),
-        times=spec.times[:k],
-        states=states[:k],
-        status_columns=status[:k],
-        accelerations=observed[0],
-        multipliers=observed[1],
-        acceleration_violations=np.linalg.norm(observed[2][:, : compiled.info.m], axis=1),
-        joint_coordinates=observed[2][:, compiled.info.m :],
+        times=outputs[0][:k],
+        states=outputs[1][:k],
+        status_columns=outputs[2][:k],
         steps=int(control[abi.STEPS]),
         rejected=int(control[abi.REJECTED]),
         evaluations=int(control[abi.EVALUATIONS]),
         counters={name: int(iw[i]) for i, name in enumerate(COUNTERS)},
         position_violation_max=float(gauges[abi.MAX_PHI]),
         velocity_violation_max=float(gauges[abi.MAX_DRIFT]),
+        energy_start=float(gauges[abi.ENERGY_START]),
         energy_drift_max=float(gauges[abi.MAX_ENERGY]),
         energy_scale=float(gauges[abi.ENERGY_SCALE]),
         energy_jump=float(gauges[abi.MAX_ENERGY_JUMP]),
@@ -192,21 +211,46 @@ def integrate(
         rank_events=tuple(RankEvent(float(a), float(b), int(r), float(s)) for a, b, r, s in table),
         rank_event_count=int(control[abi.EVENTS]),
         run_seconds=seconds,
-        compile_seconds=after["compile_seconds"] + after["load_seconds"] - before["compile_seconds"] - before["load_seconds"],
+        compile_seconds=after["compile_seconds"]
+        + after["load_seconds"]
+        - before["compile_seconds"]
+        - before["load_seconds"],
+        compiled=compiled,
         start=start,
+        p=p,
+        w=w,
     )
 
 
-def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array, Any, Array, Any, Array]:
-    from symgen.runtime.probe import call_measure
+def _loop(
+    compiled: CompiledModel, tableau: Tableau, spec: RunSpec, y: Array, p: Array, w: Array, iw: Any
+) -> tuple[Any, tuple[Any, ...]]:
+    """Return the loop for a run and its arguments up to the outputs."""
+    law = compiled.law_module
+    common = (law.rhs, law.confirm, law.accept, *tableau.packed(), tableau.stages)
+    if not spec.adaptive:
+        from symgen.runtime.explicit import fixed_steps
 
+        assert spec.step is not None, "a constant step is given"
+        return fixed_steps, (*common, y, p, w, iw, 0.0, spec.step, spec.until)
+    from symgen.runtime.explicit import adaptive_steps
+
+    assert tableau.dense is not None, "every adaptive tableau has dense output"
+    pair = (
+        np.concatenate(tableau.errors),
+        len(tableau.errors),
+        tableau.error_order,
+        np.ascontiguousarray(tableau.dense).ravel(),
+    )
+    control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
+    return adaptive_steps, (*common, *pair, y, p, w, iw, *control)
+
+
+def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array, Any, Array, Any, Array]:
     w = start.w.copy()
     iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
     gauges = np.zeros(abi.N_GAUGES)
     control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-    call_measure(compiled.model.energies, 0.0, start.y, start.p, w)
-    gauges[abi.ENERGY_START] = w[abi.KINETIC] + w[abi.POTENTIAL]
-    gauges[abi.POTENTIAL_START] = w[abi.POTENTIAL]
     gauges[abi.LIMIT_PHI] = spec.max_violation * w[abi.LENGTH]
     gauges[abi.LIMIT_DRIFT] = spec.max_violation * w[abi.SPEED]
     gauges[abi.LIMIT_ENERGY] = spec.max_energy_error
@@ -216,12 +260,12 @@ def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array
     return w, iw, gauges, control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)
 
 
-def _warm(loop: Any, arguments: tuple[Any, ...], control: Any) -> None:
+def _warm(loop: Any, arguments: tuple[Any, ...], outputs: tuple[Array, ...], watched: tuple[Any, ...]) -> None:
     """Compile everything by a run that is told to stop before its first step, so that the clock sees the loop alone."""
+    gauges, control, events, room = (a.copy() for a in watched)
     control[abi.STOP] = 1
-    fresh = tuple(a.copy() if isinstance(a, np.ndarray) else a for a in arguments)
-    loop(*fresh)
-    control[abi.STOP] = 0
+    fresh = (a.copy() if isinstance(a, np.ndarray) else a for a in arguments)
+    loop(*fresh, *(a[:0] for a in outputs), gauges, control, events, room)
 
 
 def _in_thread(
@@ -251,35 +295,6 @@ def _in_thread(
     if isinstance(outcome, BaseException):
         raise outcome
     return int(outcome[0]), float(outcome[1])
-
-
-def _observe(
-    compiled: CompiledModel, times: Array, states: Array, p: Array, w: Array, iw: Any
-) -> tuple[Array, Array, Array]:
-    from symgen.runtime.observe import observe_outputs
-
-    info, k = compiled.info, len(times)
-    accelerations = np.zeros((k, info.nv))
-    multipliers = np.zeros((k, info.m))
-    observed = np.zeros((k, info.m + 2 * len(info.joint_coordinates)))
-    observe_outputs(
-        compiled.law_module.rhs,
-        compiled.law_module.confirm,
-        compiled.model.observe,
-        times,
-        states,
-        p,
-        w,
-        iw.copy(),
-        info.nq,
-        info.nv,
-        info.m,
-        info.sections["multipliers"][0],
-        accelerations,
-        multipliers,
-        observed,
-    )
-    return accelerations, multipliers, observed
 
 
 def _reason(code: int, w: Array, gauges: Array, spec: RunSpec) -> str:

@@ -21,6 +21,13 @@ _DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, ab
 
 
 @jit
+def begin(w: Any, gauges: Any) -> None:
+    """Take the energies of the first accepted state as those the balance starts from."""
+    gauges[_START] = w[_KINETIC] + w[_POTENTIAL]
+    gauges[_POTENTIAL_START] = w[_POTENTIAL]
+
+
+@jit
 def keep_maxima(w: Any, work: float, gauges: Any) -> float:
     """Update the largest violations and energy error from the status in `w`; return the energy error."""
     if w[_PHI] > gauges[_MAX_PHI]:
@@ -64,7 +71,9 @@ def watch(t: float, w: Any, work: float, gauges: Any, control: Any, events: Any)
         elif not near and control[_IN_ZONE] == 1:
             gauges[_JUMP] = max(gauges[_JUMP], abs(error - gauges[_ENTRY]))
         k = control[_EVENTS] - 1
-        fresh = (near and control[_IN_ZONE] == 0) or (not near and control[_IN_ZONE] == 0 and rank != control[_LAST_RANK])
+        fresh = (near and control[_IN_ZONE] == 0) or (
+            not near and control[_IN_ZONE] == 0 and rank != control[_LAST_RANK]
+        )
         if fresh:
             k += 1
             control[_EVENTS] += 1

@@ -26,3 +26,8 @@ counters = CacheStats(hits=0, misses=0, compile_seconds=0.0, load_seconds=0.0)
 def cache_stats() -> CacheStats:
     """Return a copy of the counters of this process."""
     return counters.copy()
+
+
+def seconds_in_cache() -> float:
+    """Return the seconds that this process has spent compiling or loading compiled code."""
+    return counters["compile_seconds"] + counters["load_seconds"]

@@ -1,1 +1,1 @@
-"""Comparisons of methods and integrators."""
+"""Studies: many runs of a mechanism against a reference, and what they say about methods."""

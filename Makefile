@@ -1,0 +1,64 @@
+# make demo    what symgen is for, from an empty checkout to a table and a plot under out/
+# make test    the tests that take less than a few minutes
+# make help    everything else
+#
+# The first target that needs it makes .venv with Python 3.11 or newer and installs symgen there, editable, with all
+# extras; it is made again when pyproject.toml changes. Another interpreter: make test PYTHON=/path/to/python3.12
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+WORKERS ?= 2
+DEMO_MODEL ?= four-bar
+BENCH_VENV ?= .bench-venv
+
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/.installed
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test slow lint format generated bench clean
+
+help:  ## say what the targets do
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
+
+$(INSTALLED): pyproject.toml
+	@test -n "$(PYTHON)" || { echo "no Python found: make $(MAKECMDGOALS) PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@"$(PYTHON)" -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+	  || { echo "symgen needs Python 3.11 or newer: make $(MAKECMDGOALS) PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@"$(BIN)/python" -m pip --version >/dev/null 2>&1 \
+	  || { echo "making $(VENV) with $$("$(PYTHON)" --version)"; "$(PYTHON)" -m venv --clear $(VENV); }
+	@echo "installing symgen and what its tests need into $(VENV), once"
+	@"$(BIN)/python" -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@touch $@
+
+demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and plot in out/
+	@PATH="$(CURDIR)/$(BIN):$$PATH" bash scripts/demo.sh $(DEMO_MODEL)
+
+test: $(INSTALLED)  ## run the tests, except slow ones
+	@"$(BIN)/python" -m pytest -n $(WORKERS)
+
+slow: $(INSTALLED)  ## run the slow tests
+	@"$(BIN)/python" -m pytest -n $(WORKERS) -m slow
+
+lint: $(INSTALLED)  ## check format, style, types and the direction of imports
+	@"$(BIN)/ruff" format --check .
+	@"$(BIN)/ruff" check .
+	@"$(BIN)/mypy"
+	@"$(BIN)/lint-imports"
+
+format: $(INSTALLED)  ## put the sources into the project's format
+	@"$(BIN)/ruff" format .
+	@"$(BIN)/ruff" check --fix .
+
+generated: $(INSTALLED)  ## write the checked-in modules under generated/ anew
+	@SYMGEN_UPDATE_GENERATED=1 "$(BIN)/python" -m pytest tests/project/test_generated.py
+	@git --no-pager diff --stat -- generated 2>/dev/null || true
+
+bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, peers if installed
+	@"$(BIN)/python" -m benchmarks.against_gcc
+	@"$(BIN)/python" -m benchmarks.first_result
+	@"$(BIN)/python" -m benchmarks.singular
+	@"$(BIN)/python" -m benchmarks.against_peers --peers-python "$(BENCH_VENV)/bin/python"
+
+clean:  ## remove .venv and everything that can be made again
+	@rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis
+	@find . -name __pycache__ -type d -not -path './.git/*' -prune -exec rm -rf {} +

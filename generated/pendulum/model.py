@@ -1,0 +1,119 @@
+"""Model `pendulum`: what every method of it shares. Emitted by symgen; do not edit.
+
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 8f8565515c2742ad
+2 coordinates, 2 velocities, 1 constraint rows, 1 parameters,
+0 fill-ins in the factor of D D^T
+
+Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.
+
+y[0]     bob.x [m]
+y[1]     bob.y [m]
+y[2]     bob.vx [m/s]
+y[3]     bob.vy [m/s]
+y[4]     work of forces without potential and of drivers [J]
+p[0]     bob_mass [kg]
+row 0    link.distance [m]
+
+Left out:
+- z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
+- the kinematic map N: planar velocities are the rates of the coordinates
+- gyroscopic terms: they vanish in the plane
+- columns of the ground: the ground does not move
+- angle of bob: a point mass has none
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 2 operations, 2 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    # outputs
+    p[1] = 0.5*p0
+    p[2] = 9.81*p0
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """Phi, nu, D, and the factorisation of D D^T that decides rank: 6 operations, 9 before sharing."""
+    # inputs
+    q0 = y[0]  # bob.x [m]
+    q1 = y[1]  # bob.y [m]
+    # intermediate terms
+    s0 = q0*q0 + q1*q1
+    # outputs
+    w[11] = 0.5*(s0 - 1.0)
+    w[20] = q0
+    w[21] = q1
+    w[22] = 1.0/s0
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """change of v (or of q by N) = D^+ times the section `right`: 3 operations, 4 before sharing."""
+    # inputs
+    reciprocal_0 = w[22]
+    right_0 = w[15]
+    jacobian_0 = w[20]
+    jacobian_1 = w[21]
+    # intermediate terms
+    s0 = reciprocal_0*right_0
+    # outputs
+    w[16] = s0*jacobian_0
+    w[17] = s0*jacobian_1
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def drift(y, w):
+    """D v - nu with the D and nu that `geometry` left: 3 operations, 3 before sharing."""
+    # inputs
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    jacobian_0 = w[20]
+    jacobian_1 = w[21]
+    # outputs
+    w[13] = v0*jacobian_0 + v1*jacobian_1
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def energies(t, y, p, w):
+    """kinetic and potential energy: 6 operations, 6 before sharing."""
+    # inputs
+    v0 = y[2]  # bob.vx [m/s]
+    q1 = y[1]  # bob.y [m]
+    v1 = y[3]  # bob.vy [m/s]
+    p1 = p[1]
+    p2 = p[2]
+    # outputs
+    w[2] = v0*v0*p1 + v1*v1*p1
+    w[3] = q1*p2
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def observe(t, y, p, w, ydot, out):
+    """D v' - gamma, then joint coordinates and their rates: 7 operations, 7 before sharing."""
+    # inputs
+    q0 = y[0]  # bob.x [m]
+    v0 = y[2]  # bob.vx [m/s]
+    q1 = y[1]  # bob.y [m]
+    v1 = y[3]  # bob.vy [m/s]
+    ydot_2 = ydot[2]
+    ydot_3 = ydot[3]
+    # outputs
+    out[0] = v0*v0 + v1*v1 + q0*ydot_2 + q1*ydot_3
+    return 0
+
+@njit(error_model="numpy", fastmath={"contract"})
+def masses(p, w):
+    """diagonal of M: 0 operations, 0 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    # outputs
+    w[18] = p0
+    w[19] = p0
+    return 0

@@ -1,0 +1,62 @@
+"""What commands show on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
+
+COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
+
+
+def console() -> Console:
+    """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
+    wide = Console(highlight=False)
+    return wide if wide.is_terminal else Console(highlight=False, width=200)
+
+
+def show_result(result: Result, written: Sequence[Path]) -> None:
+    """Print what a run gave, and the files that were written."""
+    from symgen.result.summary import lines
+
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_column(style="dim")
+    table.add_column(overflow="fold")
+    for label, text in lines(result):
+        table.add_row(label, Text(text, style=COLOURS[result.status] if label == "status" else ""))
+    for path in written:
+        table.add_row("written", Text(str(path)))
+    out = console()
+    out.print(table)
+    if len(result.t):
+        out.print(_final(result))
+
+
+def _final(result: Result, most: int = 12) -> Table:
+    """Return the last positions and velocities, of the first bodies where there are many."""
+    table = Table(title="final state", title_justify="left", box=None, header_style="dim", pad_edge=False)
+    table.add_column("body")
+    rows: dict[str, list[str]] = {}
+    labels: list[str] = []
+    for values in (result.q.row(), result.v.row()):
+        for name, value in values.items():
+            body, _, label = name.rpartition(".")
+            rows.setdefault(body, []).append(f"{value:.6g}")
+            if label not in labels:
+                labels.append(label)
+    for label in labels:
+        table.add_column(label, justify="right")
+    point = ["x", "y", "vx", "vy"]
+    for body, numbers in list(rows.items())[:most]:
+        shown = dict(zip(labels if len(numbers) == len(labels) else point, numbers, strict=True))
+        table.add_row(body, *(shown.get(label, "") for label in labels))
+    if len(rows) > most:
+        table.add_row(f"... {len(rows) - most} more", *([""] * len(labels)))
+    return table

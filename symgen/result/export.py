@@ -1,0 +1,184 @@
+"""Results as data frames, datasets and files, through pandas and xarray, which are imported only here."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.errors import InputError, nearest
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+    from symgen.result.result import Result
+
+#: Endings of data files -> the libraries needed.
+SAVED = {".nc": ("xarray", "h5netcdf", "h5py"), ".parquet": ("pandas", "pyarrow"), ".csv": ("pandas",)}
+#: Endings of plots -> the libraries needed.
+PLOTTED = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
+
+#: Table -> what its columns are prefixed with in a data frame. Bodies and joints may share names, so all but the
+#: tables of bodies say whose they are.
+_PREFIX = {
+    "q": "",
+    "v": "",
+    "a": "",
+    "joint_coordinates": "joint.",
+    "lam": "lam.",
+    "reactions": "reaction.",
+    "energy": "energy.",
+    "violations": "violation.",
+}
+#: Table -> name of its second dimension in a dataset.
+_DIMENSION = {
+    "q": "coordinate",
+    "v": "velocity",
+    "a": "acceleration",
+    "joint_coordinates": "joint_coordinate",
+    "lam": "multiplier",
+    "reactions": "reaction",
+    "energy": "kind_of_energy",
+    "violations": "level",
+}
+
+
+def need(where: str, *libraries: str, extra: str = "data") -> None:
+    """Refuse to go on without a library, saying how to get it.
+
+    Raises
+    ------
+    InputError
+        If one of `libraries` is not installed.
+    """
+    for library in libraries:
+        if find_spec(library) is None:
+            raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
+
+
+def check_path(where: str, path: Path, endings: dict[str, tuple[str, ...]], extra: str) -> None:
+    """Refuse a file that cannot be written: unknown ending, missing library, or a folder that is not there.
+
+    Parameters
+    ----------
+    where : str
+        Who asks, for the message.
+    path : Path
+        The file.
+    endings : dict
+        `SAVED` or `PLOTTED`.
+    extra : str
+        What to install for the libraries.
+
+    Raises
+    ------
+    InputError
+        With what was expected.
+    """
+    ending = path.suffix.lower()
+    if ending not in endings:
+        hint = nearest(ending, endings) if ending else ""
+        known = ", ".join(endings)
+        raise InputError(where, f"a file ending in {known}", f"'{path}'", "" if hint.startswith("known") else hint)
+    need(where, *endings[ending], extra=extra)
+    check_writable(where, path)
+
+
+def check_writable(where: str, path: Path) -> None:
+    """Refuse a file whose folder is missing or cannot be written."""
+    if path.is_dir():
+        raise InputError(where, "the name of a file", f"the folder '{path}'")
+    if not path.parent.is_dir():
+        raise InputError(where, "a file in a folder that exists", f"'{path}'")
+    if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        raise InputError(where, "a file that can be written", f"'{path}'")
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
+    """Let `write` make a sibling of `path`, then put it in place: the file appears whole or not at all.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be written; nothing is left behind.
+    """
+    sibling = path.with_name(f".{path.stem}-{os.urandom(6).hex()}{path.suffix.lower()}")
+    try:
+        write(sibling)
+        os.replace(sibling, path)
+    except OSError as error:
+        raise InputError(str(path), "a file that can be written", error.strerror or "an error") from error
+    finally:
+        with suppress(OSError):
+            sibling.unlink()
+    return path
+
+
+def to_dataframe(result: Result) -> pd.DataFrame:
+    """Return all tables side by side over time; ``attrs`` holds units and what was run."""
+    need("to_dataframe", "pandas")
+    import pandas as pd
+
+    tables = result.tables()
+    columns = {
+        _PREFIX[name] + column: table.values[:, i]
+        for name, table in tables.items()
+        for i, column in enumerate(table.names)
+    }
+    frame = pd.DataFrame(columns, index=pd.Index(result.t, name="t"))
+    frame.attrs["units"] = {
+        _PREFIX[name] + column: unit
+        for name, table in tables.items()
+        for column, unit in zip(table.names, table.units, strict=True)
+    }
+    frame.attrs["run"] = result.to_json()
+    return frame
+
+
+def to_xarray(result: Result) -> xr.Dataset:
+    """Return all tables as variables over time, their columns and units as coordinates."""
+    need("to_xarray", "xarray")
+    import xarray as xr
+
+    variables, coordinates = {}, {"time": ("time", result.t, {"units": "s"})}
+    for name, table in result.tables().items():
+        dimension = _DIMENSION[name]
+        variables[name] = (("time", dimension), table.values)
+        coordinates[dimension] = (dimension, _texts(table.names), {})
+        coordinates[f"{dimension}_unit"] = (dimension, _texts(table.units), {})
+    variables["smallest_pivot"] = (("time",), result.smallest_pivot)
+    facts = {
+        "mechanism": result.mechanism,
+        "method": result.method,
+        "integrator": result.integrator,
+        "status": result.status,
+        "reason": result.reason or "",
+        "run": json.dumps(result.to_json(), allow_nan=False),
+    }
+    return xr.Dataset(variables, coordinates, facts)
+
+
+def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_]]:
+    return np.array(names, dtype=object)
+
+
+def save(result: Result, path: Path) -> Path:
+    """Write all tables in the format that the ending of `path` names."""
+    check_path("save", path, SAVED, "data")
+    ending = path.suffix.lower()
+    if ending == ".nc":
+        dataset = to_xarray(result)
+        return write_whole(path, lambda file: dataset.to_netcdf(file, engine="h5netcdf"))
+    frame = to_dataframe(result)
+    if ending == ".parquet":
+        return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
+    return write_whole(path, lambda file: frame.to_csv(file))
+
+

@@ -1,0 +1,141 @@
+"""What a run may claim: ok, unverified or failed, and the sentences that go with it.
+
+Small violations say nothing about the branch that was taken at a singular position, and there the step size does not
+control the error. So every run that came near one says so; where moreover nothing corrected the positions, the run is
+not ok unless a second run with other steps agrees.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
+from symgen.runtime import abi
+from symgen.runtime.run import WARN, integrate
+
+if TYPE_CHECKING:
+    from symgen.api import Plan, Settings
+    from symgen.model import CompiledModel
+    from symgen.runtime.run import Outcome
+
+#: Two runs agree when no coordinate differs by more than this, times the largest coordinate (at least 1).
+AGREEMENT = 1e-6
+#: Energy jump over a passage, as a fraction of the energy in motion: above the first a warning, above the second failure.
+JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3
+#: A rerun with a constant step takes this fraction of it; an adaptive one takes this fraction of the tolerances.
+OTHER_STEP, OTHER_TOLERANCE = 0.9, 0.1
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Status and reason of a run, with warnings and notes."""
+
+    status: str
+    reason: str | None
+    warnings: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Verdict:
+    """Judge a run by what its loop saw; with ``settings.verify``, run again at another step to settle doubts.
+
+    Parameters
+    ----------
+    settings, plan : Settings, Plan
+        What was asked for.
+    compiled : CompiledModel
+        Model and method.
+    outcome : Outcome
+        What the loop gave.
+    """
+    passed = outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
+    warnings = tuple(_warnings(outcome, passed))
+    if outcome.code == abi.STOPPED:
+        return Verdict(FAILED, INTERRUPTED, warnings)
+    if outcome.code != abi.DONE:
+        return Verdict(FAILED, outcome.reason, warnings)
+    jump = relative_jump(outcome)
+    if jump > JUMP_FAILURE:
+        reason = f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
+        return Verdict(FAILED, reason, warnings)
+    verdict = Verdict(OK, None, warnings)
+    if passed and not compiled.law.position_correction:
+        reason = (
+            f"passed near a singular position{_when(outcome)} without correction of positions: "
+            "nothing tells whether the right branch was taken"
+        )
+        verdict = Verdict(UNVERIFIED, reason, warnings)
+    if not settings.verify:
+        return verdict
+    if not passed:
+        return replace(verdict, notes=("nothing to verify: the run met no position near a singular one",))
+    return _verified(verdict, plan, compiled, outcome)
+
+
+def relative_jump(outcome: Outcome) -> float:
+    """Return the largest change of the energy error over a passage, as a fraction of the energy in motion."""
+    return outcome.energy_jump / outcome.energy_scale if outcome.energy_jump > 0.0 else 0.0
+
+
+def _warnings(outcome: Outcome, passed: bool) -> list[str]:
+    warnings = []
+    if passed:
+        count = outcome.rank_event_count
+        times = "" if count <= 1 else f", {count} times in all"
+        warnings.append(
+            f"passed near a singular position{_when(outcome)}{times}; the error there is not controlled by the step size"
+        )
+    jump = relative_jump(outcome)
+    if JUMP_WARNING < jump <= JUMP_FAILURE:
+        warnings.append(
+            f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
+        )
+    light = outcome.counters.get("light", 0)
+    if light and not passed:  # near a singular position pivots of D M^-1 D^T are small with any masses
+        warnings.append(
+            f"light bodies made D M^-1 D^T ill-conditioned in {light} evaluations although D has full rank; "
+            "accelerations there lose digits"
+        )
+    return warnings
+
+
+def _when(outcome: Outcome) -> str:
+    """Return time and pivot of the narrowest passage."""
+    if not outcome.rank_events:
+        return f": smallest pivot {outcome.smallest_pivot:.2g}"
+    event = min(outcome.rank_events, key=lambda e: e.smallest_pivot)
+    return f" at t = {event.t_in:.6g} s: smallest pivot {event.smallest_pivot:.2g}"
+
+
+# -- a second opinion --------------------------------------------------------------------------------------------------
+
+
+def _verified(verdict: Verdict, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Verdict:
+    """Run again with other steps and compare positions at all outputs."""
+    spec = plan.spec
+    if spec.adaptive:
+        spec = replace(spec, rtol=spec.rtol * OTHER_TOLERANCE, atol=spec.atol * OTHER_TOLERANCE)
+        other = f"a rerun with rtol = {spec.rtol:g}"
+    else:
+        assert spec.step is not None, "a constant step is given"
+        spec = replace(spec, step=spec.step * OTHER_STEP)
+        other = f"a rerun with step = {spec.step:g} s"
+    second = integrate(compiled, plan.tableau, outcome.start, spec)
+    if second.code == abi.STOPPED:
+        return replace(verdict, notes=("the verification was interrupted",))
+    if second.code != abi.DONE:
+        return Verdict(UNVERIFIED, f"{other} failed: {second.reason}", verdict.warnings)
+    nq = compiled.info.nq
+    scale = max(1.0, float(np.abs(outcome.states[:, :nq]).max(initial=0.0)))
+    difference = float(np.abs(outcome.states[:, :nq] - second.states[:, :nq]).max(initial=0.0))
+    if not difference <= AGREEMENT * scale:
+        return Verdict(
+            UNVERIFIED,
+            f"passed near a singular position{_when(outcome)}, and {other} differs by {difference:.3g} in a coordinate",
+            verdict.warnings,
+        )
+    note = f"verified: {other} agrees within {difference:.2g} in every coordinate"
+    return Verdict(OK, None, verdict.warnings, (note,))

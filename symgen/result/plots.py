@@ -1,0 +1,128 @@
+"""Plots of a result: panels over time, with units, in colours that can be told apart by everybody."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.errors import InputError, nearest
+from symgen.result.export import PLOTTED, check_path, write_whole
+from symgen.result.labelled import Labelled
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
+
+#: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
+DASHES = ("-", "--", ":", "-.")
+#: More lines than this have no legend.
+LONGEST_LEGEND = 14
+#: Smaller violations are drawn here: a logarithm has no zero.
+FLOOR = 1e-17
+
+
+def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
+    """Draw panels over time into a file.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw.
+    path : Path
+        A ``.png``, ``.svg`` or ``.pdf`` file.
+    what : tuple of str
+        Keys of `PANELS`.
+
+    Raises
+    ------
+    InputError
+        If the ending or a panel is not known, matplotlib is missing, or the file cannot be written.
+    """
+    check_path("plot", path, PLOTTED, "plot")
+    for name in what:
+        if name not in PANELS:
+            raise InputError("plot", "the name of a panel", f"'{name}'", nearest(name, PANELS))
+    figure = draw(result, what)
+    # no date in the file: the same result gives the same bytes
+    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower(), {})
+    return write_whole(path, lambda file: figure.savefig(file, dpi=150, metadata=metadata))
+
+
+def draw(result: Result, what: tuple[str, ...]) -> Any:
+    """Return a matplotlib figure with one panel, or several, for each word of `what`."""
+    from matplotlib.figure import Figure
+
+    panels = [panel for name in what for panel in PANELS[name](result)]
+    figure = Figure(figsize=(8.0, 0.8 + 2.4 * max(1, len(panels))), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(max(1, len(panels)), 1, sharex=True))
+    for ax, (label, table, logarithmic) in zip(axes, panels, strict=False):
+        _lines(ax, result.t, table, logarithmic)
+        ax.set_ylabel(label)
+        ax.grid(True, alpha=0.3)
+    axes[-1].set_xlabel("t [s]")
+    status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
+    figure.suptitle(f"{result.mechanism}, {result.method}, {result.integrator} ({_short(status)})", fontsize=10)
+    return figure
+
+
+def _short(text: str, longest: int = 90) -> str:
+    return text if len(text) <= longest else text[: longest - 3] + "..."
+
+
+def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:
+    for i, name in enumerate(table.names):
+        values = table.values[:, i]
+        if logarithmic:
+            values = np.maximum(np.abs(values), FLOOR)
+        style = DASHES[i // len(COLOURS) % len(DASHES)]
+        ax.plot(t, values, style, color=COLOURS[i % len(COLOURS)], linewidth=1.2, label=name)
+    if logarithmic:
+        ax.set_yscale("log")
+    if 1 < len(table.names) <= LONGEST_LEGEND:
+        ax.legend(fontsize=7, ncols=2, loc="best")
+
+
+_Panel = tuple[str, Labelled, bool]
+
+
+def _by_unit(table: Labelled, what: str) -> list[_Panel]:
+    """Return one panel for each unit in a table."""
+    panels = []
+    for unit in dict.fromkeys(table.units):
+        chosen = [i for i, u in enumerate(table.units) if u == unit]
+        part = Labelled(table.values[:, chosen], tuple(table.names[i] for i in chosen), (unit,) * len(chosen))
+        panels.append((f"{what} [{unit}]", part, False))
+    return panels
+
+
+def _positions(result: Result) -> list[_Panel]:
+    return [(f"{_quantity(p[0])}", p[1], p[2]) for p in _by_unit(result.q, "position")]
+
+
+def _quantity(label: str) -> str:
+    return label.replace("position [rad]", "angle [rad]")
+
+
+def _energy(result: Result) -> list[_Panel]:
+    energy = result.energy
+    balance = Labelled(energy.values[:, :3], energy.names[:3], energy.units[:3])
+    error = Labelled(energy.values[:, 3:], ("error",), ("J",))
+    return [("energy [J]", balance, False), ("|energy error| [J]", error, True)]
+
+
+def _violations(result: Result) -> list[_Panel]:
+    return [("violation [m, m/s, m/s$^2$]", result.violations, True)]
+
+
+#: Panels by name.
+PANELS: dict[str, Callable[[Result], list[_Panel]]] = {
+    "positions": _positions,
+    "velocities": lambda result: _by_unit(result.v, "velocity"),
+    "accelerations": lambda result: _by_unit(result.a, "acceleration"),
+    "reactions": lambda result: _by_unit(result.reactions, "reaction"),
+    "energy": _energy,
+    "violations": _violations,
+}

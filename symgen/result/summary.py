@@ -1,0 +1,45 @@
+"""A run in a few lines, for terminals and notebooks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
+
+
+def lines(result: Result) -> list[tuple[str, str]]:
+    """Return (label, text) pairs that say what was run and how it went."""
+    steps = f"step {result.step:g} s" if result.rtol is None else f"rtol {result.rtol:g}, atol {result.atol:g}"
+    rejected = f", {result.rejected} rejected" if result.rejected else ""
+    s, rank = result.seconds, result.rank
+    spread = f" (spread {s.run_spread:.2g} s)" if s.run_spread else ""
+    made = f"; derived in {s.derive:.3g} s, emitted in {s.emit:.3g} s" if s.derive else ""
+    dropped = f", {rank.identical_rows_dropped} identical dropped" if rank.identical_rows_dropped else ""
+    found = [
+        ("mechanism", result.mechanism),
+        ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
+        ("status", result.status + (f": {result.reason}" if result.reason else "")),
+        ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side"),
+        ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{made}"),
+        ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
+        ("energy error", f"{result.energy_drift_max:.3g} J"),
+        ("rank", f"{rank.rank} of {rank.rows} rows{dropped}"),
+    ]
+    if result.rank_event_count:
+        found.append(("passages", f"{result.rank_event_count} near singular positions"))
+    if len(result.t):
+        found.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
+    return found
+
+
+def html(result: Result) -> str:
+    """Return the summary as an HTML table."""
+    from html import escape
+
+    rows = [*lines(result), *(("warning", w) for w in result.warnings), *(("note", n) for n in result.notes)]
+    cells = "".join(
+        f"<tr><th style='text-align:left'>{escape(label)}</th><td style='text-align:left'>{escape(text)}</td></tr>"
+        for label, text in rows
+    )
+    return f"<table>{cells}</table>"

@@ -1,0 +1,154 @@
+"""Who imports what: read from the sources, and seen in a process that really runs.
+
+``lint-imports`` (pyproject.toml) holds the direction between packages; here the libraries that each package may use are
+held, and what one really pays for.
+"""
+
+from __future__ import annotations
+
+import ast
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
+
+#: Top-level folder or module of symgen -> libraries from outside the standard library that it may import.
+ALLOWED = {
+    "__init__": set(),
+    "api": {"numpy"},
+    "catalogue": {"msgspec"},
+    "cli": {"click", "msgspec", "numpy", "rich"},
+    "describe": {"msgspec"},
+    "emit": {"jinja2"},
+    "errors": set(),
+    "forces": {"msgspec"},
+    "formulate": {"sympy"},
+    "integrators": {"numpy"},
+    "ir": set(),
+    "joints": {"msgspec"},
+    "lower": set(),
+    "methods": set(),
+    "model": {"msgspec", "numpy"},
+    "pipeline": set(),
+    "registry": set(),
+    "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},
+    "runtime": {"numba", "numpy"},
+    "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
+    "study": {"matplotlib", "numpy"},
+    "vocabulary": {"msgspec"},
+}
+SOURCES = sorted(PACKAGE.rglob("*.py"))
+
+
+def owner(path: Path) -> str:
+    """Return the key of `ALLOWED` for a source file."""
+    part = path.relative_to(PACKAGE).parts[0]
+    return part.removesuffix(".py")
+
+
+def imported(path: Path) -> Iterator[str]:
+    """Yield the modules that a file imports when it runs; what is imported for types alone does not count."""
+    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            waiting.extend(node.orelse)
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path} imports relatively"
+            yield node.module or ""
+        else:
+            waiting.extend(ast.iter_child_nodes(node))
+
+
+@pytest.mark.parametrize("path", SOURCES, ids=lambda p: p.relative_to(PACKAGE).as_posix())
+def test_a_file_imports_only_the_libraries_of_its_package(path: Path) -> None:
+    found = {name.partition(".")[0] for name in imported(path)} - set(sys.stdlib_module_names) - {"symgen"}
+    assert found <= ALLOWED[owner(path)]
+
+
+def test_every_package_has_its_list() -> None:
+    assert {owner(path) for path in SOURCES} == set(ALLOWED)
+
+
+def test_a_file_that_imports_more_is_noticed(tmp_path: Path) -> None:
+    text = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import pandas\ndef f():\n    import sympy.core\n"
+    (tmp_path / "x.py").write_text(text)
+    assert sorted(imported(tmp_path / "x.py")) == ["sympy.core", "typing"]
+
+
+# -- what is loaded ----------------------------------------------------------------------------------------------------
+
+
+def loaded(code: str, cache: Path, *arguments: str) -> set[str]:
+    """Return the top-level modules that a process has loaded after running `code`."""
+    text = code + "\nimport sys\nprint('\\n'.join(sorted({m.partition('.')[0] for m in sys.modules})))"
+    environment = {**os.environ, "SYMGEN_CACHE_DIR": str(cache)}
+    done = subprocess.run(
+        [sys.executable, "-c", text, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=280,
+        check=False,
+        env=environment,
+    )
+    assert done.returncode == 0, done.stderr
+    return set(done.stdout.split())
+
+
+DRAWING = {"matplotlib", "pandas", "pyarrow", "rich", "xarray"}
+
+
+def test_importing_symgen_costs_nothing(tmp_path: Path) -> None:
+    heavy = {"click", "msgspec", "numba", "numpy", "sympy", "jinja2", *DRAWING}
+    assert not loaded("import symgen", tmp_path) & heavy
+
+
+def test_running_a_generated_model_needs_neither_sympy_nor_jinja2(tmp_path: Path) -> None:
+    code = (
+        "import symgen\n"
+        "result = symgen.load('pendulum').simulate(step=1e-2, until=0.1)\n"
+        "assert result.status == 'ok', result.reason"
+    )
+    assert {"sympy", "jinja2"} <= loaded(code, tmp_path)  # the first time it has to be generated
+    again = loaded(code, tmp_path)
+    assert "numba" in again
+    assert not again & ({"sympy", "jinja2"} | DRAWING)
+
+
+def test_generating_needs_no_numba(tmp_path: Path) -> None:
+    code = (
+        "from symgen.describe import load\n"
+        "from symgen.formulate.formulate import formulate\n"
+        "from symgen.lower.lower import lower_law, lower_model\n"
+        "from symgen.emit.emit import emit_model\n"
+        "equations = formulate(load('four-bar'))\n"
+        "emit_model(lower_model(equations, ''), equations)"
+    )
+    assert not loaded(code, tmp_path) & {"numba", "scipy", *DRAWING}
+
+
+CLI = "import sys\nfrom symgen.cli import main\ntry:\n    main()\nexcept SystemExit as end:\n    assert not end.code, end.code"
+
+
+@pytest.mark.parametrize(
+    ("command", "forbidden"),
+    [
+        (("--help",), {"numba", "numpy", "sympy", "jinja2", *DRAWING}),
+        (("--version",), {"numba", "numpy", "sympy", "jinja2", *DRAWING}),
+        (("list", "--json"), {"numba", "numpy", "sympy", "jinja2", *DRAWING}),
+        (("check", "four-bar", "--json"), {"jinja2", *DRAWING}),
+        (("schema",), {"numba", "numpy", "sympy", "jinja2", *DRAWING}),
+        (("cache", "info", "--json"), {"numba", "sympy", "jinja2", *DRAWING}),
+        (("inspect", "pendulum", "--json"), {"numba", *DRAWING}),
+    ],
+    ids=lambda x: " ".join(x) if isinstance(x, tuple) else "",
+)
+def test_a_command_loads_only_what_it_needs(tmp_path: Path, command: tuple[str, ...], forbidden: set[str]) -> None:
+    assert not loaded(CLI, tmp_path, *command) & forbidden

@@ -1,0 +1,155 @@
+"""Emitted modules of a mechanism, evaluated as plain Python or compiled, in numbers that tests can compare."""
+
+import itertools
+import sys
+import types
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.validate import validate
+from symgen.model import LawInfo, ModelInfo
+from symgen.pipeline import choose_method, generate
+
+_counter = itertools.count()
+
+
+def mechanism_of(raw: dict) -> Mechanism:
+    """The validated mechanism of a raw description."""
+    return validate(listed(raw), "test")
+
+
+def listed(value: Any) -> Any:
+    """Tuples as the lists that a file would give."""
+    if isinstance(value, dict):
+        return {k: listed(v) for k, v in value.items()}
+    return [listed(v) for v in value] if isinstance(value, list | tuple) else value
+
+
+@dataclass
+class Numbers:
+    """Everything that one state gives."""
+
+    phi: np.ndarray
+    nu: np.ndarray
+    d: np.ndarray
+    gamma: np.ndarray
+    drift: np.ndarray
+    coordinates: np.ndarray
+    pivots: np.ndarray
+    kinetic: float
+    potential: float
+    masses: np.ndarray
+    acceleration: np.ndarray | None = None
+    multipliers: np.ndarray | None = None
+    power: float = 0.0
+
+
+class Emitted:
+    """The emitted modules of one mechanism in a package of their own, in memory only.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What to generate.
+    method, options
+        The law.
+    compiled : bool
+        Whether functions run as Numba compiles them, or as the plain Python they are written in.
+    """
+
+    def __init__(self, mechanism: Mechanism, method: str = "lagrange", options=None, compiled: bool = False) -> None:
+        choice = choose_method(method, options)
+        self.generated, self.compiled = generate(mechanism, (choice,)), compiled
+        package = types.ModuleType(f"emitted_{next(_counter)}")
+        package.__path__ = []
+        sys.modules[package.__name__] = package
+        self.modules = {}
+        for stem, (source, _) in self.generated.modules.items():
+            module = types.ModuleType(f"{package.__name__}.{stem}")
+            module.__package__ = package.__name__
+            sys.modules[module.__name__] = module
+            exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
+            self.modules[stem] = module
+        model, law = (self.generated.modules[s][1] for s in ("model", choice.stem))
+        self.info, self.law_info = _convert(model, ModelInfo), _convert(law, LawInfo)
+        self.model, self.law = self.modules["model"], self.modules[choice.stem]
+        for name in [package.__name__, *(f"{package.__name__}.{stem}" for stem in self.modules)]:
+            del sys.modules[name]
+
+    def call(self, module, name: str, *arguments) -> int:
+        """Call an emitted function; plain Python gets lists, so that it computes with Python's floats."""
+        function = getattr(module, name)
+        if self.compiled:
+            return function(*arguments)
+        lists = [a.tolist() if isinstance(a, np.ndarray) else a for a in arguments]
+        result = function.py_func(*lists)
+        for array, changed in zip(arguments, lists, strict=True):
+            if isinstance(array, np.ndarray):
+                array[:] = changed
+        return result
+
+    def section(self, w: np.ndarray, name: str) -> np.ndarray:
+        offset, size = self.info.sections[name]
+        return w[offset : offset + size]
+
+    def parameters(self, values: dict[str, float], method_values: dict[str, float] | None = None) -> np.ndarray:
+        """The prepared array p."""
+        law = self.law_info
+        p = np.zeros(law.parameter_offset + len(law.parameters) + law.hoisted)
+        p[: len(self.info.parameters)] = [values[q.name] for q in self.info.parameters]
+        for i, (name, default) in enumerate(law.parameters):
+            p[law.parameter_offset + i] = (method_values or {}).get(name, default)
+        self.call(self.model, "prepare", p)
+        self.call(self.law, "prepare", p)
+        return p
+
+    def scratch(self) -> np.ndarray:
+        w = np.zeros(self.law_info.nw)
+        self.section(w, "pivot")[:] = 1.0
+        return w
+
+    def dense(self, w: np.ndarray) -> np.ndarray:
+        """D from what `geometry` left."""
+        d, values = np.zeros((self.info.m, self.info.nv)), self.section(w, "jacobian")
+        for row, column, constant, slot in self.info.jacobian:
+            d[row, column] = constant if slot is None else values[slot]
+        return d
+
+    def at(self, t: float, q, v, p: np.ndarray, law: bool = True) -> Numbers:
+        """Evaluate every function at one state."""
+        info, w, iw = self.info, self.scratch(), np.zeros(5, dtype=np.int64)
+        y = np.concatenate([q, v, [0.0]])
+        rate, out = np.zeros(len(y)), np.zeros(max(1, info.m + 2 * len(info.joint_coordinates)))
+        self.call(self.model, "geometry", t, y, p, w)
+        self.call(self.model, "drift", y, w)
+        self.call(self.model, "energies", t, y, p, w)
+        self.call(self.model, "masses", p, w)
+        self.call(self.model, "observe", t, y, p, w, rate, out)
+        kept = {n: self.section(w, n).copy() for n in ("phi", "nu", "drift", "pivot", "status", "mass")}
+        found = Numbers(
+            phi=kept["phi"],
+            nu=kept["nu"],
+            d=self.dense(w),
+            gamma=-out[: info.m],
+            drift=kept["drift"],
+            coordinates=out[info.m :],
+            pivots=kept["pivot"],
+            kinetic=float(kept["status"][2]),
+            potential=float(kept["status"][3]),
+            masses=kept["mass"],
+        )
+        if law:
+            self.call(self.law, "rhs", t, y, p, w, iw, rate)
+            found.acceleration = rate[info.nq : info.nq + info.nv].copy()
+            found.multipliers = self.section(w, "multipliers").copy()
+            found.power = float(rate[-1])
+        return found
+
+
+def _convert(metadata, kind):
+    import msgspec
+
+    return msgspec.convert(metadata, kind)
