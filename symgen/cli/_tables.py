@@ -18,8 +18,8 @@ COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 
 def console() -> Console:
     """Return a console on standard output; where that is no terminal, wide enough that no figure is cut."""
-    wide = Console(highlight=False)
-    return wide if wide.is_terminal else Console(highlight=False, width=200)
+    wide = Console(highlight=False, markup=False)
+    return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
 
 
 def show_result(result: Result, written: Sequence[Path]) -> None:

@@ -109,6 +109,9 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
     """Return the source of the module that one method adds beside the shared one."""
     layout = program.layout
     own = {b.name for b in program.blocks}
+    shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
+    if program.position_correction:
+        shared.add("spread")
     return render(
         "numba/law.py.j2",
         {
@@ -120,7 +123,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "program": program,
             "summary": summary,
             "reference": reference,
-            "shared": sorted({"geometry", "measure", *(("spread",) if program.position_correction else ())} - own),
+            "shared": sorted(shared - own),
             "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
             "counters": {name: i for i, name in enumerate(COUNTERS)},
             "skip": SKIP,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -64,12 +65,9 @@ def draw(result: Result, what: tuple[str, ...]) -> Any:
         ax.grid(True, alpha=0.3)
     axes[-1].set_xlabel("t [s]")
     status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
-    figure.suptitle(f"{result.mechanism}, {result.method}, {result.integrator} ({_short(status)})", fontsize=10)
+    title = f"{result.mechanism}, {result.method}, {result.integrator} ({status})"
+    figure.suptitle("\n".join(textwrap.wrap(title, 95)), fontsize=10)
     return figure
-
-
-def _short(text: str, longest: int = 90) -> str:
-    return text if len(text) <= longest else text[: longest - 3] + "..."
 
 
 def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:

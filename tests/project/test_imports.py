@@ -134,7 +134,13 @@ def test_generating_needs_no_numba(tmp_path: Path) -> None:
     assert not loaded(code, tmp_path) & {"numba", "scipy", *DRAWING}
 
 
-CLI = "import sys\nfrom symgen.cli import main\ntry:\n    main()\nexcept SystemExit as end:\n    assert not end.code, end.code"
+CLI = """
+from symgen.cli import main
+try:
+    main()
+except SystemExit as end:
+    assert not end.code, end.code
+"""
 
 
 @pytest.mark.parametrize(

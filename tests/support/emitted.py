@@ -6,10 +6,12 @@ import types
 from dataclasses import dataclass
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
+from symgen.ir.program import COUNTERS, STATUS
 from symgen.model import LawInfo, ModelInfo
 from symgen.pipeline import choose_method, generate
 
@@ -39,8 +41,7 @@ class Numbers:
     drift: np.ndarray
     coordinates: np.ndarray
     pivots: np.ndarray
-    kinetic: float
-    potential: float
+    status: dict[str, float]
     masses: np.ndarray
     acceleration: np.ndarray | None = None
     multipliers: np.ndarray | None = None
@@ -74,7 +75,7 @@ class Emitted:
             exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
             self.modules[stem] = module
         model, law = (self.generated.modules[s][1] for s in ("model", choice.stem))
-        self.info, self.law_info = _convert(model, ModelInfo), _convert(law, LawInfo)
+        self.info, self.law_info = msgspec.convert(model, ModelInfo), msgspec.convert(law, LawInfo)
         self.model, self.law = self.modules["model"], self.modules[choice.stem]
         for name in [package.__name__, *(f"{package.__name__}.{stem}" for stem in self.modules)]:
             del sys.modules[name]
@@ -120,26 +121,26 @@ class Emitted:
 
     def at(self, t: float, q, v, p: np.ndarray, law: bool = True) -> Numbers:
         """Evaluate every function at one state."""
-        info, w, iw = self.info, self.scratch(), np.zeros(5, dtype=np.int64)
+        info, w, iw = self.info, self.scratch(), np.zeros(len(COUNTERS), dtype=np.int64)
         y = np.concatenate([q, v, [0.0]])
         rate, out = np.zeros(len(y)), np.zeros(max(1, info.m + 2 * len(info.joint_coordinates)))
         self.call(self.model, "geometry", t, y, p, w)
-        self.call(self.model, "drift", y, w)
-        self.call(self.model, "energies", t, y, p, w)
+        kept = {n: self.section(w, n).copy() for n in ("residual", "nu", "pivot")}
+        d = self.dense(w)
+        self.call(self.model, "measure", t, y, p, w)
         self.call(self.model, "masses", p, w)
         self.call(self.model, "observe", t, y, p, w, rate, out)
-        kept = {n: self.section(w, n).copy() for n in ("phi", "nu", "drift", "pivot", "status", "mass")}
+        status = dict(zip(STATUS, self.section(w, "status"), strict=True))
         found = Numbers(
-            phi=kept["phi"],
+            phi=kept["residual"],
             nu=kept["nu"],
-            d=self.dense(w),
+            d=d,
             gamma=-out[: info.m],
-            drift=kept["drift"],
+            drift=self.section(w, "residual").copy(),
             coordinates=out[info.m :],
             pivots=kept["pivot"],
-            kinetic=float(kept["status"][2]),
-            potential=float(kept["status"][3]),
-            masses=kept["mass"],
+            status=status,
+            masses=self.section(w, "mass").copy(),
         )
         if law:
             self.call(self.law, "rhs", t, y, p, w, iw, rate)
@@ -148,8 +149,3 @@ class Emitted:
             found.power = float(rate[-1])
         return found
 
-
-def _convert(metadata, kind):
-    import msgspec
-
-    return msgspec.convert(metadata, kind)

@@ -1,0 +1,175 @@
+"""Error against run time: symgen beside other tools, on the same neutral mechanisms and with the same measure of error.
+
+The mechanisms, the reference solutions and the error (largest over the run, over all body angles [rad]) are those of
+``benchmarks/peers``; symgen gets the numbers of the same description, and as many outputs as the peers. Peers run in an
+interpreter of their own, in the same session, and each with the best of its settings.
+
+    python -m benchmarks.against_peers [--model NAME] [--peers-python .bench-venv/bin/python] [--peers-json FILE]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+from rich.table import Table
+
+import symgen
+from benchmarks.peers import models, reference
+from benchmarks.peers.measure import REPEATS, WRONG, Row, fastest
+from benchmarks.show import show
+
+ROOT = Path(__file__).resolve().parents[1]
+TARGET = 1e-6
+METHODS = ("direct-correction", "lagrange")
+TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 25))
+#: Constant steps in units of the model's own.
+STEPS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.5, 0.25, 0.1)
+
+
+def describe(model: models.Model) -> symgen.Mechanism:
+    """Return symgen's mechanism for a neutral description; all numbers are literals, as every peer gets them."""
+    builder = symgen.MechanismBuilder(model.name.replace(":", "-"), gravity=(0.0, -model.gravity))
+    position, velocity = model.place()
+    for i, body in enumerate(model.bodies):
+        builder.body(
+            body.name,
+            mass=body.mass,
+            inertia=body.inertia,
+            position=position[i],
+            angle=body.angle,
+            velocity=velocity[i],
+            angular_velocity=body.rate,
+        )
+
+    def name(index: int) -> str:
+        return "ground" if index == models.GROUND else model.bodies[index].name
+
+    for i, joint in enumerate(model.joints):
+        between = (name(joint.a), name(joint.b))
+        builder.joint(f"joint{i}", "revolute", between=between, at=(joint.point_a, joint.point_b))
+    for i, spring in enumerate(model.springs):
+        builder.force(
+            f"spring{i}",
+            "spring-damper",
+            between=("ground", name(spring.body)),
+            at=(spring.anchor, spring.point),
+            stiffness=spring.stiffness,
+            free_length=spring.length,
+        )
+    for index, torque in model.torques.items():
+        builder.force(f"torque{index}", "torque", body=name(index), torque=torque)
+    return builder.build()
+
+
+def rows(model: models.Model) -> Iterator[Row]:
+    """Run symgen with every setting."""
+    loaded = symgen.load(describe(model))
+    truth, times = reference.angles(model), reference.sample_times(model)
+    columns = [f"{body.name}.theta" for body in model.bodies]
+    common: dict[str, object] = {"until": model.duration, "times": times, "repeat": REPEATS}
+    settings: list[tuple[str, dict[str, object]]] = []
+    for tolerance in TOLERANCES:
+        for integrator in ("dop853", "dopri5"):
+            control = {"integrator": integrator, "rtol": tolerance, "atol": tolerance}
+            settings.append((f"{integrator} {tolerance:.0e}", control))
+    for factor in STEPS:
+        step = factor * model.step
+        settings.append((f"rk4 {step:.3g} s", {"integrator": "rk4", "step": step}))
+    weights: tuple[tuple[str, str, dict[str, object]], ...] = (
+        ("direct-correction", "direct-correction", {}),
+        ("direct-correction mass", "direct-correction", {"method.weight": "mass"}),
+        ("lagrange", "lagrange", {}),
+    )
+    for label, method, options in weights:
+        for text, chosen in settings:
+            result = loaded.simulate(None, method=method, options=options, **common, **chosen)
+            done = len(result.t) == len(times)
+            angles = np.column_stack([result[c] for c in columns])
+            error = reference.largest_error(angles, truth) if done else float("nan")
+            status = result.status if result.status != "failed" else f"failed: {result.reason}"
+            ok = bool(np.isfinite(error)) and result.status != "failed"
+            yield Row(
+                peer="symgen",
+                version=symgen.__version__,
+                setting=f"{label}, {text}",
+                model=model.name,
+                seconds=result.seconds.run if ok else None,
+                spread=result.seconds.run_spread if ok else None,
+                error=error if ok else None,
+                status="wrong" if ok and error > WRONG else status,
+            )
+
+
+def peers(names: Sequence[str], python: Path, target: Path) -> list[Row]:
+    """Run the peers in their own interpreter; none where it does not exist."""
+    if not python.exists():
+        print(f"no peers: {python} does not exist (see benchmarks/README.md)", file=sys.stderr)
+        return []
+    chosen = [word for name in names for word in ("--model", name)]
+    command = [str(python), "-m", "benchmarks.peers", *chosen, "--json", str(target)]
+    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    found: list[Row] = json.loads(target.read_text(encoding="utf-8"))
+    return found
+
+
+def summary(names: Sequence[str], found: Sequence[Row], target: float) -> Table:
+    """Return the table of least times at an error."""
+    table = Table(title=f"least loop time at an error of {target:g} rad")
+    for column in ("mechanism", "tool", "setting", "error [rad]", "loop [ms]", "times symgen's", "best error [rad]"):
+        table.add_column(column, justify="left" if column in ("mechanism", "tool", "setting") else "right")
+    for name in names:
+        ours = fastest([r for r in found if r["model"] == name and r["peer"] == "symgen"], target)
+        for tool in dict.fromkeys(r["peer"] for r in found if r["model"] == name):
+            own = [r for r in found if r["model"] == name and r["peer"] == tool]
+            errors = [r["error"] for r in own if r["error"] is not None]
+            best = fastest(own, target)
+            floor = f"{min(errors):.1e}" if errors else "-"
+            if best is None or best["seconds"] is None or best["error"] is None:
+                reason = "not reached" if errors else f"never ended: {own[-1]['status']}"[:60]
+                table.add_row(name, tool, reason, "-", "-", "-", floor)
+                continue
+            ratio = "-" if ours is None or ours["seconds"] is None else f"{best['seconds'] / ours['seconds']:.1f}"
+            cells = (best["setting"], f"{best['error']:.1e}", f"{best['seconds'] * 1e3:.3f}", ratio, floor)
+            table.add_row(name, f"{tool} {best['version']}", *cells)
+        table.add_section()
+    return table
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Print symgen's rows if asked for, and the summary."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.against_peers", description=__doc__)
+    parser.add_argument("--model", action="append", help=f"one of {', '.join(models.NAMES)}; repeatable; default all")
+    parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
+    parser.add_argument("--peers-json", type=Path, help="rows of an earlier run of the peers, instead of running them")
+    parser.add_argument("--json", type=Path, help="file for all rows")
+    parser.add_argument("--error", type=float, default=TARGET, help="error of the summary [rad]")
+    parser.add_argument("--rows", action="store_true", help="print every row of symgen as well")
+    options = parser.parse_args(arguments)
+    names = options.model or list(models.NAMES)
+    found: list[Row] = []
+    for name in names:
+        found += rows(models.load(name))
+    if options.rows:
+        from benchmarks.peers.measure import table
+
+        print("\n".join(table(found)))
+    if options.peers_json is not None:
+        earlier: list[Row] = json.loads(options.peers_json.read_text(encoding="utf-8"))
+        found += [r for r in earlier if r["model"] in names]
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            found += peers(names, options.peers_python, Path(folder) / "peers.json")
+    if options.json is not None:
+        options.json.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    show(summary(names, found, options.error))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,45 @@
+"""``symgen cache info`` and ``symgen cache clear``."""
+
+from __future__ import annotations
+
+import click
+
+from symgen.cli import OK, write_json
+
+
+@click.group("cache", short_help="Show or empty the cache of generated and compiled code.")
+def command() -> None:
+    """Show or empty the cache of generated and compiled code; SYMGEN_CACHE_DIR says where it is."""
+
+
+@command.command("info")
+@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+def info(as_json: bool) -> int:
+    """Say where the cache is and what it holds."""
+    return _show(as_json, "")
+
+
+@command.command("clear")
+@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+def clear(as_json: bool) -> int:
+    """Remove everything that symgen wrote into the cache."""
+    from symgen.store.entries import Entries
+
+    Entries().clear()
+    return _show(as_json, "cleared; ")
+
+
+def _show(as_json: bool, done: str) -> int:
+    from symgen.store.entries import Entries
+    from symgen.store.paths import cache_location
+
+    place, held = cache_location(), Entries().info()
+    if as_json:
+        facts = {"path": str(place.path), "persistent": place.persistent, "reason": place.reason}
+        write_json(facts | {"entries": held.entries, "compiled": held.compiled, "bytes": held.bytes})
+        return OK
+    size = f"{held.bytes / 1e6:.1f} MB"
+    click.echo(f"{done}{place.path}: {held.entries} generated modules, {held.compiled} compiled functions, {size}")
+    if not place.persistent:
+        click.echo(f"symgen: warning: a temporary folder is used because {place.reason}", err=True)
+    return OK

@@ -1,0 +1,27 @@
+"""``symgen completion SHELL``: completion of commands and options."""
+
+from __future__ import annotations
+
+import click
+
+from symgen.cli import OK, group
+
+_HOW = {
+    "bash": "# put into ~/.bashrc:  eval \"$(symgen completion bash)\"",
+    "zsh": "# put into ~/.zshrc:  eval \"$(symgen completion zsh)\"",
+    "fish": "# save as ~/.config/fish/completions/symgen.fish",
+}
+
+
+@click.command("completion", short_help="Print the shell's completion script.")
+@click.argument("shell", type=click.Choice(list(_HOW)))
+def command(shell: str) -> int:
+    """Print the completion script of bash, zsh or fish."""
+    from click.shell_completion import get_completion_class
+
+    kind = get_completion_class(shell)
+    assert kind is not None, "click completes these shells"
+    # not source(), which asks the bash of this machine for its version: the script may be meant for another one
+    script = kind.source_template % kind(group, {}, "symgen", "_SYMGEN_COMPLETE").source_vars()
+    click.echo(f"{_HOW[shell]}\n{script}")
+    return OK

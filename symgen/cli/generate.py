@@ -1,0 +1,80 @@
+"""``symgen generate MODEL``: write the emitted modules."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+
+from symgen.cli import OK, write_json
+from symgen.cli._options import option_pairs
+from symgen.errors import InputError
+
+
+@click.command("generate", short_help="Write the emitted code of a mechanism.")
+@click.argument("model")
+@click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
+@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option, such as direct-correction.weight=mass.")
+@click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
+@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+def command(model: str, methods: tuple[str, ...], options: tuple[str, ...], output: str | None, as_json: bool) -> int:
+    """Write the emitted modules of MODEL, and their metadata as JSON, into a folder, and list them.
+
+    The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
+    """
+    from symgen.describe.load import load
+    from symgen.methods import METHODS
+    from symgen.pipeline import MethodChoice, choose_method, generate
+
+    names = tuple(dict.fromkeys(METHODS.canonical(m, "--method") for m in methods)) or METHODS.names
+    wanted: dict[str, dict[str, str]] = {name: {} for name in names}
+    for key, value in option_pairs(options).items():
+        owner, _, name = key.partition(".")
+        if owner not in wanted and not (owner == "method" and len(names) == 1):
+            raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(names)}", f"'{key}'")
+        wanted[names[0] if owner == "method" else owner][name] = str(value)
+    choices: list[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
+    mechanism = load(model)
+    folder = Path(mechanism.name if output is None else output)
+    if folder.exists() and not folder.is_dir():
+        raise InputError("-o", "the name of a folder", f"the file '{folder}'")
+    generated = generate(mechanism, tuple(choices))
+    written = write_modules(folder, generated.modules)
+    if as_json:
+        files = [{"path": str(path), "bytes": path.stat().st_size} for path in written]
+        seconds = {"derive": generated.derive_seconds, "emit": generated.emit_seconds}
+        write_json({"mechanism": mechanism.name, "folder": str(folder), "files": files, "seconds": seconds})
+        return OK
+    for path in written:
+        click.echo(f"{path}  {path.stat().st_size} bytes")
+    return OK
+
+
+def write_modules(folder: Path, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> list[Path]:
+    """Write modules and metadata, each file whole or not at all; return the files in order.
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be made or written.
+    """
+    written = []
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for stem, (source, metadata) in modules.items():
+            text = json.dumps(metadata, allow_nan=False, indent=1, sort_keys=True) + "\n"
+            for path, content in ((folder / f"{stem}.py", source), (folder / f"{stem}.json", text)):
+                sibling = path.with_name(f".{path.name}-{os.urandom(6).hex()}")
+                try:
+                    sibling.write_text(content, encoding="utf-8")
+                    os.replace(sibling, path)
+                finally:
+                    sibling.unlink(missing_ok=True)
+                written.append(path)
+    except OSError as error:
+        raise InputError("-o", "a folder that can be written", f"'{folder}' ({error.strerror})") from error
+    return written

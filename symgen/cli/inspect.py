@@ -1,0 +1,168 @@
+"""``symgen inspect MODEL``: the equations as they are compiled, and what was left out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from symgen.cli import OK, write_json
+from symgen.cli._options import assignments, option_pairs
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.formulate.display import Display
+    from symgen.formulate.equations import Equations
+
+
+@click.command("inspect", short_help="Show the equations of a mechanism, and what was left out.")
+@click.argument("model")
+@click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
+@click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
+@click.option("--method", help="Show the operation counts of this method's functions too.")
+@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option of the method, such as weight=mass.")
+@click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter, for the start.")
+def command(
+    model: str, form: str, as_json: bool, method: str | None, options: tuple[str, ...], changed: tuple[str, ...]
+) -> int:
+    """Show what symgen derives for MODEL: exactly what is compiled.
+
+    Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees of
+    freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
+    """
+    parameters = assignments("--set", changed)
+    given = {key.rpartition(".")[2]: str(value) for key, value in option_pairs(options).items()}
+    form = "json" if as_json else form
+    facts = describe(model, method, given, parameters, latex=form == "latex")
+    if form == "json":
+        write_json(facts)
+    else:
+        from symgen.cli._equations import as_latex, as_text
+
+        click.echo(as_latex(facts) if form == "latex" else as_text(facts), nl=False)
+    return OK
+
+
+def describe(
+    name: str, method: str | None, options: dict[str, str], parameters: dict[str, float], latex: bool = False
+) -> dict[str, Any]:
+    """Return everything that is shown, expressions as text or LaTeX."""
+    from symgen.api import load
+    from symgen.formulate.display import Display
+    from symgen.formulate.formulate import formulate
+    from symgen.pipeline import choose_method
+
+    choice = choose_method(method or "direct-correction", options)
+    model = load(name)
+    equations = formulate(model.mechanism)
+    display = Display(equations)
+    show = display.latex if latex else display.text
+    start = model.assemble(model.compile(choice.method.name, choice.options), parameters)
+    values = model.parameters(parameters)
+    facts: dict[str, Any] = {
+        "mechanism": model.name,
+        "title": model.mechanism.title,
+        "sizes": _sizes(equations),
+        "rank": start.rank,
+        "degrees_of_freedom": equations.nv - start.rank,
+        "redundant_rows": list(start.redundant_rows),
+        "dropped_rows": list(equations.dropped_rows),
+        "notes": list(start.notes),
+        "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
+        "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],
+        "parameters": [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters],
+        "rows": [
+            {
+                "name": row.name,
+                "joint": row.joint,
+                "unit": row.unit,
+                "phi": None if row.phi is None else show(row.phi),
+                "nu": show(row.nu),
+                "gamma": show(row.gamma),
+                "jacobian": {equations.velocities[i].name: show(node) for i, node in row.entries},
+            }
+            for row in equations.rows
+        ],
+        "pattern": pattern(equations),
+        "mass": [
+            {
+                "velocities": [equations.velocities[i].name for i in block.columns],
+                "matrix": [[show(node) for node in line] for line in block.entries],
+            }
+            for block in equations.mass
+        ],
+        "forces": {v.name: show(node) for v, node in zip(equations.velocities, equations.forces, strict=True)},
+        "energies": {
+            "kinetic": show(equations.kinetic),
+            "potential": show(equations.potential),
+            "power": show(equations.power),
+        },
+        "joint_coordinates": {
+            c.name: {"unit": c.unit, "value": show(c.value), "rate": show(c.rate)} for c in equations.joint_coordinates
+        },
+        "operations": _operations(display),
+        "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
+    }
+    if method is not None:
+        facts["method"] = _method(model, equations, choice)
+    return facts
+
+
+def pattern(equations: Equations) -> list[str]:
+    """Return the pattern of D, one text a row: ``1`` a constant of the scene, ``x`` a varying entry, ``.`` nothing."""
+    lines = []
+    for row in equations.rows:
+        line = ["."] * equations.nv
+        for column, node in row.entries:
+            line[column] = "x" if equations.graph.value(node) is None else "1"
+        lines.append("".join(line))
+    return lines
+
+
+def _sizes(equations: Equations) -> dict[str, int]:
+    return {
+        "coordinates": equations.nq,
+        "velocities": equations.nv,
+        "rows": equations.m,
+        "parameters": len(equations.parameters),
+        "jacobian_entries": sum(len(row.entries) for row in equations.rows),
+        "jacobian_constants": sum(line.count("1") for line in pattern(equations)),
+    }
+
+
+def _operations(display: Display) -> dict[str, dict[str, int]]:
+    """Count operations by quantity, each with its own common subexpressions, and of all together."""
+    e = display.equations
+    parts = {
+        "phi": [row.phi for row in e.rows if row.phi is not None],
+        "jacobian": [node for row in e.rows for _, node in row.entries],
+        "nu": [row.nu for row in e.rows],
+        "gamma": [row.gamma for row in e.rows],
+        "mass": [node for block in e.mass for line in block.entries for node in line],
+        "forces": list(e.forces),
+        "energies": [e.kinetic, e.potential, e.power],
+    }
+    counts = {name: display.operations(nodes) for name, nodes in parts.items()}
+    counts["together"] = display.operations([node for nodes in parts.values() for node in nodes])
+    return counts
+
+
+def _method(model: Model, equations: Equations, choice: Any) -> dict[str, Any]:
+    """Return the functions emitted for a method with their operation counts."""
+    from symgen.describe.digest import digest
+    from symgen.lower.lower import lower_law, lower_model
+
+    program = lower_model(equations, digest(model.mechanism))
+    law = lower_law(equations, program, choice.method, choice.options)
+    return {
+        "name": choice.method.name,
+        "summary": choice.method.summary,
+        "options": dict(choice.options),
+        "parameters": dict(law.parameters),
+        "functions": {
+            block.name: {"purpose": block.purpose, "before": block.tree_operations, "after": block.operations}
+            for block in (*program.blocks, *law.blocks)
+        },
+        "elimination_order": [equations.rows[i].name for i in program.order],
+        "fill": program.fill,
+    }

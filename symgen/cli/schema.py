@@ -1,0 +1,18 @@
+"""``symgen schema``: the JSON schema of mechanism files, for editors."""
+
+from __future__ import annotations
+
+import click
+
+from symgen.cli import OK
+
+
+@click.command("schema", short_help="Print the JSON schema of mechanism files.")
+def command() -> int:
+    """Print the JSON schema (draft 2020-12) of mechanism files; editors complete and check files with it."""
+    import json
+
+    from symgen.describe.schema import schema
+
+    click.echo(json.dumps(schema(), indent=2))
+    return OK

@@ -1,0 +1,148 @@
+"""Nodes of the graph back to SymPy, for people to read: what is shown is exactly what is compiled.
+
+Nothing is evaluated or simplified on the way, so each shown operation is an operation of the graph.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Any
+
+import sympy as sp
+
+from symgen.formulate.equations import Equations
+
+#: Expressions with more operations, written out without sharing, are named by that number instead.
+LONGEST = 1500
+
+_GREEK = {"theta": r"\theta", "omega": r"\omega"}
+_RELATIONS = {"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreaterThan, "ge": sp.GreaterThan}
+_FUNCTIONS: dict[str, Any] = {
+    **{n: getattr(sp, n) for n in "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh sign".split()},
+    "abs": sp.Abs,
+    "min": sp.Min,
+    "max": sp.Max,
+}
+
+
+class Display:
+    """SymPy expressions, text and LaTeX of the nodes of derived equations.
+
+    Parameters
+    ----------
+    equations : Equations
+        What was derived.
+    """
+
+    def __init__(self, equations: Equations) -> None:
+        self.equations = equations
+        self.graph = equations.graph
+        names: dict[tuple[str, int], str] = {("t", 0): "t"}
+        for space, quantities in (
+            ("q", equations.coordinates),
+            ("v", equations.velocities),
+            ("p", equations.parameters),
+        ):
+            names.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
+        self.symbols = {key: sp.Symbol(name, real=True) for key, name in names.items()}
+        self._latex = {symbol: latex_name(symbol.name) for symbol in self.symbols.values()}
+        self._memo: dict[int, Any] = {}
+
+    def expression(self, node: int) -> Any:
+        """Return the SymPy expression of a node."""
+        for n in self.graph.needed([node]):
+            if n not in self._memo:
+                self._memo[n] = self._build(n)
+        return self._memo[node]
+
+    def text(self, node: int) -> str:
+        """Return a node as text that Python and SymPy read."""
+        count = self.graph.tree_operations([node])
+        if count > LONGEST:
+            return f"<{count} operations>"
+        return str(sp.sstr(self.expression(node), full_prec=False, order="none"))
+
+    def latex(self, node: int) -> str:
+        """Return a node as LaTeX."""
+        count = self.graph.tree_operations([node])
+        if count > LONGEST:
+            return rf"\langle {count}\ \mathrm{{operations}} \rangle"
+        return str(sp.latex(self.expression(node), symbol_names=self._latex, order="none", full_prec=False))
+
+    def latex_symbol(self, name: str) -> str:
+        """Return the LaTeX of a coordinate, velocity or parameter."""
+        return latex_name(name)
+
+    def operations(self, nodes: Iterable[int]) -> dict[str, int]:
+        """Return the operations of nodes before and after sharing of common subexpressions."""
+        found = list(nodes)
+        return {"before": self.graph.tree_operations(found), "after": self.graph.operations(found)}
+
+    def _build(self, node: int) -> Any:
+        op, args, payload = self.graph.nodes[node]
+        if op == "const":
+            return number(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
+        if op == "input":
+            return self.symbols[payload]  # type: ignore[index]  # an input's payload is its key
+        values = [self._memo[a] for a in args]
+        if op == "table":
+            return sp.Function(str(payload))(*values)
+        if op == "where":
+            return sp.Piecewise((values[1], self._condition(args[0])), (values[2], True), evaluate=False)
+        if op in _RELATIONS or op in ("and", "or", "not", "step"):
+            return sp.Piecewise((sp.Integer(1), self._condition(node)), (sp.Integer(0), True), evaluate=False)
+        return _arithmetic(op, values)
+
+    def _condition(self, node: int) -> Any:
+        """Return a node, 0 or 1 in the graph, as a condition."""
+        op, args, _ = self.graph.nodes[node]
+        if op in _RELATIONS:
+            return _RELATIONS[op](*(self._memo[a] for a in args), evaluate=False)
+        if op == "step":
+            return sp.StrictGreaterThan(*(self._memo[a] for a in args), evaluate=False)
+        if op in ("and", "or"):
+            return {"and": sp.And, "or": sp.Or}[op](*(self._condition(a) for a in args), evaluate=False)
+        if op == "not":
+            return sp.Not(self._condition(args[0]), evaluate=False)
+        return sp.Ne(self._memo[node], 0, evaluate=False)
+
+
+def _arithmetic(op: str, values: list[Any]) -> Any:
+    if op == "add":
+        return sp.Add(*values, evaluate=False)
+    if op == "sub":
+        return sp.Add(values[0], sp.Mul(sp.S.NegativeOne, values[1], evaluate=False), evaluate=False)
+    if op == "mul":
+        return sp.Mul(*values, evaluate=False)
+    if op == "div":
+        return sp.Mul(values[0], sp.Pow(values[1], sp.S.NegativeOne, evaluate=False), evaluate=False)
+    if op == "neg":
+        return sp.Mul(sp.S.NegativeOne, values[0], evaluate=False)
+    if op == "pow":
+        return sp.Pow(*values, evaluate=False)
+    return _FUNCTIONS[op](*values, evaluate=False)
+
+
+def number(value: float) -> Any:
+    """Return a literal that prints with all its digits and no more."""
+    return sp.Integer(int(value)) if value == int(value) and abs(value) < 1e15 else sp.Float(repr(value), 17)
+
+
+def latex_name(name: str) -> str:
+    """Return the LaTeX of a name: ``crank.theta`` has the body as index, a parameter stands upright."""
+    body, _, quantity = name.rpartition(".")
+    if not body:
+        return "t" if name == "t" else rf"\mathrm{{{_upright(name)}}}"
+    index = rf"\mathrm{{{_upright(body)}}}"
+    if quantity in _GREEK:
+        return rf"{_GREEK[quantity]}_{{{index}}}"
+    found = re.fullmatch(r"([vwe])([xyz0-3])", quantity)
+    if found:
+        letter = r"\omega" if found[1] == "w" else found[1]
+        return rf"{letter}_{{{found[2]},{index}}}"
+    return rf"{quantity}_{{{index}}}"
+
+
+def _upright(name: str) -> str:
+    return name.replace("_", r"\_")
