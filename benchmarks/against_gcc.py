@@ -29,7 +29,8 @@ from symgen.api import load
 from symgen.emit.printer import ElementAccess, print_block
 from symgen.formulate.formulate import formulate
 from symgen.ir.program import Block, Layout
-from symgen.lower.lower import lower_law, lower_model
+from symgen.lower.law import lower_law
+from symgen.lower.model import lower_model
 from symgen.pipeline import choose_method
 from symgen.runtime import abi
 

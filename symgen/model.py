@@ -125,8 +125,8 @@ class LawInfo(msgspec.Struct, frozen=True):
             parameters=program.parameters,
             parameter_offset=program.parameter_offset,
             hoisted=program.hoisted,
-            position_correction=program.position_correction,
-            velocity_correction=program.velocity_correction,
+            position_correction=program.correction.position != "none",
+            velocity_correction=program.correction.velocity,
             nw=program.layout.nw,
             operations={b.name: b.operations for b in program.blocks},
         )

@@ -107,7 +107,8 @@ def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...]) -> Generat
     """
     from symgen.emit.emit import emit_law, emit_model
     from symgen.formulate.formulate import formulate
-    from symgen.lower.lower import lower_law, lower_model
+    from symgen.lower.law import lower_law
+    from symgen.lower.model import lower_model
 
     began = time.perf_counter()
     folder = folder_of(mechanism)

@@ -150,7 +150,8 @@ def _operations(display: Display) -> dict[str, dict[str, int]]:
 def _method(model: Model, equations: Equations, choice: Any) -> dict[str, Any]:
     """Return the functions emitted for a method with their operation counts."""
     from symgen.describe.digest import digest
-    from symgen.lower.lower import lower_law, lower_model
+    from symgen.lower.law import lower_law
+    from symgen.lower.model import lower_model
 
     program = lower_model(equations, digest(model.mechanism))
     law = lower_law(equations, program, choice.method, choice.options)

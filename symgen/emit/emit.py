@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -58,8 +59,8 @@ def _environment() -> jinja2.Environment:
     )
 
 
-def render(template: str, values: Mapping[str, Any]) -> str:
-    """Render a template; the keys given must be exactly those it asks for.
+def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) -> str:
+    """Render a template; the keys given must be exactly those that it and its parts ask for.
 
     Raises
     ------
@@ -67,8 +68,14 @@ def render(template: str, values: Mapping[str, Any]) -> str:
         Naming the keys that are missing or superfluous.
     """
     environment = _environment()
-    source = (templates_folder() / template).read_text(encoding="utf-8")
-    wanted = meta.find_undeclared_variables(environment.parse(source))
+    wanted: set[str] = set()
+    for name in (template, *parts):
+        source = (templates_folder() / name).read_text(encoding="utf-8")
+        wanted |= meta.find_undeclared_variables(environment.parse(source))
+    wanted -= {"nq", "nv", "m"} if parts else set()  # set by the parent for its parts
+    if parts:
+        # what a part could ask for belongs to the interface even if the parts at hand do not
+        wanted |= {"skip", "counters", "status", "tolerance"}
     if wanted != set(values):
         missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
         raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
@@ -107,11 +114,14 @@ def emit_model(program: ModelProgram, equations: Equations) -> str:
 
 def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str) -> str:
     """Return the source of the module that one method adds beside the shared one."""
-    layout = program.layout
+    layout, correction = program.layout, program.correction
     own = {b.name for b in program.blocks}
     shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
-    if program.position_correction:
+    if correction.any:
         shared.add("spread")
+    parts = _parts(program)
+    text = "".join((templates_folder() / part).read_text(encoding="utf-8") for part in (*parts, _CLOSING))
+    tolerance = [i for i, (name, _) in enumerate(program.parameters) if name == "tolerance"]
     return render(
         "numba/law.py.j2",
         {
@@ -124,12 +134,40 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "summary": summary,
             "reference": reference,
             "shared": sorted(shared - own),
+            "used_sections": [s for s in layout.sections if re.search(rf"\b{s.upper()}\b", text)],
+            "parts": parts,
             "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
             "counters": {name: i for i, name in enumerate(COUNTERS)},
+            "tolerance": program.parameter_offset + tolerance[0] if tolerance else -1,
             "skip": SKIP,
             "functions": _functions(program.blocks, layout, equations),
         },
+        (*parts, _CLOSING),
     )
+
+
+#: Macros that some parts of a law import.
+_CLOSING = "numba/closing.j2"
+
+
+def _parts(program: LawProgram) -> list[str]:
+    """Return the templates of the functions of a law that are not straight-line code, in the order of their text."""
+    correction, parts = program.correction, list[str]()
+    if program.form == "iterated":
+        parts.append("rhs_iterated")
+    if program.form == "closed":
+        parts.append("partition")
+    if any(b.flag is not None for b in program.blocks):
+        parts.append("confirm")
+    if not correction.any:
+        parts.append("accept_measured")
+    elif correction.metric == "augmented":
+        parts.append("accept_augmented")
+    elif correction.metric == "independent":
+        parts.append("accept_partition")
+    else:
+        parts.append("accept_corrected")
+    return [f"numba/{part}.j2" for part in parts]
 
 
 def _functions(blocks: Sequence[Block], layout: Layout, equations: Equations) -> list[Function]:

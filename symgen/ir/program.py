@@ -24,6 +24,10 @@ STATUS = (
     "rank",  # rows kept by the factorisation of D D^T
     "length_scale",  # set by the runtime: largest coordinate, at least 1
     "speed_scale",  # set by the runtime: largest speed, at least 1
+    "step",  # set by the loop: the step being taken
+    "increment",  # |change| of the last iteration of an iterated law
+    "partition_pivot",  # smallest pivot of D P D^T over the diagonal of D D^T, P keeping the dependent columns
+    "partition_chosen",  # the same when the partition was chosen
 )
 
 #: Integers in ``iw``, in this order.
@@ -33,6 +37,9 @@ COUNTERS = (
     "light",  # of these, those where D D^T found full rank: light bodies, not redundant rows
     "iterations",  # iterations of corrections
     "failures",  # corrections that did not converge
+    "probing",  # 1 while a state between steps is measured: nothing is kept of it
+    "law_iterations",  # iterations of an iterated law
+    "partitions",  # choices of a partition
 )
 
 
@@ -138,6 +145,36 @@ class ModelProgram:
 
 
 @dataclass(frozen=True)
+class Correction:
+    """What is done to the state after each accepted step.
+
+    Parameters
+    ----------
+    position : {"none", "once", "newton"}
+        Whether positions are corrected, by one step or until the constraints hold.
+    velocity : bool
+        Whether velocities are corrected.
+    metric : {"identity", "mass", "independent", "augmented"}
+        Norm in which the correction is smallest; ``independent`` keeps the independent coordinates, ``augmented`` is the
+        metric of M reached by iterations with M + a D^T D.
+    """
+
+    position: str = "none"
+    velocity: bool = False
+    metric: str = "identity"
+
+    @property
+    def rounds(self) -> int:
+        """Largest number of position corrections in a step."""
+        return {"none": 0, "once": 1, "newton": 14}[self.position]
+
+    @property
+    def any(self) -> bool:
+        """Whether anything is corrected."""
+        return self.position != "none" or self.velocity
+
+
+@dataclass(frozen=True)
 class LawProgram:
     """What one method adds: a module of the emitted folder beside ``model``."""
 
@@ -148,7 +185,6 @@ class LawProgram:
     parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
     parameter_offset: int
     hoisted: int
-    position_correction: bool
-    velocity_correction: bool
-    metric: str
+    form: str  # how rhs is put together: direct, iterated, closed or tangent
+    correction: Correction
     options: Mapping[str, str] = field(default_factory=dict)

@@ -9,6 +9,7 @@ from typing import overload
 
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
+from symgen.ir.program import STATUS, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
 
 #: A pivot of S below this fraction of its diagonal entry is suspicious: rank is then decided on D D^T (design.md, 1).
@@ -33,6 +34,11 @@ class Vector:
     def __sub__(self, other: Vector) -> Vector:
         g = self.graph
         return Vector(g, tuple(g.sub(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
+
+    def times(self, other: Vector) -> Vector:
+        """Return the elementwise product."""
+        g = self.graph
+        return Vector(g, tuple(g.mul(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
 
     def dot(self, other: Vector) -> Scalar:
         """Return the inner product."""
@@ -83,6 +89,12 @@ class Sparse:
     def __matmul__(self, x: Vector) -> Vector:
         g = self.graph
         return Vector(g, tuple(g.total(g.mul(e, x.nodes[j]) for j, e in row) for row in self.rows))
+
+    def scaled_columns(self, factors: Vector) -> Sparse:
+        """Return D with column j multiplied by factor j."""
+        g = self.graph
+        rows = tuple(tuple((j, g.mul(e, factors.nodes[j])) for j, e in row) for row in self.rows)
+        return Sparse(g, rows, self.columns)
 
     def transposed(self, y: Vector) -> Vector:
         """Return D^T y."""
@@ -138,6 +150,8 @@ class System:
         self.phi = Vector(g, tuple(g.zero if r.phi is None else r.phi for r in e.rows))
         self.v = Vector(g, tuple(g.input("v", i) for i in range(e.nv)))
         self.flags: list[int] = []
+        self.kept: list[tuple[Target, int]] = []
+        self.kept_sections: dict[str, int] = {}
 
     def parameter(self, name: str) -> Scalar:
         """Return a parameter of the method."""
@@ -183,6 +197,27 @@ class System:
                 result[i] = g.total(g.mul(e, x.nodes[j]) for j, e in row)
         return Vector(g, tuple(result))
 
+    @property
+    def inverse_mass_root(self) -> Vector:
+        """Return the diagonal of M^-1/2.
+
+        Raises
+        ------
+        ValueError
+            If M is not diagonal.
+        """
+        g = self.graph
+        if any(len(block.columns) > 1 for block in self.equations.mass):
+            raise ValueError("the square root of a mass matrix that is not diagonal is not formed")
+        diagonal = {block.columns[0]: block.entries[0][0] for block in self.equations.mass}
+        return Vector(g, tuple(g.div(g.one, g.call("sqrt", diagonal[j])) for j in range(self.equations.nv)))
+
+    @property
+    def inverse_step(self) -> Scalar:
+        """Return one over the step that is being taken."""
+        g = self.graph
+        return Scalar(g, g.div(g.one, g.input("status", STATUS.index("step"))))
+
     # -- D W D^T -----------------------------------------------------------------------------------------------------
 
     @cached_property
@@ -214,6 +249,15 @@ class System:
     @cached_property
     def schur(self) -> Factor:
         """Factor of S = D M^-1 D^T; rows masked by the runtime get a reciprocal pivot of 0, small pivots a flag."""
+        return self._masked_factor(self.gram(self.inverse_mass))
+
+    def pseudoinverse_factor(self, matrix: Sparse) -> Factor:
+        """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `schur`."""
+        other = System.__new__(System)
+        other.__dict__.update(self.__dict__, D=matrix)
+        return self._masked_factor(other.gram(None))
+
+    def _masked_factor(self, matrix: Mapping[tuple[int, int], int]) -> Factor:
         g = self.graph
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
@@ -222,7 +266,7 @@ class System:
                 self.flags.append(g.call("lt", masked, g.mul(g.constant(SUSPICIOUS), diagonal)))
             return g.div(g.one, masked)
 
-        return factorise(g, self.gram(self.inverse_mass), self.order, reciprocal)
+        return factorise(g, matrix, self.order, reciprocal)
 
     def solve_schur(self, right: Vector) -> Vector:
         """Return lambda with S lambda = right."""
@@ -240,8 +284,8 @@ class System:
 
         return factorise(g, self.gram(weight), self.order, reciprocal)
 
-    def schur_with(self, rank: Factor) -> Factor:
-        """Return the factor of S in which those rows are skipped that `rank`, the factor of D D^T, finds dependent."""
+    def factor_with(self, rank: Factor, matrix: Mapping[tuple[int, int], int]) -> Factor:
+        """Return the factor of D W D^T in which those rows are skipped that `rank`, the factor of D D^T, finds dependent."""
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
@@ -250,7 +294,86 @@ class System:
             keep = g.call("step", rank.pivots[row], g.mul(g.constant(SKIP), rank.diagonal[row]))
             return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
 
-        return factorise(g, self.gram(self.inverse_mass), self.order, reciprocal)
+        return factorise(g, matrix, self.order, reciprocal)
+
+    # -- M + a D^T D -------------------------------------------------------------------------------------------------
+
+    def mass(self, x: Vector) -> Vector:
+        """Return M x."""
+        g = self.graph
+        result = [g.zero] * len(x.nodes)
+        for block in self.equations.mass:
+            for i, row in zip(block.columns, block.entries, strict=True):
+                result[i] = g.total(g.mul(e, x.nodes[j]) for j, e in zip(block.columns, row, strict=True))
+        return Vector(g, tuple(result))
+
+    def augmented_factor(self, penalty: Scalar) -> Factor:
+        """Return the factor of ``M + a D^T D``, which is positive definite whatever the rank of D."""
+        g = self.graph
+        matrix: dict[tuple[int, int], int] = {}
+        for block in self.equations.mass:
+            for i, row in zip(block.columns, block.entries, strict=True):
+                for j, node in zip(block.columns, row, strict=True):
+                    if node != g.zero or i == j:
+                        matrix[i, j] = node
+        for entries in self.D.rows:
+            for i, a in entries:
+                scaled = g.mul(penalty.node, a)
+                for j, b in entries:
+                    if j >= i:
+                        matrix[i, j] = g.add(matrix.get((i, j), g.zero), g.mul(scaled, b))
+                        matrix[j, i] = matrix[i, j]
+        near: list[set[int]] = [set() for _ in range(self.equations.nv)]
+        for i, j in matrix:
+            if i != j:
+                near[i].add(j)
+        order = minimum_degree([frozenset(n) for n in near])
+        return factorise(g, matrix, order, lambda _, pivot, __: g.div(g.one, pivot))
+
+    def solve(self, factor: Factor, right: Vector) -> Vector:
+        """Return the solution for a right-hand side."""
+        return Vector(self.graph, tuple(factor.solve(self.graph, right.nodes)))
+
+    # -- what an iterated law keeps in w between its blocks ------------------------------------------------------------
+
+    def keep(self, section: str, x: Vector) -> Vector:
+        """Store a vector in a section once per evaluation; return it as the iteration reads it, literals folded."""
+        g, loaded = self.graph, list[int]()
+        first = self.kept_sections.get(section, 0)
+        slot = first
+        for node in x:
+            if g.value(node) is not None:
+                loaded.append(node)
+                continue
+            self.kept.append((Target(section, slot), node))
+            loaded.append(g.input(section, slot))
+            slot += 1
+        self.kept_sections[section] = slot
+        return Vector(g, tuple(loaded))
+
+    def keep_constraints(self) -> Sparse:
+        """Store the variable entries of D; return D as the iteration reads it."""
+        flat = self.keep("kept_jacobian", Vector(self.graph, tuple(e for row in self.D.rows for _, e in row)))
+        nodes = iter(flat)
+        rows = tuple(tuple((j, next(nodes)) for j, _ in row) for row in self.D.rows)
+        return Sparse(self.graph, rows, self.equations.nv)
+
+    def keep_factor(self, factor: Factor) -> Factor:
+        """Store a factor; return it as the iteration reads it."""
+        g = self.graph
+        flat = [n for k in factor.order for _, n in factor.lower[k]] + [factor.reciprocal[k] for k in factor.order]
+        nodes = iter(self.keep("kept_factor", Vector(g, tuple(flat))))
+        lower = {k: tuple((i, next(nodes)) for i, _ in factor.lower[k]) for k in factor.order}
+        reciprocal = {k: next(nodes) for k in factor.order}
+        return Factor(factor.order, lower, reciprocal, factor.pivots, factor.diagonal)
+
+    def variable(self, section: str, size: int) -> Vector:
+        """Return a vector that the iteration changes, as it reads it."""
+        return Vector(self.graph, tuple(self.graph.input(section, i) for i in range(size)))
+
+    def zeros(self, size: int) -> Vector:
+        """Return the zero vector."""
+        return Vector(self.graph, (self.graph.zero,) * size)
 
     def flag(self) -> int | None:
         """Return the node that is true where a pivot of S was suspicious."""

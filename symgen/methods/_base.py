@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from symgen.errors import InputError, nearest
 
+from symgen.ir.program import Correction
+
 if TYPE_CHECKING:
     from symgen.lower.algebra import System, Vector
 
@@ -47,10 +49,38 @@ class MethodOption:
 
 @dataclass(frozen=True)
 class Acceleration:
-    """What a law computes: v' and the multipliers."""
+    """A law that is a formula: v' and the multipliers."""
 
     acceleration: Vector
     multipliers: Vector
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """A law that is iterated until v' changes no more.
+
+    Parameters
+    ----------
+    state : tuple of IterationState
+        What an iteration changes; the first one is v', the second the multipliers.
+    increment : Vector
+        The change of v' in one iteration; it ends when this is small.
+    """
+
+    state: tuple[IterationState, ...]
+    increment: Vector
+
+
+@dataclass(frozen=True)
+class IterationState:
+    """A vector that an iteration changes: the section of ``w`` it is kept in, its start and its next value."""
+
+    section: str
+    start: Vector
+    following: Vector
+
+
+Law = Acceleration | Iteration
 
 
 class Method(ABC):
@@ -62,8 +92,8 @@ class Method(ABC):
         Lower-case name, as typed.
     summary, reference : str
         One line, and the literature.
-    position_correction, velocity_correction : bool
-        What is corrected after each accepted step.
+    integrates : str
+        ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
     """
 
     name: ClassVar[str]
@@ -72,12 +102,15 @@ class Method(ABC):
     form: ClassVar[str] = "ode"
     parameters: ClassVar[tuple[MethodParameter, ...]] = ()
     options: ClassVar[tuple[MethodOption, ...]] = ()
-    position_correction: ClassVar[bool] = False
-    velocity_correction: ClassVar[bool] = False
+    integrates: ClassVar[str] = "all"
 
     @abstractmethod
-    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+    def law(self, system: System, options: Mapping[str, str]) -> Law:
         """Return the law as a formula over the blocks of `system`."""
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return what is corrected after each accepted step; nothing unless overridden."""
+        return Correction()
 
     def complete_options(self, given: Mapping[str, str]) -> dict[str, str]:
         """Return the structural options, defaults filled in.
@@ -106,10 +139,6 @@ class Method(ABC):
     def stem(self, options: Mapping[str, str]) -> str:
         """Return the file stem of the emitted module: the method and its structural options."""
         return "_".join([self.name, *(options[o.name] for o in self.options)]).replace("-", "_")
-
-    def metric(self, options: Mapping[str, str]) -> str:
-        """Return the weight of corrections: ``identity`` or ``mass``."""
-        return "identity"
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
         """Return the step above which the law itself is unstable, None where it sets no limit.

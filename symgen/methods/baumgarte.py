@@ -30,7 +30,7 @@ class Baumgarte(Method):
         MethodParameter("beta", 5.0, "1/s", f"position gain; {_SOURCE}"),
     )
 
-    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: gamma - 2 alpha Phi' - beta^2 Phi, Phi' = D v - nu."""
         alpha, beta = system.parameter("alpha"), system.parameter("beta")
         drift = system.D @ system.v - system.nu

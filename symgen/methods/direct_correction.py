@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from symgen.ir.program import Correction
 from symgen.methods._base import Acceleration, Method, MethodOption, MethodParameter, multiplier_law
 
 if TYPE_CHECKING:
@@ -30,16 +31,14 @@ class DirectCorrection(Method):
         ),
     )
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),)
-    position_correction = True
-    velocity_correction = True
 
-    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: that of `lagrange`."""
         return multiplier_law(system, system.gamma)
 
-    def metric(self, options: Mapping[str, str]) -> str:
-        """Return the chosen weight."""
-        return options["weight"]
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return Newton's iteration at position level and one correction at velocity level, in the chosen metric."""
+        return Correction("newton", True, options["weight"])
 
 
 KIND = DirectCorrection()

@@ -22,7 +22,7 @@ class Lagrange(Method):
     summary = "constraints at acceleration level only; violations grow with time"
     reference = "Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988"
 
-    def accelerations(self, system: System, options: Mapping[str, str]) -> Acceleration:
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: gamma as derived."""
         return multiplier_law(system, system.gamma)
 

@@ -31,6 +31,8 @@ PIVOT = STATUS.index("smallest_pivot")
 RANK = STATUS.index("rank")
 LENGTH = STATUS.index("length_scale")
 SPEED = STATUS.index("speed_scale")
+STEP_STATUS = STATUS.index("step")
+PROBING = COUNTERS.index("probing")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers shared with the thread that watches a run ---------------------------------------------------------

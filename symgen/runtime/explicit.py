@@ -26,7 +26,7 @@ _M = types.float64[:, ::1]
 _STOP, _STEPS, _REJECTED, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.REJECTED, abi.EVALUATIONS, abi.OUTPUTS
 _DONE, _STOPPED, _NOT_FINITE = abi.DONE, abi.STOPPED, abi.NOT_FINITE
 _CORRECTION, _TINY = abi.CORRECTION, abi.TINY_STEP
-_STEP, _PHI = abi.STEP, abi.PHI
+_STEP, _PHI, _STEP_STATUS, _PROBING = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PROBING
 _N_STATUS = abi.RANK + 1
 
 
@@ -161,6 +161,7 @@ def fixed_steps(
         if partial:
             following = times[out]
             step = following - t
+        w[_STEP_STATUS] = step
         for s in range(n_stages):
             combine(n, step, start[s], start[s + 1], column, value, y, stages, trial)
             rate = part(stages, s * n, n)
@@ -168,7 +169,9 @@ def fixed_steps(
                 confirm(t + nodes[s] * step, trial, p, w, iw, rate)
         combine(n, step, start[n_stages], start[n_stages + 1], column, value, y, stages, trial)
         control[_EVALUATIONS] += n_stages
+        iw[_PROBING] = 1 if partial else 0
         bits = accept(following, trial, p, w, iw)
+        iw[_PROBING] = 0
         if partial:
             keep_maxima(w, trial[n - 1], gauges)
             store(out, trial, w, states, status)
@@ -292,6 +295,7 @@ def adaptive_steps(
             h = until - t
         if not h > 4e-16 * max(abs(t), abs(until)):
             return _TINY
+        w[_STEP_STATUS] = h
         for s in range(1, n_stages):
             combine(n, h, start[s], start[s + 1], column, value, y, stages, trial)
             rate = part(stages, s * n, n)
@@ -347,7 +351,9 @@ def adaptive_steps(
                     factor *= h
                     for i in range(n):
                         new[i] += factor * stages[s * n + i]
+                iw[_PROBING] = 1
                 accept(times[out], new, p, w, iw)
+                iw[_PROBING] = 0
                 keep_maxima(w, new[n - 1], gauges)
                 store(out, new, w, states, status)
                 out += 1

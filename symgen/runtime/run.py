@@ -133,7 +133,7 @@ class Outcome:
         info, law, k = self.compiled.info, self.compiled.law_module, len(self.times)
         accelerations, multipliers = np.zeros((k, info.nv)), np.zeros((k, info.m))
         observe_rates(
-            *(law.rhs, law.confirm, self.times, self.states, self.p, self.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
+            *(law.rhs, getattr(law, "confirm", law.rhs), self.times, self.states, self.p, self.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
             *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
         )
         return accelerations, multipliers
@@ -227,7 +227,8 @@ def _loop(
 ) -> tuple[Any, tuple[Any, ...]]:
     """Return the loop for a run and its arguments up to the outputs."""
     law = compiled.law_module
-    common = (law.rhs, law.confirm, law.accept, *tableau.packed(), tableau.stages)
+    confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
+    common = (law.rhs, confirm, law.accept, *tableau.packed(), tableau.stages)
     if not spec.adaptive:
         from symgen.runtime.explicit import fixed_steps
 

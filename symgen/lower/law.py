@@ -1,0 +1,214 @@
+"""The program of a law: what one method adds to its model's program."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from symgen.formulate.equations import Equations
+from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
+from symgen.lower.algebra import SKIP, System, Vector
+from symgen.lower.factor import Factor
+from symgen.lower.hoist import Hoister
+from symgen.lower.parts import Outputs, Stored, geometry_outputs, loaded_rows, pivot_outputs, spread, to_status, transposed_product
+from symgen.methods._base import Acceleration, Iteration, Method
+
+_RHS = ("t", "y", "p", "w", "iw", "ydot")
+
+
+def lower_law(equations: Equations, model: ModelProgram, method: Method, options: Mapping[str, str]) -> LawProgram:
+    """Lower one method: its acceleration law, and its correction where the model's does not do.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    model : ModelProgram
+        The program of the model.
+    method : Method
+        The method.
+    options : mapping
+        Its structural options, complete.
+    """
+    builder = _Builder(equations, model, method)
+    law = method.law(builder.system, options)
+    if isinstance(law, Acceleration):
+        form = "closed" if method.integrates == "independent" else "direct"
+        builder.direct(law, "rhs" if form == "direct" else "accelerate")
+    else:
+        form = "iterated"
+        builder.iterated(law)
+    correction = method.correction(options)
+    if correction.metric == "mass":
+        builder.mass_metric()
+    elif correction.metric == "independent":
+        builder.independent_metric()
+    elif correction.metric == "augmented":
+        builder.augmented_metric()
+    return LawProgram(
+        method=method.name,
+        key=method.stem(options),
+        layout=Layout(equations.nq, equations.nv, equations.m, len(equations.parameters), builder.sections),
+        blocks=(builder.hoister.prepare(), *builder.blocks),
+        parameters=tuple((p.name, p.default) for p in method.parameters),
+        parameter_offset=builder.parameter_offset,
+        hoisted=len(builder.hoister.slots),
+        form=form,
+        correction=correction,
+        options=dict(options),
+    )
+
+
+class _Builder:
+    """Collects the blocks and scratch sections of one law."""
+
+    def __init__(self, equations: Equations, model: ModelProgram, method: Method) -> None:
+        self.equations, self.model, self.method = equations, model, method
+        self.parameter_offset = model.layout.parameters + model.hoisted
+        self.system = System(equations, [p.name for p in method.parameters], self.parameter_offset)
+        self.hoister = Hoister(self.system.graph, self.parameter_offset + len(method.parameters))
+        self.sections = dict(model.layout.sections)
+        self.size = model.layout.nw
+        self.blocks: list[Block] = []
+
+    def section(self, name: str, size: int) -> None:
+        """Add a section of the law's own to ``w``."""
+        self.sections[name] = (self.size, size)
+        self.size += size
+
+    # -- laws --------------------------------------------------------------------------------------------------------
+
+    def direct(self, law: Acceleration, name: str) -> None:
+        """Add the whole law as one straight-line function."""
+        purpose = f"q', v', power and multipliers by {self.method.name}"
+        flag = self.system.flag()
+        if flag is not None:
+            purpose += "; 1 where a pivot of S is suspicious"
+        outputs = self._rates(law.acceleration, law.multipliers)
+        outputs += [(Target("multipliers", i), n) for i, n in enumerate(law.multipliers)]
+        self.blocks.append(self.hoister.block(name, purpose, outputs, _RHS, flag))
+
+    def _rates(self, acceleration: Vector, multipliers: Vector) -> Outputs:
+        e, g = self.equations, self.system.graph
+        outputs: Outputs = [(Target("ydot", i), n) for i, n in enumerate(e.q_rates)]
+        outputs += [(Target("ydot", e.nq + i), n) for i, n in enumerate(acceleration)]
+        power = g.sub(e.power, multipliers.dot(self.system.nu).node)
+        outputs.append((Target("ydot", e.nq + e.nv), power))
+        return outputs
+
+    def iterated(self, law: Iteration) -> None:
+        """Add what an iterated law is put together from: ``begin``, ``iterate`` and ``finish``."""
+        g, system = self.system.graph, self.system
+        for name, size in system.kept_sections.items():
+            self.section(name, size)
+        for state in law.state:
+            if state.section not in self.sections:
+                self.section(state.section, len(state.start.nodes))
+        begin: Outputs = list(system.kept)
+        iterate: Outputs = []
+        for state in law.state:
+            begin += [(Target(state.section, i), n) for i, n in enumerate(state.start)]
+            iterate += [(Target(state.section, i), n) for i, n in enumerate(state.following)]
+        relative = g.div(
+            law.increment.dot(law.increment).node,
+            g.add(g.one, law.state[0].following.dot(law.state[0].following).node),
+        )
+        iterate.append(to_status("increment", g.call("sqrt", relative)))
+        final = [Vector(g, tuple(g.input(s.section, i) for i in range(len(s.start.nodes)))) for s in law.state]
+        add = self.hoister.block
+        self.blocks += [
+            add("begin", "matrices and start of the iteration", begin, ("t", "y", "p", "w")),
+            add("iterate", f"one iteration of {self.method.name}", iterate, ("p", "w")),
+            add("finish", "q', v' and power", self._rates(final[0], final[1]), ("t", "y", "p", "w", "ydot")),
+        ]
+
+    # -- metrics of corrections ----------------------------------------------------------------------------------------
+
+    def mass_metric(self) -> None:
+        """Geometry and spread in the metric of M: S = D M^-1 D^T is factorised, rows being skipped as D D^T decides."""
+        system = self.system
+        rank = system.gram_factor()
+        self._weighted(rank, system.factor_with(rank, system.gram(system.inverse_mass)), system.minv, "D M^-1 D^T", [])
+
+    def independent_metric(self) -> None:
+        """Geometry and spread that change dependent coordinates only: W^-1 = P, a projector kept in ``dependent``."""
+        e, g, system = self.equations, self.system.graph, self.system
+        self.section("dependent", e.nv)
+        self.section("dense", e.m * e.nv)
+        self.section("columns", e.nv)
+        weight = [{j: g.input("dependent", j)} for j in range(e.nv)]
+        rank = system.gram_factor()
+        factor = system.factor_with(rank, system.gram(weight))
+        worst = g.one
+        for i in factor.order:
+            relative = g.div(factor.pivots[i], rank.diagonal[i])
+            # rows that D D^T skips say nothing about the partition
+            skipped = g.call("step", g.mul(g.constant(SKIP), rank.diagonal[i]), rank.pivots[i])
+            worst = g.call("min", worst, g.add(relative, skipped))
+
+        def project(x: Vector) -> Vector:
+            return Vector(g, tuple(g.mul(weight[j][j], n) for j, n in enumerate(x)))
+
+        self._weighted(rank, factor, project, "D P D^T", [to_status("partition_pivot", worst)])
+        dense: Outputs = []
+        for row, entries in enumerate(loaded_rows(g, self.model.jacobian, e.m)):
+            dense += [(Target("dense", row * e.nv + column), node) for column, node in entries]
+        self.blocks.append(self.hoister.block("expand", "D as a dense matrix", dense, ("p", "w")))
+
+    def _weighted(
+        self, rank: Factor, factor: Factor, weight: Callable[[Vector], Vector], matrix: str, more: Outputs
+    ) -> None:
+        system, jacobian = self.system, self.model.jacobian
+        stored = Stored(system.graph, factor)
+        self.section("law_lower", len(stored.lower))
+        self.section("law_reciprocal", len(stored.reciprocal))
+        outputs = [
+            *geometry_outputs(system, jacobian),
+            *pivot_outputs(system, rank),
+            *more,
+            *stored.outputs("law_lower", "law_reciprocal"),
+        ]
+        purpose = f"Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of {matrix}"
+        self.blocks += [
+            self.hoister.block("geometry", purpose, outputs, ("t", "y", "p", "w")),
+            spread(self.hoister, self.equations, jacobian, stored, ("law_lower", "law_reciprocal"), weight),
+        ]
+
+    def augmented_metric(self) -> None:
+        """The mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
+
+        ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` for the residual r of
+        positions or velocities; delta and lambda are kept in sections of their own.
+        """
+        e, g, system = self.equations, self.system.graph, self.system
+        penalty = system.parameter("penalty")
+        rank, factor = system.gram_factor(), system.augmented_factor(penalty)
+        stored = Stored(g, factor)
+        self.section("law_lower", len(stored.lower))
+        self.section("law_reciprocal", len(stored.reciprocal))
+        self.section("moved", e.nv)
+        self.section("force_of_constraints", e.m)
+        outputs = [
+            *geometry_outputs(system, self.model.jacobian),
+            *pivot_outputs(system, rank),
+            *stored.outputs("law_lower", "law_reciprocal"),
+        ]
+        residual = Vector(g, tuple(g.input("residual", i) for i in range(e.m)))
+        moved = Vector(g, tuple(g.input("moved", j) for j in range(e.nv)))
+        forces = Vector(g, tuple(g.input("force_of_constraints", i) for i in range(e.m)))
+        raised = forces + penalty * residual
+        right = system.mass(moved) + Vector(g, tuple(transposed_product(g, self.model.jacobian, raised.nodes, e.nv)))
+        x = stored.loaded("law_lower", "law_reciprocal").solve(g, [g.neg(n) for n in right])
+        changes = [
+            *_to("change", x),
+            *((Target("moved", j), g.add(moved.nodes[j], n)) for j, n in enumerate(x)),
+            *_to("force_of_constraints", raised),
+        ]
+        purpose = "Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D"
+        self.blocks += [
+            self.hoister.block("geometry", purpose, outputs, ("t", "y", "p", "w")),
+            self.hoister.block("spread", "one iteration of the mass-orthogonal projection", changes, ("p", "w")),
+        ]
+
+
+def _to(section: str, nodes: Vector | list[int]) -> Outputs:
+    return [(Target(section, i), n) for i, n in enumerate(nodes)]

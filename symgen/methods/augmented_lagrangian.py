@@ -1,0 +1,31 @@
+"""Augmented Lagrangian method: penalty terms whose error is removed by iterating the multipliers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.methods._augmented import MU, OMEGA, PENALTY, TOLERANCE, augmented_iteration, stabilised
+from symgen.methods._base import Iteration, Method
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class AugmentedLagrangian(Method):
+    """Iterates ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - g))``, ``lambda += a (D v' - g)``.
+
+    ``g = gamma - 2 omega mu Phi' - omega^2 Phi``: violations decay like a damped oscillator, as with `baumgarte`.
+    M + a D^T D is positive definite for every rank of D, so redundant and singular positions need no care.
+    """
+
+    name = "augmented-lagrangian"
+    summary = "penalty terms with iterated multipliers and stabilised constraints"
+    reference = "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195"
+    parameters = (PENALTY, OMEGA, MU, TOLERANCE)
+
+    def law(self, system: System, options: Mapping[str, str]) -> Iteration:
+        """Return the iteration for the stabilised constraints."""
+        return augmented_iteration(system, system.parameter("penalty"), stabilised(system))
+
+
+KIND = AugmentedLagrangian()

@@ -1,0 +1,39 @@
+"""Index-1 augmented Lagrangian method with mass-orthogonal projections."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.program import Correction
+from symgen.methods._augmented import PENALTY, TOLERANCE, augmented_iteration
+from symgen.methods._base import Iteration, Method
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class Index1AugmentedLagrangian(Method):
+    """The iteration of `augmented-lagrangian` for ``D v' = gamma``, then mass-orthogonal projections of q and v.
+
+    There is no feedback of violations (omega = 0): after each accepted step positions and velocities are projected with
+    the leading matrix that the iteration uses, M + a D^T D. Readings of the name differ; this is ours, after Cuadrado,
+    Cardenal and Bayo.
+    """
+
+    name = "index1-augmented-lagrangian"
+    summary = "iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities"
+    reference = (
+        "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
+    )
+    parameters = (PENALTY, TOLERANCE)
+
+    def law(self, system: System, options: Mapping[str, str]) -> Iteration:
+        """Return the iteration for the constraints at acceleration level."""
+        return augmented_iteration(system, system.parameter("penalty"), system.gamma)
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return the mass-orthogonal projection."""
+        return Correction("newton", True, "augmented")
+
+
+KIND = Index1AugmentedLagrangian()

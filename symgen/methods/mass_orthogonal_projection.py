@@ -1,0 +1,39 @@
+"""Mass-orthogonal projections with the augmented leading matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.program import Correction
+from symgen.methods._augmented import PENALTY
+from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class MassOrthogonalProjection(Method):
+    """As `lagrange`; after each step ``(M + a D^T D) dv = -M delta - D^T (a Phi + lambda)`` is iterated for q, then for v.
+
+    ``delta += dv``, ``lambda += a Phi``: the change is orthogonal to the admissible motions in the metric of M. Where D has
+    full rank it is `direct-correction` with ``weight=mass``, reached without inverting D M^-1 D^T.
+    """
+
+    name = "mass-orthogonal-projection"
+    summary = "positions and velocities projected in the metric of M by iterations with M + a D^T D"
+    reference = "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296"
+    parameters = (
+        PENALTY,
+        MethodParameter("tolerance", 1e-13, "m", "violation at which the iteration ends, times the largest coordinate or speed"),
+    )
+
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law: that of `lagrange`."""
+        return multiplier_law(system, system.gamma)
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return the mass-orthogonal projection."""
+        return Correction("newton", True, "augmented")
+
+
+KIND = MassOrthogonalProjection()

@@ -1,0 +1,37 @@
+"""Penalty formulation: constraints as stiff springs, dampers and inertias."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.methods._augmented import MU, OMEGA, PENALTY, stabilised
+from symgen.methods._base import Acceleration, Method
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class Penalty(Method):
+    """``(M + a D^T D) v' = f + a D^T g`` with ``g = gamma - 2 omega mu Phi' - omega^2 Phi``; ``lambda = a (D v' - g)``.
+
+    The first step of the augmented Lagrangian method, not iterated: the constraints hold up to an error that falls like
+    1 / a, while rounding grows like a. M + a D^T D is positive definite, so redundant rows need no care.
+    """
+
+    name = "penalty"
+    summary = "constraints as stiff elements; the error falls like 1 / penalty"
+    reference = (
+        "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; "
+        "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011"
+    )
+    parameters = (PENALTY, OMEGA, MU)
+
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law: one solve with M + a D^T D."""
+        penalty, target = system.parameter("penalty"), stabilised(system)
+        right = system.f + system.D.transposed(penalty * target)
+        acceleration = system.solve(system.augmented_factor(penalty), right)
+        return Acceleration(acceleration, penalty * (system.D @ acceleration - target))
+
+
+KIND = Penalty()

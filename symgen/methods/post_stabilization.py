@@ -1,0 +1,37 @@
+"""Post-stabilisation: one correction of positions and velocities after each step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.program import Correction
+from symgen.methods._base import Acceleration, Method, MethodOption, multiplier_law
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class PostStabilization(Method):
+    """As `lagrange`; after each step once ``q -= N D^+ Phi`` and once ``v -= D^+ (D v - nu)``.
+
+    The stabilisation with F = D^T (D D^T)^-1 of Ascher, Chin and Reich: one step towards the constraints, which keeps the
+    violation at the square of what a step adds, at a fixed price.
+    """
+
+    name = "post-stabilization"
+    summary = "one correction of positions and velocities after each step, not iterated"
+    reference = (
+        "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
+    )
+    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
+
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law: that of `lagrange`."""
+        return multiplier_law(system, system.gamma)
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return one correction at both levels."""
+        return Correction("once", True, options["weight"])
+
+
+KIND = PostStabilization()

@@ -1,0 +1,36 @@
+"""Udwadia-Kalaba equation: accelerations by a pseudoinverse, no multipliers needed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.methods._base import Acceleration, Method
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+class UdwadiaKalaba(Method):
+    """``v' = a + M^-1/2 (D M^-1/2)^+ (gamma - D a)`` with ``a = M^-1 f``: Gauss's principle solved in closed form.
+
+    With ``B = D M^-1/2`` the pseudoinverse is ``B^T (B B^T)^+``; dependent rows are skipped as D D^T decides. Where D has
+    full rank the accelerations are those of `lagrange` up to rounding. Multipliers are reported as
+    ``(B B^T)^+ (D a - gamma)``. Singular mass matrices (Udwadia, Phohomsiri 2006) are not covered.
+    """
+
+    name = "udwadia-kalaba"
+    summary = "accelerations closest to the free ones in the metric of M, by a pseudoinverse"
+    reference = "Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158"
+
+    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
+        """Return the law in terms of B = D M^-1/2."""
+        root = system.inverse_mass_root
+        weighted = system.D.scaled_columns(root)
+        free = system.minv(system.f)
+        factor = system.pseudoinverse_factor(weighted)
+        multipliers = system.solve(factor, system.D @ free - system.gamma)
+        change = weighted.transposed(multipliers).times(root)
+        return Acceleration(free - change, multipliers)
+
+
+KIND = UdwadiaKalaba()
