@@ -74,6 +74,10 @@ class Scalar:
     def __rmul__(self, factor: float) -> Scalar:
         return Scalar(self.graph, self.graph.mul(self.graph.constant(factor), self.node))
 
+    def smaller(self, other: Scalar) -> Scalar:
+        """Return the smaller of two scalars."""
+        return Scalar(self.graph, self.graph.call("min", self.node, other.node))
+
     def __pow__(self, exponent: int) -> Scalar:
         return Scalar(self.graph, self.graph.power(self.node, self.graph.constant(float(exponent))))
 

@@ -11,31 +11,31 @@ if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
 class AdaptiveBaumgarte(Method):
-    """`baumgarte` with ``alpha = a / h`` and ``beta = b / h``, h being the step that is taken.
+    """`baumgarte` with ``alpha = beta = min(gain, a / h)``, h being the step that is taken.
 
-    Gains that are right for one step are weak or unstable for another one. Lin and Huang choose them from the stability
-    region of the integrator, so that violations are damped within a few steps: for Runge-Kutta of order 4 they take gains
-    of the size of 1 / h. With the defaults a = b = 1 both roots lie at -1 / h, well inside the region of all explicit
-    integrators here, whose real boundary is at least 2.
+    Fixed gains are weak for one step and unstable for another one; Chang and Nikravesh adapt them while the run goes on, Lin
+    and Huang take them from the integrator's region of stability as a multiple of 1 / h. Both readings meet here: a / h
+    keeps the root of the violations inside the region of every explicit integrator (whose real boundary is at least 2),
+    whatever the step, and `gain` bounds it where steps are short: gains that grow like 1 / h feed the stages' own violations
+    back and cost the integrator its order.
     """
 
     name = "adaptive-baumgarte"
-    summary = "Baumgarte's gains as multiples of one over the step"
+    summary = "Baumgarte's gains bounded by a multiple of one over the step"
     reference = (
         "Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492; "
         "Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277"
     )
     parameters = (
-        MethodParameter("a", 1.0, "1", "velocity gain times the step"),
-        MethodParameter("b", 1.0, "1", "position gain times the step"),
+        MethodParameter("gain", 20.0, "1/s", "largest gain alpha = beta"),
+        MethodParameter("a", 1.0, "1", "largest gain times the step"),
     )
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: gamma - 2 (a / h) Phi' - (b / h)^2 Phi."""
-        rate = system.inverse_step
-        alpha, beta = system.parameter("a") * rate, system.parameter("b") * rate
+        """Return the law: gamma - 2 alpha Phi' - alpha^2 Phi."""
+        alpha = system.parameter("gain").smaller(system.parameter("a") * system.inverse_step)
         drift = system.D @ system.v - system.nu
-        return multiplier_law(system, system.gamma - (2.0 * alpha) * drift - (beta**2) * system.phi)
+        return multiplier_law(system, system.gamma - (2.0 * alpha) * drift - (alpha**2) * system.phi)
 
 
 KIND = AdaptiveBaumgarte()

@@ -47,8 +47,8 @@ N_CONTROL = 9
     MAX_ENERGY,  # largest |E - E0 - W|
     ENERGY_START,  # E0
     ENERGY_SCALE,  # largest kinetic energy, change of potential energy or work so far
-    LIMIT_PHI,  # max_violation times the length scale
-    LIMIT_DRIFT,
+    LIMIT_PHI,  # max_violation, of the largest coordinate so far
+    LIMIT_DRIFT,  # the same, of the largest speed
     LIMIT_ENERGY,  # fraction of the energy scale
     WARN_PIVOT,
     SMALLEST_PIVOT,

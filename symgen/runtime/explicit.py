@@ -104,7 +104,7 @@ def error_norm(
 
 
 @jit(
-    _I8(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
+    _I8(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _I8, _A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
 )
 def fixed_steps(
     rhs: Any,
@@ -115,6 +115,7 @@ def fixed_steps(
     value: Any,
     nodes: Any,
     n_stages: int,
+    nq: int,
     y: Any,
     p: Any,
     w: Any,
@@ -142,7 +143,7 @@ def fixed_steps(
     out = 0
     accept(t, y, p, w, iw)
     begin(w, gauges)
-    code = watch(t, w, y[n - 1], gauges, control, events)
+    code = watch(t, y, nq, w, gauges, control, events)
     if code != _DONE:
         return code
     while out < times.shape[0] and times[out] <= t + tiny:
@@ -184,7 +185,7 @@ def fixed_steps(
         t = following
         index += 1
         control[_STEPS] = index
-        code = watch(t, w, y[n - 1], gauges, control, events)
+        code = watch(t, y, nq, w, gauges, control, events)
         if code != _DONE:
             return code
         if out < times.shape[0] and times[out] <= t + tiny:
@@ -196,7 +197,7 @@ def fixed_steps(
 
 @jit(
     _I8(
-        *(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _A, _I8, _I8, _A, _A, _A, _A, _I),
+        *(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _I8, _A, _I8, _I8, _A, _A, _A, _A, _I),
         *(_F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
     ),
 )
@@ -209,6 +210,7 @@ def adaptive_steps(
     value: Any,
     nodes: Any,
     n_stages: int,
+    nq: int,
     weights: Any,
     n_errors: int,
     error_order: int,
@@ -254,7 +256,7 @@ def adaptive_steps(
     out = 0
     accept(t, y, p, w, iw)
     begin(w, gauges)
-    code = watch(t, w, y[n - 1], gauges, control, events)
+    code = watch(t, y, nq, w, gauges, control, events)
     if code != _DONE:
         return code
     while out < times.shape[0] and times[out] <= t:
@@ -323,7 +325,7 @@ def adaptive_steps(
             h *= 0.5
             rejected = True
             continue
-        code = watch(following, w, trial[n - 1], gauges, control, events)
+        code = watch(following, trial, nq, w, gauges, control, events)
         if code != _DONE:
             return code
         if out < times.shape[0] and times[out] < following:

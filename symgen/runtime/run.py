@@ -228,7 +228,7 @@ def _loop(
     """Return the loop for a run and its arguments up to the outputs."""
     law = compiled.law_module
     confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
-    common = (law.rhs, confirm, law.accept, *tableau.packed(), tableau.stages)
+    common = (law.rhs, confirm, law.accept, *tableau.packed(), tableau.stages, compiled.info.nq)
     if not spec.adaptive:
         from symgen.runtime.explicit import fixed_steps
 
@@ -252,8 +252,7 @@ def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array
     iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
     gauges = np.zeros(abi.N_GAUGES)
     control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-    gauges[abi.LIMIT_PHI] = spec.max_violation * w[abi.LENGTH]
-    gauges[abi.LIMIT_DRIFT] = spec.max_violation * w[abi.SPEED]
+    gauges[abi.LIMIT_PHI] = gauges[abi.LIMIT_DRIFT] = spec.max_violation
     gauges[abi.LIMIT_ENERGY] = spec.max_energy_error
     gauges[abi.WARN_PIVOT] = WARN
     gauges[abi.SMALLEST_PIVOT] = 1.0
@@ -304,9 +303,9 @@ def _reason(code: int, w: Array, gauges: Array, spec: RunSpec) -> str:
     where = f" at t = {gauges[abi.TIME]:.6g} s"
     sentence = abi.REASONS[code]
     if code == abi.POSITION:
-        return f"{sentence} ({w[abi.PHI]:.3g} > {gauges[abi.LIMIT_PHI]:.3g}){where}"
+        return f"{sentence} ({w[abi.PHI]:.3g} > {spec.max_violation:g} x {w[abi.LENGTH]:.3g}){where}"
     if code == abi.VELOCITY:
-        return f"{sentence} ({w[abi.DRIFT]:.3g} > {gauges[abi.LIMIT_DRIFT]:.3g}){where}"
+        return f"{sentence} ({w[abi.DRIFT]:.3g} > {spec.max_violation:g} x {w[abi.SPEED]:.3g}){where}"
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {gauges[abi.ENERGY_SCALE]:.3g} J){where}"
     return sentence + where

@@ -41,21 +41,27 @@ def keep_maxima(w: Any, work: float, gauges: Any) -> float:
 
 
 @jit
-def watch(t: float, w: Any, work: float, gauges: Any, control: Any, events: Any) -> int:
+def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: Any) -> int:
     """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
 
     Parameters
     ----------
     t : float
         Time of the state [s].
+    y, nq : Array, int
+        The state (q, v, work) and the number of coordinates in it.
     w : Array
-        Scratch with the status that ``accept`` left.
-    work : float
-        Work of forces without potential and of drivers so far [J].
+        Scratch with the status that ``accept`` left; its scales follow the largest coordinate and speed so far.
     gauges, control, events : Array
         See `symgen.runtime.abi`; updated.
     """
     gauges[_TIME] = t
+    length, speed, work = w[_LENGTH], w[_SPEED], y[y.shape[0] - 1]
+    for i in range(nq):
+        length = max(length, abs(y[i]))
+    for i in range(nq, y.shape[0] - 1):
+        speed = max(speed, abs(y[i]))
+    w[_LENGTH], w[_SPEED] = length, speed
     error = keep_maxima(w, work, gauges)
     scale = max(w[_KINETIC], abs(w[_POTENTIAL] - gauges[_POTENTIAL_START]), abs(work))
     if scale > gauges[_SCALE]:
@@ -91,9 +97,9 @@ def watch(t: float, w: Any, work: float, gauges: Any, control: Any, events: Any)
     total = w[_PHI] + w[_DRIFT] + error
     if not math.isfinite(total):
         return _NOT_FINITE
-    if w[_PHI] > gauges[_LIMIT_PHI]:
+    if w[_PHI] > gauges[_LIMIT_PHI] * length:
         return _POSITION
-    if w[_DRIFT] > gauges[_LIMIT_DRIFT]:
+    if w[_DRIFT] > gauges[_LIMIT_DRIFT] * speed:
         return _VELOCITY
     if abs(error) > gauges[_LIMIT_ENERGY] * gauges[_SCALE] + 1e-9:
         return _ENERGY
