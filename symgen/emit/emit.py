@@ -156,10 +156,14 @@ def _parts(program: LawProgram) -> list[str]:
     if program.form == "iterated":
         parts.append("rhs_iterated")
     if program.form == "closed":
-        parts.append("partition")
+        parts += ["choose", "rhs_closed"]
+    if program.form == "tangent":
+        parts += ["choose", "rhs_tangent"]
     if any(b.flag is not None for b in program.blocks):
         parts.append("confirm")
-    if not correction.any:
+    if program.form == "tangent":
+        parts.append("accept_tangent")
+    elif not correction.any:
         parts.append("accept_measured")
     elif correction.metric == "augmented":
         parts.append("accept_augmented")

@@ -40,6 +40,7 @@ COUNTERS = (
     "probing",  # 1 while a state between steps is measured: nothing is kept of it
     "law_iterations",  # iterations of an iterated law
     "partitions",  # choices of a partition
+    "degrees",  # columns of a tangent basis
 )
 
 
@@ -188,3 +189,4 @@ class LawProgram:
     form: str  # how rhs is put together: direct, iterated, closed or tangent
     correction: Correction
     options: Mapping[str, str] = field(default_factory=dict)
+    degrees: int = 0  # room for columns of a tangent basis

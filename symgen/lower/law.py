@@ -6,11 +6,14 @@ from collections.abc import Callable, Mapping
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
-from symgen.lower.algebra import SKIP, System, Vector
+from symgen.lower.algebra import SKIP, Sparse, System, Vector
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.parts import Outputs, Stored, geometry_outputs, loaded_rows, pivot_outputs, spread, to_status, transposed_product
 from symgen.methods._base import Acceleration, Iteration, Method
+
+#: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
+_SPARE_DEGREES = 6
 
 _RHS = ("t", "y", "p", "w", "iw", "ydot")
 
@@ -34,9 +37,12 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
     if isinstance(law, Acceleration):
         form = "closed" if method.integrates == "independent" else "direct"
         builder.direct(law, "rhs" if form == "direct" else "accelerate")
-    else:
+    elif isinstance(law, Iteration):
         form = "iterated"
         builder.iterated(law)
+    else:
+        form = "tangent"
+        builder.tangent()
     correction = method.correction(options)
     if correction.metric == "mass":
         builder.mass_metric()
@@ -55,6 +61,7 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
         form=form,
         correction=correction,
         options=dict(options),
+        degrees=builder.degrees,
     )
 
 
@@ -69,6 +76,7 @@ class _Builder:
         self.sections = dict(model.layout.sections)
         self.size = model.layout.nw
         self.blocks: list[Block] = []
+        self.degrees = 0
 
     def section(self, name: str, size: int) -> None:
         """Add a section of the law's own to ``w``."""
@@ -121,6 +129,46 @@ class _Builder:
             add("finish", "q', v' and power", self._rates(final[0], final[1]), ("t", "y", "p", "w", "ydot")),
         ]
 
+    def tangent(self) -> None:
+        """Add what a law on a tangent basis is put together from."""
+        e, g, system, jacobian = self.equations, self.system.graph, self.system, self.model.jacobian
+        # redundant rows leave more degrees of freedom than the count of rows says
+        self.degrees = min(e.nv, max(1, e.nv - e.m) + _SPARE_DEGREES)
+        self._dense()
+        for name, size in {
+            **{"basis": e.nv * self.degrees, "trial": e.nv * self.degrees, "small": self.degrees**2},
+            **{"reduced": self.degrees, "force": e.nv, "weighed": e.nv},
+        }.items():
+            self.section(name, size)
+        constraints = Sparse(g, tuple(tuple(row) for row in loaded_rows(g, jacobian, e.m)), e.nv)
+        factor = Stored(g, system.gram_factor()).loaded("lower", "reciprocal")
+        change = system.variable("change", e.nv)
+        accelerations = Vector(g, tuple(g.input("ydot", e.nq + j) for j in range(e.nv)))
+        rest = system.f - system.mass(accelerations)
+        multipliers = system.solve(factor, constraints @ rest)
+        add = self.hoister.block
+        finish = [
+            *((Target("ydot", i), n) for i, n in enumerate(e.q_rates)),
+            *_to("multipliers", multipliers),
+            (Target("ydot", e.nq + e.nv), g.sub(e.power, multipliers.dot(system.nu).node)),
+        ]
+        aim = [*_to("residual", [g.neg(n) for n in system.gamma]), *_to("force", system.f)]
+        self.blocks += [
+            add("aim", "the section `residual` = -gamma, the section `force` = f", aim, ("t", "y", "p", "w")),
+            add("strike", "the section `residual` = D times `change`", _to("residual", constraints @ change), ("w",)),
+            add("weigh", "the section `weighed` = M times `change`", _to("weighed", system.mass(change)), ("p", "w")),
+            add("finish", "q', power and multipliers", finish, ("t", "y", "p", "w", "ydot")),
+        ]
+
+    def _dense(self) -> None:
+        """Add D as a dense matrix, for the choice of independent columns by complete pivoting."""
+        e, dense = self.equations, list[tuple[Target, int]]()
+        self.section("dependent", e.nv)
+        self.section("dense", e.m * e.nv)
+        for row, entries in enumerate(loaded_rows(self.system.graph, self.model.jacobian, e.m)):
+            dense += [(Target("dense", row * e.nv + column), node) for column, node in entries]
+        self.blocks.append(self.hoister.block("expand", "D as a dense matrix", dense, ("p", "w")))
+
     # -- metrics of corrections ----------------------------------------------------------------------------------------
 
     def mass_metric(self) -> None:
@@ -132,9 +180,7 @@ class _Builder:
     def independent_metric(self) -> None:
         """Geometry and spread that change dependent coordinates only: W^-1 = P, a projector kept in ``dependent``."""
         e, g, system = self.equations, self.system.graph, self.system
-        self.section("dependent", e.nv)
-        self.section("dense", e.m * e.nv)
-        self.section("columns", e.nv)
+        self._dense()
         weight = [{j: g.input("dependent", j)} for j in range(e.nv)]
         rank = system.gram_factor()
         factor = system.factor_with(rank, system.gram(weight))
@@ -149,10 +195,6 @@ class _Builder:
             return Vector(g, tuple(g.mul(weight[j][j], n) for j, n in enumerate(x)))
 
         self._weighted(rank, factor, project, "D P D^T", [to_status("partition_pivot", worst)])
-        dense: Outputs = []
-        for row, entries in enumerate(loaded_rows(g, self.model.jacobian, e.m)):
-            dense += [(Target("dense", row * e.nv + column), node) for column, node in entries]
-        self.blocks.append(self.hoister.block("expand", "D as a dense matrix", dense, ("p", "w")))
 
     def _weighted(
         self, rank: Factor, factor: Factor, weight: Callable[[Vector], Vector], matrix: str, more: Outputs

@@ -80,7 +80,12 @@ class IterationState:
     following: Vector
 
 
-Law = Acceleration | Iteration
+@dataclass(frozen=True)
+class Tangent:
+    """A law on a basis R of the tangent space: v' = b + R z', D R = 0, D b = gamma, R^T M R z' = R^T (f - M b)."""
+
+
+Law = Acceleration | Iteration | Tangent
 
 
 class Method(ABC):

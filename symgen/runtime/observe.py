@@ -13,10 +13,11 @@ from symgen.store.jit import jit
 _A, _I, _M, _I8 = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64
 
 
-@jit(_I8(abi.RHS, abi.RHS, _A, _M, _A, _A, _I, _I8, _I8, _M, _M))
+@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, _A, _M, _A, _A, _I, _I8, _I8, _M, _M))
 def observe_rates(
     rhs: Any,
     confirm: Any,
+    accept: Any,
     times: Any,
     states: Any,
     p: Any,
@@ -31,10 +32,10 @@ def observe_rates(
 
     Parameters
     ----------
-    rhs, confirm : emitted functions
+    rhs, confirm, accept : emitted functions
         See `symgen.runtime.abi`.
     times, states : Array, shapes (k,), (k, ny)
-        The outputs.
+        The outputs, in the order of time.
     nq, multipliers : int
         Number of coordinates, and where the multipliers begin in `w`.
     accelerations, lam : Array, shapes (k, nv), (k, m)
@@ -45,6 +46,7 @@ def observe_rates(
     for k in range(times.shape[0]):
         for i in range(y.shape[0]):
             y[i] = states[k, i]
+        accept(times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
         if rhs(times[k], y, p, w, iw, rate) != 0:
             confirm(times[k], y, p, w, iw, rate)
         for i in range(accelerations.shape[1]):

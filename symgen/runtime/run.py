@@ -133,7 +133,7 @@ class Outcome:
         info, law, k = self.compiled.info, self.compiled.law_module, len(self.times)
         accelerations, multipliers = np.zeros((k, info.nv)), np.zeros((k, info.m))
         observe_rates(
-            *(law.rhs, getattr(law, "confirm", law.rhs), self.times, self.states, self.p, self.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
+            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, self.times, self.states, self.p, self.start.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
             *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
         )
         return accelerations, multipliers

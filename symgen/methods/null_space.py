@@ -1,0 +1,43 @@
+"""Null-space method: accelerations in a basis of the tangent space that is carried on from step to step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.program import Correction
+from symgen.methods._base import Method, MethodParameter, Tangent
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+
+class NullSpace(Method):
+    """``v' = b + R z'`` with ``D R = 0``, ``b = D^+ gamma`` and ``R^T M R z' = R^T (f - M b)``.
+
+    The basis R begins with unit vectors of independent coordinates and is projected on to each new tangent space,
+    ``R <- orth((1 - D^+ D) R)``, so that it changes as little as the mechanism does; no decomposition is made anew at every
+    step. After each step positions and velocities are corrected as in `direct-correction`. Readings of the name differ:
+    Mani, Haug and Atkinson take R from a singular value decomposition, Kim and Vanderploeg from a QR one.
+    """
+
+    name = "null-space"
+    summary = "accelerations in a tangent basis that is carried on from step to step"
+    reference = (
+        "Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; "
+        "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188"
+    )
+    parameters = (
+        MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
+    )
+
+    def law(self, system: System, options: Mapping[str, str]) -> Tangent:
+        """Return the law on a tangent basis."""
+        return Tangent()
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return Newton's iteration at position level and one correction at velocity level."""
+        return Correction("newton", True, "identity")
+
+
+KIND = NullSpace()
