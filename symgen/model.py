@@ -113,6 +113,7 @@ class LawInfo(msgspec.Struct, frozen=True):
     position_correction: bool
     velocity_correction: bool
     nw: int
+    unknowns: int
     operations: dict[str, int]
 
     @classmethod
@@ -128,6 +129,7 @@ class LawInfo(msgspec.Struct, frozen=True):
             position_correction=program.correction.position != "none",
             velocity_correction=program.correction.velocity,
             nw=program.layout.nw,
+            unknowns=program.unknowns,
             operations={b.name: b.operations for b in program.blocks},
         )
 

@@ -42,15 +42,16 @@ class MethodChoice:
 
     method: Method
     options: Mapping[str, str]
+    implicit: bool = False
 
     @property
     def stem(self) -> str:
         """File stem of its module."""
-        return self.method.stem(self.options)
+        return self.method.stem(self.options, self.implicit)
 
 
-def choose_method(name: str, options: Mapping[str, str] | None = None) -> MethodChoice:
-    """Return the method called `name` with its options, defaults filled in.
+def choose_method(name: str, options: Mapping[str, str] | None = None, implicit: bool = False) -> MethodChoice:
+    """Return the method called `name` with its options, defaults filled in, and the form that an integrator needs.
 
     Raises
     ------
@@ -58,7 +59,7 @@ def choose_method(name: str, options: Mapping[str, str] | None = None) -> Method
         If there is no such method or option.
     """
     method = METHODS.get(name, "--method")
-    return MethodChoice(method, method.complete_options(options or {}))
+    return MethodChoice(method, method.complete_options(options or {}), implicit)
 
 
 def folder_of(mechanism: Mechanism) -> str:
@@ -118,7 +119,7 @@ def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...]) -> Generat
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     modules["model"] = (emit_model(program, equations), ModelInfo.of(program, equations).to_dict())
     for choice in choices:
-        law = lower_law(equations, program, choice.method, choice.options)
+        law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         source = emit_law(law, program, equations, choice.method.summary, choice.method.reference)
         modules[choice.stem] = (source, LawInfo.of(law).to_dict())
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)

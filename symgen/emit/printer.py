@@ -11,6 +11,8 @@ from symgen.ir.program import Block, Layout, Target
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
 _MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh".split())
+#: Arrays that functions get as arguments of their own; every other space is a section of ``w``.
+_ARRAYS = frozenset(("p", "ydot", "out", "k", "r", "j"))
 #: A term used once is written where it is used, up to this many characters.
 _INLINE = 90
 
@@ -40,13 +42,13 @@ class ElementAccess:
             return f"q{index}", f"y[{index}]"
         if space == "v":
             return f"v{index}", f"y[{self.layout.nq + index}]"
-        if space in ("p", "ydot", "out"):
-            return f"{space}{index}" if space == "p" else f"{space}_{index}", f"{space}[{index}]"
+        if space in _ARRAYS:
+            return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", f"{space}[{index}]"
         return f"{space}_{index}", f"w[{self.layout.offset(space) + index}]"
 
     def write(self, target: Target) -> str:
         """Return the left-hand side of an output."""
-        if target.space in ("p", "ydot", "out"):
+        if target.space in _ARRAYS:
             return f"{target.space}[{target.index}]"
         return f"w[{self.layout.offset(target.space) + target.index}]"
 

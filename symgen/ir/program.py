@@ -28,6 +28,7 @@ STATUS = (
     "increment",  # |change| of the last iteration of an iterated law
     "partition_pivot",  # smallest pivot of D P D^T over the diagonal of D D^T, P keeping the dependent columns
     "partition_chosen",  # the same when the partition was chosen
+    "power",  # of forces without potential and of drivers, by `residual`
 )
 
 #: Integers in ``iw``, in this order.
@@ -190,3 +191,4 @@ class LawProgram:
     correction: Correction
     options: Mapping[str, str] = field(default_factory=dict)
     degrees: int = 0  # room for columns of a tangent basis
+    unknowns: int = 0  # of a stage in the descriptor form; 0 where it was not asked for

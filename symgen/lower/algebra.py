@@ -216,11 +216,14 @@ class System:
         diagonal = {block.columns[0]: block.entries[0][0] for block in self.equations.mass}
         return Vector(g, tuple(g.div(g.one, g.call("sqrt", diagonal[j])) for j in range(self.equations.nv)))
 
+    def inverse(self, x: Scalar) -> Scalar:
+        """Return 1 / x."""
+        return Scalar(self.graph, self.graph.div(self.graph.one, x.node))
+
     @property
     def inverse_step(self) -> Scalar:
         """Return one over the step that is being taken."""
-        g = self.graph
-        return Scalar(g, g.div(g.one, g.input("status", STATUS.index("step"))))
+        return self.inverse(Scalar(self.graph, self.graph.input("status", STATUS.index("step"))))
 
     # -- D W D^T -----------------------------------------------------------------------------------------------------
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 from symgen.formulate.equations import Equations
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.algebra import SKIP, Sparse, System, Vector
+from symgen.lower.descriptor import descriptor_blocks
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.parts import Outputs, Stored, geometry_outputs, loaded_rows, pivot_outputs, spread, to_status, transposed_product
@@ -18,7 +19,9 @@ _SPARE_DEGREES = 6
 _RHS = ("t", "y", "p", "w", "iw", "ydot")
 
 
-def lower_law(equations: Equations, model: ModelProgram, method: Method, options: Mapping[str, str]) -> LawProgram:
+def lower_law(
+    equations: Equations, model: ModelProgram, method: Method, options: Mapping[str, str], implicit: bool = False
+) -> LawProgram:
     """Lower one method: its acceleration law, and its correction where the model's does not do.
 
     Parameters
@@ -31,6 +34,8 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
         The method.
     options : mapping
         Its structural options, complete.
+    implicit : bool
+        Whether the descriptor form for implicit integrators is added.
     """
     builder = _Builder(equations, model, method)
     law = method.law(builder.system, options)
@@ -50,9 +55,15 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
         builder.independent_metric()
     elif correction.metric == "augmented":
         builder.augmented_metric()
+    unknowns = 0
+    if implicit:
+        descriptor = method.descriptor(builder.system, options)
+        assert descriptor is not None, "the caller has checked that the method gives a form the integrator solves"
+        blocks, unknowns = descriptor_blocks(builder.hoister, builder.system, descriptor)
+        builder.blocks += blocks
     return LawProgram(
         method=method.name,
-        key=method.stem(options),
+        key=method.stem(options, implicit),
         layout=Layout(equations.nq, equations.nv, equations.m, len(equations.parameters), builder.sections),
         blocks=(builder.hoister.prepare(), *builder.blocks),
         parameters=tuple((p.name, p.default) for p in method.parameters),
@@ -62,6 +73,7 @@ def lower_law(equations: Equations, model: ModelProgram, method: Method, options
         correction=correction,
         options=dict(options),
         degrees=builder.degrees,
+        unknowns=unknowns,
     )
 
 

@@ -16,7 +16,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import Correction
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System, Vector
+    from symgen.lower.algebra import Scalar, System, Vector
 
 
 @dataclass(frozen=True)
@@ -85,6 +85,25 @@ class Tangent:
     """A law on a basis R of the tangent space: v' = b + R z', D R = 0, D b = gamma, R^T M R z' = R^T (f - M b)."""
 
 
+@dataclass(frozen=True)
+class Descriptor:
+    """What implicit integrators solve for a method: the constraints beside ``M v' + D^T lambda = f``.
+
+    Parameters
+    ----------
+    level : {"acceleration", "position", "stabilised"}
+        ``D v' = g + e lambda``; ``Phi = 0``; or ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``.
+    target : Vector, optional
+        g of the acceleration level.
+    compliance : Scalar, optional
+        e of the acceleration level; 0 unless given.
+    """
+
+    level: str
+    target: Vector | None = None
+    compliance: Scalar | None = None
+
+
 Law = Acceleration | Iteration | Tangent
 
 
@@ -97,6 +116,11 @@ class Method(ABC):
         Lower-case name, as typed.
     summary, reference : str
         One line, and the literature.
+    forms : tuple of str
+        Problem forms the method gives: ``ode`` for explicit integrators; ``index-1``, ``index-2`` or ``index-3`` for
+        implicit ones.
+    default_integrator : str
+        What is used where no integrator is asked for.
     integrates : str
         ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
     """
@@ -104,14 +128,19 @@ class Method(ABC):
     name: ClassVar[str]
     summary: ClassVar[str]
     reference: ClassVar[str]
-    form: ClassVar[str] = "ode"
+    forms: ClassVar[tuple[str, ...]] = ("ode",)
     parameters: ClassVar[tuple[MethodParameter, ...]] = ()
     options: ClassVar[tuple[MethodOption, ...]] = ()
+    default_integrator: ClassVar[str] = "rk4"
     integrates: ClassVar[str] = "all"
 
     @abstractmethod
     def law(self, system: System, options: Mapping[str, str]) -> Law:
         """Return the law as a formula over the blocks of `system`."""
+
+    def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
+        """Return the descriptor form for implicit integrators; None: the method is for explicit ones only."""
+        return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return what is corrected after each accepted step; nothing unless overridden."""
@@ -141,9 +170,10 @@ class Method(ABC):
                 )
         return {o.name: given.get(o.name, o.values[0]) for o in self.options}
 
-    def stem(self, options: Mapping[str, str]) -> str:
-        """Return the file stem of the emitted module: the method and its structural options."""
-        return "_".join([self.name, *(options[o.name] for o in self.options)]).replace("-", "_")
+    def stem(self, options: Mapping[str, str], implicit: bool = False) -> str:
+        """Return the file stem of the emitted module: the method, its structural options, and the form if implicit."""
+        parts = [self.name, *(options[o.name] for o in self.options), *(("implicit",) if implicit else ())]
+        return "_".join(parts).replace("-", "_")
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
         """Return the step above which the law itself is unstable, None where it sets no limit.
@@ -166,3 +196,21 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     free = system.minv(system.f)
     multipliers = system.solve_schur(system.D @ free - gamma)
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
+
+
+class MultiplierMethod(Method):
+    """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target."""
+
+    forms = ("ode", "index-1")
+
+    def target(self, system: System) -> Vector:
+        """Return what D v' shall be; gamma unless overridden."""
+        return system.gamma
+
+    def law(self, system: System, options: Mapping[str, str]) -> Law:
+        """Return the elimination of v'."""
+        return multiplier_law(system, self.target(system))
+
+    def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
+        """Return the same equations, kept together."""
+        return Descriptor("acceleration", self.target(system))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.lower.algebra import System, Vector
 
-class AdaptiveBaumgarte(Method):
+class AdaptiveBaumgarte(MultiplierMethod):
     """`baumgarte` with ``alpha = beta = min(gain, a / h)``, h being the step that is taken.
 
     Fixed gains are weak for one step and unstable for another one; Chang and Nikravesh adapt them while the run goes on, Lin
@@ -31,11 +31,11 @@ class AdaptiveBaumgarte(Method):
         MethodParameter("a", 1.0, "1", "largest gain times the step"),
     )
 
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: gamma - 2 alpha Phi' - alpha^2 Phi."""
+    def target(self, system: System) -> Vector:
+        """Return gamma - 2 alpha Phi' - alpha^2 Phi."""
         alpha = system.parameter("gain").smaller(system.parameter("a") * system.inverse_step)
         drift = system.D @ system.v - system.nu
-        return multiplier_law(system, system.gamma - (2.0 * alpha) * drift - (alpha**2) * system.phi)
+        return system.gamma - (2.0 * alpha) * drift - (alpha**2) * system.phi
 
 
 KIND = AdaptiveBaumgarte()

@@ -6,15 +6,15 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.lower.algebra import System, Vector
 
 _SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 
 
-class Baumgarte(Method):
+class Baumgarte(MultiplierMethod):
     """``Phi'' + 2 alpha Phi' + beta^2 Phi = 0`` in place of ``Phi'' = 0``.
 
     ``alpha = beta`` is critically damped. The roots ``-alpha +- sqrt(alpha^2 - beta^2)`` belong to the integrated
@@ -30,11 +30,11 @@ class Baumgarte(Method):
         MethodParameter("beta", 5.0, "1/s", f"position gain; {_SOURCE}"),
     )
 
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: gamma - 2 alpha Phi' - beta^2 Phi, Phi' = D v - nu."""
+    def target(self, system: System) -> Vector:
+        """Return gamma - 2 alpha Phi' - beta^2 Phi, Phi' = D v - nu."""
         alpha, beta = system.parameter("alpha"), system.parameter("beta")
         drift = system.D @ system.v - system.nu
-        return multiplier_law(system, system.gamma - (2.0 * alpha) * drift - (beta**2) * system.phi)
+        return system.gamma - (2.0 * alpha) * drift - (beta**2) * system.phi
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
         """Return ``boundary / |root|`` for the root farthest from the origin."""

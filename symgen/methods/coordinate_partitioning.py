@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
-class CoordinatePartitioning(Method):
+class CoordinatePartitioning(MultiplierMethod):
     """Integrates independent coordinates w; dependent ones u follow from ``Phi = 0``, their rates from ``D v = nu``.
 
     Before every evaluation u is found by Newton's iteration on the dependent columns of D and u' by one solve, so that all
@@ -23,14 +23,15 @@ class CoordinatePartitioning(Method):
     name = "coordinate-partitioning"
     summary = "independent coordinates are integrated, dependent ones follow from the constraints"
     reference = "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318"
+    forms = ("ode",)
     integrates = "independent"
     parameters = (
         MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
     )
 
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: that of `lagrange`, evaluated at closed states."""
-        return multiplier_law(system, system.gamma)
+    def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
+        """Return None: the dependent coordinates of an implicit stage are not closed by the partition."""
+        return None
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return the closure of the dependent coordinates."""

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Acceleration, Method, MethodOption, MethodParameter, multiplier_law
+from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
 
-class DirectCorrection(Method):
+class DirectCorrection(MultiplierMethod):
     """As `lagrange`; after each accepted step ``dv = -D^+ Phi``, ``q <- q + N dv`` until small, then ``v -= D^+ (D v - nu)``.
 
     ``D^+ = W^-1 D^T (D W^-1 D^T)^-1``: with weight W = 1 the Moore-Penrose inverse of the source; with W = M the
@@ -31,10 +31,6 @@ class DirectCorrection(Method):
         ),
     )
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),)
-
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: that of `lagrange`."""
-        return multiplier_law(system, system.gamma)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return Newton's iteration at position level and one correction at velocity level, in the chosen metric."""

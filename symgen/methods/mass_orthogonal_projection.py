@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
 from symgen.methods._augmented import PENALTY
-from symgen.methods._base import Acceleration, Method, MethodParameter, multiplier_law
+from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
-class MassOrthogonalProjection(Method):
+class MassOrthogonalProjection(MultiplierMethod):
     """As `lagrange`; after each step ``(M + a D^T D) dv = -M delta - D^T (a Phi + lambda)`` is iterated for q, then for v.
 
     ``delta += dv``, ``lambda += a Phi``: the change is orthogonal to the admissible motions in the metric of M. Where D has
@@ -26,10 +26,6 @@ class MassOrthogonalProjection(Method):
         PENALTY,
         MethodParameter("tolerance", 1e-13, "m", "violation at which the iteration ends, times the largest coordinate or speed"),
     )
-
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: that of `lagrange`."""
-        return multiplier_law(system, system.gamma)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return the mass-orthogonal projection."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.methods._augmented import MU, OMEGA, PENALTY, stabilised
-from symgen.methods._base import Acceleration, Method
+from symgen.methods._base import Acceleration, Descriptor, Method
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
@@ -24,6 +24,7 @@ class Penalty(Method):
         "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; "
         "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011"
     )
+    forms = ("ode", "index-1")
     parameters = (PENALTY, OMEGA, MU)
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
@@ -32,6 +33,10 @@ class Penalty(Method):
         right = system.f + system.D.transposed(penalty * target)
         acceleration = system.solve(system.augmented_factor(penalty), right)
         return Acceleration(acceleration, penalty * (system.D @ acceleration - target))
+
+    def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
+        """Return the same equations with lambda = a (D v' - g) kept as an unknown."""
+        return Descriptor("acceleration", stabilised(system), system.inverse(system.parameter("penalty")))
 
 
 KIND = Penalty()

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Acceleration, Method, MethodOption, multiplier_law
+from symgen.methods._base import MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
-class PostStabilization(Method):
+class PostStabilization(MultiplierMethod):
     """As `lagrange`; after each step once ``q -= N D^+ Phi`` and once ``v -= D^+ (D v - nu)``.
 
     The stabilisation with F = D^T (D D^T)^-1 of Ascher, Chin and Reich: one step towards the constraints, which keeps the
@@ -24,10 +24,6 @@ class PostStabilization(Method):
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
     )
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
-
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: that of `lagrange`."""
-        return multiplier_law(system, system.gamma)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at both levels."""

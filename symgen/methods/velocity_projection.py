@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import Acceleration, Method, MethodOption, multiplier_law
+from symgen.methods._base import MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
-class VelocityProjection(Method):
+class VelocityProjection(MultiplierMethod):
     """As `lagrange`; after each step ``v -= D^+ (D v - nu)``.
 
     The velocity constraint holds to rounding, so positions violate theirs only by what integrating exact velocities adds:
@@ -22,10 +22,6 @@ class VelocityProjection(Method):
     summary = "velocities are projected after each step; positions are left"
     reference = "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076"
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
-
-    def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
-        """Return the law: that of `lagrange`."""
-        return multiplier_law(system, system.gamma)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at velocity level."""

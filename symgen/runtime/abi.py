@@ -17,6 +17,8 @@ _I = types.int64[::1]
 RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
+#: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j).
+STAGE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 #: geometry(t, y, p, w).
 MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
 #: observe(t, y, p, w, ydot, out).
@@ -32,12 +34,13 @@ RANK = STATUS.index("rank")
 LENGTH = STATUS.index("length_scale")
 SPEED = STATUS.index("speed_scale")
 STEP_STATUS = STATUS.index("step")
+POWER = STATUS.index("power")
 PROBING = COUNTERS.index("probing")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers shared with the thread that watches a run ---------------------------------------------------------
-STOP, STEPS, REJECTED, EVALUATIONS, OUTPUTS, EVENTS, IN_ZONE, LAST_RANK, ACCEPTED_BITS = range(9)
-N_CONTROL = 9
+STOP, STEPS, REJECTED, EVALUATIONS, OUTPUTS, EVENTS, IN_ZONE, LAST_RANK, JACOBIANS, NEWTON_ITERATIONS = range(10)
+N_CONTROL = 10
 
 # -- gauges: floating-point numbers a run keeps --------------------------------------------------------------------------
 (
@@ -65,7 +68,7 @@ N_EVENT = 4
 MAX_EVENTS = 1000
 
 # -- how a loop ended -----------------------------------------------------------------------------------------------------
-DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP = range(8)
+DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP, NEWTON = range(9)
 
 REASONS = {
     DONE: "",
@@ -75,5 +78,6 @@ REASONS = {
     VELOCITY: "the velocity violation |D v - nu| exceeds max_violation",
     ENERGY: "the energy leaves its balance by more than max_energy_error of the energy in motion",
     CORRECTION: "the correction of positions did not converge",
+    NEWTON: "Newton's iteration of an implicit stage did not converge",
     TINY_STEP: "the step size fell below what the time can resolve",
 }

@@ -1,0 +1,72 @@
+"""Implicit Runge-Kutta schemes as data: coefficients that check themselves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ImplicitTableau:
+    """An implicit Runge-Kutta scheme for the descriptor form.
+
+    Parameters
+    ----------
+    name, reference : str
+        Name as typed, and the source of the coefficients.
+    order : int
+        Order on index-1 problems.
+    forms : tuple of str
+        Problem forms it solves.
+    a, b, c : Array
+        Butcher's tableau, shapes (s, s), (s,), (s,).
+    errors : Array, shape (s + 1,), or None
+        Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
+    error_order : int
+        The step is chosen with exponent -1 / (error_order + 1).
+    filter_factor : float
+        The estimate is filtered by ``(1 - h filter_factor J)^-1``; 0: it is not.
+    index2_order : int
+        Order on stabilised index 2, 0 where that is not solved.
+    """
+
+    name: str
+    order: int
+    reference: str
+    forms: tuple[str, ...]
+    a: Array
+    b: Array
+    c: Array
+    errors: Array | None = None
+    error_order: int = 0
+    filter_factor: float = 0.0
+    index2_order: int = 0
+    real_boundary: float = np.inf
+
+    def __post_init__(self) -> None:
+        s = self.stages
+        if self.a.shape != (s, s) or not np.allclose(self.a.sum(axis=1), self.c, atol=1e-12):
+            raise ValueError(f"tableau {self.name}: rows of a must add up to c, shape {(s, s)}")
+        if abs(self.b.sum() - 1.0) > 1e-12:
+            raise ValueError(f"tableau {self.name}: b must add up to 1")
+        if self.errors is not None and (self.errors.shape != (s + 1,)):
+            raise ValueError(f"tableau {self.name}: error weights must have shape {(s + 1,)}")
+
+    @property
+    def stages(self) -> int:
+        """Number of stages."""
+        return int(self.b.shape[0])
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether the scheme estimates its error."""
+        return self.errors is not None
+
+    @property
+    def together(self) -> bool:
+        """Whether all stages have to be solved together."""
+        return bool(np.any(np.triu(self.a, 1) != 0.0))

@@ -1,0 +1,94 @@
+"""The descriptor form: residual and exact Jacobian of F(t, y, k) = 0 for the implicit integrators.
+
+Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are
+
+- ``q' - N v + D^T eta``,
+- ``M v' + D^T lambda - f``,
+- the constraints at the level of the method: ``D v' - g - e lambda`` (acceleration), ``Phi`` (position, with ``D v - nu`` in
+  nonholonomic rows), or ``D v - nu`` and ``Phi`` together (stabilised).
+
+The Jacobian with respect to k and to y = (q, v) is differentiated on the graph (`symgen.ir.derivative`).
+"""
+
+from __future__ import annotations
+
+from symgen.formulate.equations import Equations
+from symgen.ir.derivative import jacobian
+from symgen.ir.program import STATUS, Block, Target
+from symgen.lower.algebra import System, Vector
+from symgen.lower.hoist import Hoister
+from symgen.methods._base import Descriptor
+
+
+def descriptor_blocks(hoister: Hoister, system: System, descriptor: Descriptor) -> tuple[tuple[Block, ...], int]:
+    """Return the blocks ``residual`` and ``tangent``, and the number of unknowns of a stage.
+
+    Parameters
+    ----------
+    hoister : Hoister
+        Of the law's module.
+    system : System
+        The equations as the method sees them.
+    descriptor : Descriptor
+        The method's constraints.
+
+    Notes
+    -----
+    ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status.
+    ``tangent(t, y, k, p, w, j)`` writes dF/dk row by row, then dF/dy row by row; structural zeros are not touched.
+    """
+    e, g = system.equations, system.graph
+    rows, unknowns = _equations(system, descriptor)
+    power = g.sub(e.power, Vector(g, tuple(g.input("k", e.nq + e.nv + i) for i in range(e.m))).dot(system.nu).node)
+    arguments = ("t", "y", "k", "p", "w", "r")
+    residual = [(Target("r", i), n) for i, n in enumerate(rows)]
+    residual.append((Target("status", STATUS.index("power")), power))
+    keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
+    width = e.nq + e.nv
+    tangent: list[tuple[Target, int]] = []
+    for i, derivatives in enumerate(jacobian(g, rows, keys)):
+        for space, index in sorted(derivatives):
+            column = index + (e.nq if space == "v" else 0)
+            place = i * unknowns + index if space == "k" else unknowns * unknowns + i * width + column
+            tangent.append((Target("j", place), derivatives[space, index]))
+    return (
+        hoister.block("residual", "F(t, y, k) of the descriptor form, and the power", residual, arguments),
+        hoister.block("tangent", "dF/dk, then dF/dy, of the descriptor form", tangent, (*arguments[:-1], "j")),
+    ), unknowns
+
+
+def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
+    e, g = system.equations, system.graph
+    stabilised = descriptor.level == "stabilised"
+    unknowns = e.nq + e.nv + e.m * (2 if stabilised else 1)
+    q_rates = Vector(g, tuple(g.input("k", i) for i in range(e.nq)))
+    accelerations = Vector(g, tuple(g.input("k", e.nq + i) for i in range(e.nv)))
+    multipliers = Vector(g, tuple(g.input("k", e.nq + e.nv + i) for i in range(e.m)))
+    kinematic = q_rates - Vector(g, e.q_rates)
+    dynamic = system.mass(accelerations) + system.D.transposed(multipliers) - system.f
+    velocity = system.D @ system.v - system.nu
+    if stabilised:
+        eta = Vector(g, tuple(g.input("k", e.nq + e.nv + e.m + i) for i in range(e.m)))
+        kinematic = kinematic + _through_kinematic_map(e, system.D.transposed(eta))
+        holonomic = [_select(r.phi, eta.nodes[i]) for i, r in enumerate(e.rows)]
+        constraints = [*velocity, *holonomic]
+    elif descriptor.level == "position":
+        constraints = [_select(r.phi, velocity.nodes[i]) for i, r in enumerate(e.rows)]
+    else:
+        assert descriptor.target is not None, "an acceleration-level descriptor has a target"
+        rest = system.D @ accelerations - descriptor.target
+        if descriptor.compliance is not None:
+            rest = rest - descriptor.compliance * multipliers
+        constraints = list(rest)
+    return [*kinematic, *dynamic, *constraints], unknowns
+
+
+def _select(phi: int | None, otherwise: int) -> int:
+    """Return Phi, or what stands in its place in a nonholonomic row."""
+    return otherwise if phi is None else phi
+
+
+def _through_kinematic_map(e: Equations, change: Vector) -> Vector:
+    """Return N times a change of v; planar coordinates change as the velocities do."""
+    assert e.nq == e.nv, "planar mechanisms have as many velocities as coordinates"
+    return change
