@@ -31,7 +31,15 @@ $(INSTALLED): pyproject.toml
 	@touch $@
 
 demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and plot in out/
-	@PATH="$(CURDIR)/$(BIN):$$PATH" bash scripts/demo.sh $(DEMO_MODEL)
+	@mkdir -p out
+	@echo; echo "== describe and assemble"
+	@"$(BIN)/symgen" check $(DEMO_MODEL)
+	@echo; echo "== derive and generate: the code of every method"
+	@"$(BIN)/symgen" generate $(DEMO_MODEL) --output out/$(DEMO_MODEL)
+	@echo; echo "== compile and simulate one run"
+	@"$(BIN)/symgen" run $(DEMO_MODEL) --save out/$(DEMO_MODEL).nc --plot out/$(DEMO_MODEL).png
+	@echo; echo "== every method and integrator: error against run time"
+	@"$(BIN)/symgen" compare $(DEMO_MODEL) --csv out/$(DEMO_MODEL).csv
 
 test: $(INSTALLED)  ## run the tests, except slow ones
 	@"$(BIN)/python" -m pytest -n $(WORKERS)

@@ -22,13 +22,13 @@ from rich.table import Table
 
 import symgen
 from benchmarks.peers import models, reference
-from benchmarks.peers.measure import REPEATS, WRONG, Row, fastest
+from benchmarks.peers.measure import BUDGET, REPEATS, WRONG, Row, fastest
 from benchmarks.show import show
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = 1e-6
 METHODS = ("direct-correction", "lagrange")
-TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 25))
+TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 23))
 #: Constant steps in units of the model's own.
 STEPS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.5, 0.25, 0.1)
 
@@ -73,7 +73,7 @@ def rows(model: models.Model) -> Iterator[Row]:
     loaded = symgen.load(describe(model))
     truth, times = reference.angles(model), reference.sample_times(model)
     columns = [f"{body.name}.theta" for body in model.bodies]
-    common: dict[str, object] = {"until": model.duration, "times": times, "repeat": REPEATS}
+    common: dict[str, object] = {"until": model.duration, "times": times}
     settings: list[tuple[str, dict[str, object]]] = []
     for tolerance in TOLERANCES:
         for integrator in ("dop853", "dopri5"):
@@ -90,6 +90,8 @@ def rows(model: models.Model) -> Iterator[Row]:
     for label, method, options in weights:
         for text, chosen in settings:
             result = loaded.simulate(None, method=method, options=options, **common, **chosen)
+            if result.status != "failed" and result.seconds.run < BUDGET / REPEATS:
+                result = loaded.simulate(None, method=method, options=options, repeat=REPEATS, **common, **chosen)
             done = len(result.t) == len(times)
             angles = np.column_stack([result[c] for c in columns])
             error = reference.largest_error(angles, truth) if done else float("nan")

@@ -322,7 +322,7 @@ def _output_times(s: Settings, default: float | None, until: float, step: float 
     if until / every > 2e7:
         raise InputError("output_step", "at most 2e7 outputs", f"{until / every:.3g}")
     count = math.floor(until / every * (1.0 + 1e-12))
-    times = np.arange(count + 1) * every
+    times: Array = np.arange(count + 1, dtype=np.float64) * every
     if until - times[-1] > 1e-9 * every:
         times = np.append(times, until)
     times[-1] = min(times[-1], until)

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from . import models
-from .measure import Row, fastest, row, table
+from .measure import Measured, Row, fastest, row, table
 
 PEERS = ("casadi", "exudyn", "mujoco")
 
@@ -34,7 +34,7 @@ def collect(model: models.Model, peer: str) -> Iterable[Row]:
     except ImportError as problem:
         reason = problem
 
-        def missing() -> tuple[float, float, float]:
+        def missing() -> Measured:
             raise reason
 
         return [row(peer, "", "import", model.name, missing)]

@@ -14,7 +14,7 @@ import mujoco
 import numpy as np
 
 from . import reference
-from .measure import Row, best_of, row
+from .measure import Measured, Row, best_of, row
 from .models import GROUND, Array, Joint, Model, Point, rotate
 
 NAME = "mujoco"
@@ -146,7 +146,7 @@ def write(model: Model, step: float, spring: tuple[float, float]) -> tuple[str, 
     return text, order
 
 
-def _run(model: Model, steps: int, spring: tuple[float, float], truth: Array) -> tuple[float, float, float]:
+def _run(model: Model, steps: int, spring: tuple[float, float], truth: Array) -> Measured:
     """Integrate with so many steps between two samples."""
     text, order = write(model, model.duration / reference.INTERVALS / steps, spring)
     compiled = mujoco.MjModel.from_xml_string(text)

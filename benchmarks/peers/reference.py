@@ -313,4 +313,4 @@ def andrews_states(times: Array) -> Array:
 
 def _andrews_angles(states: Array) -> Array:
     """Body angles K1 to K7 from the test set's coordinates."""
-    return states[:, :7] @ _ARMS.T
+    return np.asarray(states[:, :7] @ _ARMS.T)

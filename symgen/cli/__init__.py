@@ -1,7 +1,7 @@
 """The command line: the group, and what every command shares. Each command is a module, imported when it is used.
 
-Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and with
-``--json`` nothing but JSON does; everything else goes to standard error.
+Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and
+with ``--json`` nothing but JSON does; everything else goes to standard error.
 """
 
 from __future__ import annotations
@@ -47,7 +47,9 @@ class LazyGroup(click.Group):
         command: click.Command = import_module(COMMANDS[cmd_name][0]).command
         return command
 
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
         """Return the command, or say the nearest name."""
         if args and args[0] not in COMMANDS and not args[0].startswith("-") and not ctx.resilient_parsing:
             raise click.UsageError(f"there is no command '{args[0]}'; {nearest(args[0], COMMANDS)}", ctx)
@@ -106,10 +108,11 @@ def _sentence(error: click.ClickException) -> str:
     text = " ".join(error.format_message().split())
     context = getattr(error, "ctx", None)
     if isinstance(error, click.NoSuchOption):
-        known = [o for p in context.command.params for o in p.opts] if context is not None else []
-        text = f"there is no option '{error.option_name}'; {nearest(error.option_name, [o for o in known if o[:2] == '--'])}"
-    hint = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
-    return text[:1].lower() + text[1:].rstrip(".") + hint
+        options = [o for p in context.command.params for o in p.opts] if context is not None else []
+        hint = nearest(error.option_name, [o for o in options if o.startswith("--")])
+        text = f"there is no option '{error.option_name}'; {hint}"
+    help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
+    return text[:1].lower() + text[1:].rstrip(".") + help_at
 
 
 def _forget_stdout() -> None:

@@ -17,8 +17,8 @@ def as_text(facts: dict[str, Any]) -> str:
 
     lines.append(f"{facts['mechanism']}: {facts['title']}")
     lines.append(
-        f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, {sizes['rows']} constraint rows of rank "
-        f"{facts['rank']}, {facts['degrees_of_freedom']} degrees of freedom at the start"
+        f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, {sizes['rows']} constraint rows "
+        f"of rank {facts['rank']}, {facts['degrees_of_freedom']} degrees of freedom at the start"
     )
     lines += [f"note: {note}" for note in facts["notes"]]
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
@@ -74,7 +74,11 @@ def as_latex(facts: dict[str, Any]) -> str:
         ("Constraints", [rf"\Phi_{{{index(r['name'])}}} &= {r['phi']} = 0" for r in rows if r["phi"] is not None]),
         (
             "Jacobian, nonzero entries",
-            [rf"D_{{{index(r['name'])},\,{latex_name(v)}}} &= {entry}" for r in rows for v, entry in r["jacobian"].items()],
+            [
+                rf"D_{{{index(r['name'])},\,{latex_name(v)}}} &= {entry}"
+                for r in rows
+                for v, entry in r["jacobian"].items()
+            ],
         ),
         ("Velocity constraints $D v = \\nu$", [rf"\nu_{{{index(r['name'])}}} &= {r['nu']}" for r in rows]),
         (
@@ -84,7 +88,7 @@ def as_latex(facts: dict[str, Any]) -> str:
         (
             "Mass matrix",
             [
-                rf"M_{{{',\\,'.join(latex_name(v) for v in b['velocities'])}}} &= {_latex_matrix(b['matrix'])}"
+                "M_{" + r",\,".join(latex_name(v) for v in b["velocities"]) + "} &= " + _latex_matrix(b["matrix"])
                 for b in facts["mass"]
             ],
         ),
@@ -105,7 +109,10 @@ def as_latex(facts: dict[str, Any]) -> str:
     head = [
         f"% {facts['mechanism']}: {sizes['coordinates']} coordinates, {sizes['rows']} rows of rank {facts['rank']}, "
         f"{facts['degrees_of_freedom']} degrees of freedom",
-        *(f"% {name}: {n['before']} operations, {n['after']} with shared subexpressions" for name, n in facts["operations"].items()),
+        *(
+            f"% {name}: {n['before']} operations, {n['after']} with shared subexpressions"
+            for name, n in facts["operations"].items()
+        ),
         *(f"% left out: {o['what']}: {o['why']}" for o in facts["left_out"]),
     ]
     parts = [

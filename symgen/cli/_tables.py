@@ -12,6 +12,7 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from symgen.result.result import Result
+    from symgen.study.compare import Study
 
 COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 
@@ -60,3 +61,36 @@ def _final(result: Result, most: int = 12) -> Table:
     if len(rows) > most:
         table.add_row(f"... {len(rows) - most} more", *([""] * len(labels)))
     return table
+
+
+def show_study(study: Study) -> None:
+    """Print the rows of a study."""
+    out = console()
+    out.print(
+        f"{study.mechanism}, {study.until:g} s; reference: {study.how} (off by about {study.estimated_error:.1g} m)"
+    )
+    table = Table(box=None, header_style="dim", pad_edge=False)
+    for heading in ("method", "integrator", "step or rtol", "status"):
+        table.add_column(heading, no_wrap=True)
+    for heading in ("error [m]", "run [ms]", "spread", "evaluations", "|Phi|", "|D v - nu|", "energy [J]"):
+        table.add_column(heading, justify="right", no_wrap=True)
+    for row in study.rows:
+        error = "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else "")
+        table.add_row(
+            row.method,
+            row.integrator,
+            f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s",
+            Text(row.status, style=COLOURS[row.status]),
+            error,
+            f"{1e3 * row.run_seconds:.3f}",
+            f"{1e3 * row.run_seconds_spread:.3f}",
+            str(row.evaluations),
+            *(f"{x:.1e}" for x in (row.position_violation_max, row.velocity_violation_max, row.energy_drift_max)),
+        )
+    out.print(table)
+    if any(row.below_reference for row in study.rows):
+        out.print("* below what the reference itself may be off")
+    for row in study.rows:
+        steps = f"rtol {row.rtol:g}" if row.rtol is not None else f"step {row.step:g} s"
+        for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *row.warnings):
+            out.print(f"{row.method}, {row.integrator}, {steps}: {sentence}", style="dim")

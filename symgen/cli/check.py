@@ -1,4 +1,4 @@
-"""``symgen check MODEL``: is the description right, and does the mechanism close?"""
+"""``symgen check MODEL``: say whether the description is right and the mechanism closes."""
 
 from __future__ import annotations
 

@@ -7,8 +7,8 @@ import click
 from symgen.cli import OK, group
 
 _HOW = {
-    "bash": "# put into ~/.bashrc:  eval \"$(symgen completion bash)\"",
-    "zsh": "# put into ~/.zshrc:  eval \"$(symgen completion zsh)\"",
+    "bash": '# put into ~/.bashrc:  eval "$(symgen completion bash)"',
+    "zsh": '# put into ~/.zshrc:  eval "$(symgen completion zsh)"',
     "fish": "# save as ~/.config/fish/completions/symgen.fish",
 }
 

@@ -18,7 +18,7 @@ from symgen.errors import InputError
 @click.command("generate", short_help="Write the emitted code of a mechanism.")
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option, such as direct-correction.weight=mass.")
+@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Such as direct-correction.weight=mass.")
 @click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
 def command(model: str, methods: tuple[str, ...], options: tuple[str, ...], output: str | None, as_json: bool) -> int:

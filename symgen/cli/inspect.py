@@ -20,15 +20,15 @@ if TYPE_CHECKING:
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option of the method, such as weight=mass.")
+@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Of the method: weight=mass.")
 @click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter, for the start.")
 def command(
     model: str, form: str, as_json: bool, method: str | None, options: tuple[str, ...], changed: tuple[str, ...]
 ) -> int:
     """Show what symgen derives for MODEL: exactly what is compiled.
 
-    Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees of
-    freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
+    Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
+    of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
     parameters = assignments("--set", changed)
     given = {key.rpartition(".")[2]: str(value) for key, value in option_pairs(options).items()}

@@ -1,6 +1,6 @@
 """Nodes of the graph back to SymPy, for people to read: what is shown is exactly what is compiled.
 
-Nothing is evaluated or simplified on the way, so each shown operation is an operation of the graph.
+Nothing is evaluated or simplified on the way but brackets and signs, so each shown operation is one of the graph.
 """
 
 from __future__ import annotations
@@ -110,18 +110,39 @@ class Display:
 
 def _arithmetic(op: str, values: list[Any]) -> Any:
     if op == "add":
-        return sp.Add(*values, evaluate=False)
+        return _sum(*values)
     if op == "sub":
-        return sp.Add(values[0], sp.Mul(sp.S.NegativeOne, values[1], evaluate=False), evaluate=False)
+        return _sum(values[0], _negative(values[1]))
     if op == "mul":
-        return sp.Mul(*values, evaluate=False)
+        return _product(*values)
     if op == "div":
-        return sp.Mul(values[0], sp.Pow(values[1], sp.S.NegativeOne, evaluate=False), evaluate=False)
+        return _product(values[0], sp.Pow(values[1], sp.S.NegativeOne, evaluate=False))
     if op == "neg":
-        return sp.Mul(sp.S.NegativeOne, values[0], evaluate=False)
+        return _negative(values[0])
     if op == "pow":
         return sp.Pow(*values, evaluate=False)
     return _FUNCTIONS[op](*values, evaluate=False)
+
+
+def _sum(*terms: Any) -> Any:
+    """Return a sum without brackets round sums inside."""
+    return sp.Add(*(part for term in terms for part in (term.args if term.is_Add else (term,))), evaluate=False)
+
+
+def _product(*factors: Any) -> Any:
+    """Return a product without brackets round products inside, a number in front, a square as such."""
+    if len(factors) == 2 and factors[0] == factors[1] and factors[0].is_Symbol:
+        return sp.Pow(factors[0], 2, evaluate=False)
+    parts = [part for factor in factors for part in (factor.args if factor.is_Mul else (factor,))]
+    return sp.Mul(*sorted(parts, key=lambda part: not part.is_Number), evaluate=False)
+
+
+def _negative(value: Any) -> Any:
+    if value.is_Number:
+        return -value
+    if value.is_Mul and value.args[0].is_Number:
+        return sp.Mul(-value.args[0], *value.args[1:], evaluate=False)
+    return sp.Mul(sp.S.NegativeOne, value, evaluate=False)
 
 
 def number(value: float) -> Any:

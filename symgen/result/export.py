@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,9 +21,13 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 #: Endings of data files -> the libraries needed.
-SAVED = {".nc": ("xarray", "h5netcdf", "h5py"), ".parquet": ("pandas", "pyarrow"), ".csv": ("pandas",)}
+SAVED: Mapping[str, tuple[str, ...]] = {
+    ".nc": ("xarray", "h5netcdf", "h5py"),
+    ".parquet": ("pandas", "pyarrow"),
+    ".csv": ("pandas",),
+}
 #: Endings of plots -> the libraries needed.
-PLOTTED = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
+PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("matplotlib",), ".pdf": ("matplotlib",)}
 
 #: Table -> what its columns are prefixed with in a data frame. Bodies and joints may share names, so all but the
 #: tables of bodies say whose they are.
@@ -63,7 +67,7 @@ def need(where: str, *libraries: str, extra: str = "data") -> None:
             raise InputError(where, f"the library {library}", "none", f"pip install 'symgen[{extra}]' installs it")
 
 
-def check_path(where: str, path: Path, endings: dict[str, tuple[str, ...]], extra: str) -> None:
+def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], extra: str) -> None:
     """Refuse a file that cannot be written: unknown ending, missing library, or a folder that is not there.
 
     Parameters
@@ -72,7 +76,7 @@ def check_path(where: str, path: Path, endings: dict[str, tuple[str, ...]], extr
         Who asks, for the message.
     path : Path
         The file.
-    endings : dict
+    endings : mapping
         `SAVED` or `PLOTTED`.
     extra : str
         What to install for the libraries.
@@ -147,7 +151,8 @@ def to_xarray(result: Result) -> xr.Dataset:
     need("to_xarray", "xarray")
     import xarray as xr
 
-    variables, coordinates = {}, {"time": ("time", result.t, {"units": "s"})}
+    variables: dict[str, Any] = {}
+    coordinates: dict[str, Any] = {"time": ("time", result.t, {"units": "s"})}
     for name, table in result.tables().items():
         dimension = _DIMENSION[name]
         variables[name] = (("time", dimension), table.values)
@@ -180,5 +185,3 @@ def save(result: Result, path: Path) -> Path:
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
     return write_whole(path, lambda file: frame.to_csv(file))
-
-

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 #: Two runs agree when no coordinate differs by more than this, times the largest coordinate (at least 1).
 AGREEMENT = 1e-6
-#: Energy jump over a passage, as a fraction of the energy in motion: above the first a warning, above the second failure.
+#: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
 JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3
 #: A rerun with a constant step takes this fraction of it; an adaptive one takes this fraction of the tolerances.
 OTHER_STEP, OTHER_TOLERANCE = 0.9, 0.1
@@ -59,7 +59,9 @@ def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outc
         return Verdict(FAILED, outcome.reason, warnings)
     jump = relative_jump(outcome)
     if jump > JUMP_FAILURE:
-        reason = f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
+        reason = (
+            f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
+        )
         return Verdict(FAILED, reason, warnings)
     verdict = Verdict(OK, None, warnings)
     if passed and not compiled.law.position_correction:
@@ -84,15 +86,11 @@ def _warnings(outcome: Outcome, passed: bool) -> list[str]:
     warnings = []
     if passed:
         count = outcome.rank_event_count
-        times = "" if count <= 1 else f", {count} times in all"
-        warnings.append(
-            f"passed near a singular position{_when(outcome)}{times}; the error there is not controlled by the step size"
-        )
+        where = _when(outcome) + ("" if count <= 1 else f", {count} times in all")
+        warnings.append(f"passed near a singular position{where}; the error there is not controlled by the step size")
     jump = relative_jump(outcome)
     if JUMP_WARNING < jump <= JUMP_FAILURE:
-        warnings.append(
-            f"energy jumped by {outcome.energy_jump:.3g} J, {jump:.2g} of the energy in motion, over a singular passage"
-        )
+        warnings.append(_jumped(outcome))
     light = outcome.counters.get("light", 0)
     if light and not passed:  # near a singular position pivots of D M^-1 D^T are small with any masses
         warnings.append(
@@ -100,6 +98,11 @@ def _warnings(outcome: Outcome, passed: bool) -> list[str]:
             "accelerations there lose digits"
         )
     return warnings
+
+
+def _jumped(outcome: Outcome) -> str:
+    share = relative_jump(outcome)
+    return f"energy jumped by {outcome.energy_jump:.3g} J, {share:.2g} of the energy in motion, over a singular passage"
 
 
 def _when(outcome: Outcome) -> str:

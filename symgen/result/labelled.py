@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,8 +64,10 @@ class Labelled:
             return {}
         return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
 
-    def __array__(self, dtype: object = None, copy: bool | None = None) -> Array:
-        return np.array(self.values, dtype=dtype, copy=copy)  # type: ignore[arg-type]  # NumPy's protocol
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        if copy is False:
+            return np.asarray(self.values, dtype=dtype)
+        return np.array(self.values, dtype=dtype)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self.names)

@@ -104,7 +104,7 @@ class Forces:
             by_joint[info.rows[row].joint].append((row, column, value))
         names, units, values = list[str](), list[str](), list[Array]()
         for joint, body in self.joints.items():
-            generalised = {}
+            generalised: dict[int, Array] = {}
             for row, column, value in by_joint[joint]:
                 part = -value * multipliers.values[:, row]
                 generalised[column] = generalised[column] + part if column in generalised else part
@@ -121,21 +121,21 @@ class Forces:
         stacked = np.column_stack(values) if values else np.zeros((len(self.outcome.times), 0))
         return Labelled(stacked, tuple(names), tuple(units))
 
-    def _on_ground(self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]) -> dict[str, Array]:
+    def _on_ground(
+        self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
+    ) -> dict[str, Array]:
         """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
-        nothing = np.zeros(len(self.outcome.times))
+        states, nothing = self.outcome.states, np.zeros(len(self.outcome.times))
         total = {"Fx": nothing, "Fy": nothing, "M": nothing}
         for indices in columns.values():
-            part = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
             if not any(i in generalised for i, _ in indices):
                 continue
-            x, y = self.outcome.states[:, indices[0][0]], self.outcome.states[:, indices[1][0]]  # planar: q and v have the same order
+            part = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
+            x, y = states[:, indices[0][0]], states[:, indices[1][0]]  # planar: q and v have the same order
             moment = part.get("M", nothing) + x * part["Fy"] - y * part["Fx"]
-            total = {
-                "Fx": total["Fx"] - part["Fx"],
-                "Fy": total["Fy"] - part["Fy"],
-                "M": total["M"] - moment,
-            }
+            total["Fx"] = total["Fx"] - part["Fx"]
+            total["Fy"] = total["Fy"] - part["Fy"]
+            total["M"] = total["M"] - moment
         return total
 
     def _entries(self) -> list[tuple[int, int, Array]]:

@@ -210,7 +210,10 @@ class Result:
         }
 
     def __getitem__(self, name: str) -> Array:
-        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``."""
+        """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
+
+        Multipliers of a joint that is called like a body are hidden by the body's coordinates here; they are in `lam`.
+        """
         if name == "t":
             return self.t
         known: list[str] = []
@@ -227,7 +230,7 @@ class Result:
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
         last = self.t.shape[0] - 1
-        return finite(
+        contract: dict[str, Any] = finite(
             {
                 "mechanism": self.mechanism,
                 "method": self.method,
@@ -272,6 +275,7 @@ class Result:
                 },
             }
         )
+        return contract
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return all tables as one data frame over time; columns carry their table's name where it is needed.
@@ -309,9 +313,7 @@ class Result:
 
         return save(self, Path(path))
 
-    def plot(
-        self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")
-    ) -> Path:
+    def plot(self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.
 
         Parameters

@@ -99,6 +99,7 @@ class Outcome:
     smallest_pivot: float
     rank_events: tuple[RankEvent, ...]
     rank_event_count: int
+    interrupted: bool
     run_seconds: float
     compile_seconds: float
     compiled: CompiledModel = field(repr=False)
@@ -184,7 +185,7 @@ def integrate(
     watched = gauges, control, events
     room = np.zeros((tableau.stages + 3 + len(tableau.extra_c)) * len(y))  # all stages, and two states
     _warm(loop, arguments, outputs, (*watched, room))
-    code, seconds = _in_thread(loop, (*arguments, *outputs, *watched, room), gauges, control, progress)
+    code, seconds, interrupted = _in_thread(loop, (*arguments, *outputs, *watched, room), gauges, control, progress)
 
     k = int(control[abi.OUTPUTS])
     after = cache_stats()
@@ -210,6 +211,7 @@ def integrate(
         smallest_pivot=float(gauges[abi.SMALLEST_PIVOT]),
         rank_events=tuple(RankEvent(float(a), float(b), int(r), float(s)) for a, b, r, s in table),
         rank_event_count=int(control[abi.EVENTS]),
+        interrupted=interrupted,
         run_seconds=seconds,
         compile_seconds=after["compile_seconds"]
         + after["load_seconds"]
@@ -270,9 +272,13 @@ def _warm(loop: Any, arguments: tuple[Any, ...], outputs: tuple[Array, ...], wat
 
 def _in_thread(
     loop: Any, arguments: tuple[Any, ...], gauges: Array, control: Any, progress: Callable[[float], None] | None
-) -> tuple[int, float]:
-    """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls."""
+) -> tuple[int, float, bool]:
+    """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
+
+    Returns how the loop ended, its seconds, and whether it was interrupted, be it too late to stop it.
+    """
     result: list[Any] = []
+    finished = threading.Event()
 
     def work() -> None:
         began = time.perf_counter()
@@ -281,20 +287,23 @@ def _in_thread(
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)
+        finally:
+            finished.set()
 
-    thread = threading.Thread(target=work, name="symgen-run", daemon=True)
-    thread.start()
-    while thread.is_alive():
+    threading.Thread(target=work, name="symgen-run", daemon=True).start()
+    while True:
         try:
-            thread.join(0.1)
-            if progress is not None:
-                progress(float(gauges[abi.TIME]))
+            # not Thread.join: interrupted there, Python 3.11 takes a running thread for a stopped one
+            while not finished.wait(0.1):
+                if progress is not None:
+                    progress(float(gauges[abi.TIME]))
+            break
         except KeyboardInterrupt:
             control[abi.STOP] = 1
     outcome = result[0]
     if isinstance(outcome, BaseException):
         raise outcome
-    return int(outcome[0]), float(outcome[1])
+    return int(outcome[0]), float(outcome[1]), bool(control[abi.STOP])
 
 
 def _reason(code: int, w: Array, gauges: Array, spec: RunSpec) -> str:

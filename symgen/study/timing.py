@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from symgen.runtime import abi
 from symgen.runtime.run import integrate
 
 if TYPE_CHECKING:
@@ -36,21 +35,20 @@ def repeated(
     Returns
     -------
     outcome : Outcome
-        Of the last run; all are the same but for the clock. `run_seconds` is the shortest.
+        Of the last whole run; all are the same but for the clock. `run_seconds` is the shortest; `interrupted` if the
+        repetitions were cut short.
     spread : float
         Longest minus shortest run time [s]; 0 for a single run.
     """
     first = integrate(compiled, tableau, start, spec, progress)
-    if repeat <= 1 or first.code == abi.STOPPED:
+    if repeat <= 1 or first.interrupted:
         return first, 0.0
     outcome, seconds = first, list[float]()
     for _ in range(repeat):
         last = integrate(compiled, tableau, start, spec, progress)
-        if last.code == abi.STOPPED:  # an earlier run is whole, so nothing is lost but repetitions
-            break
+        if last.interrupted:  # an earlier run is whole, so nothing is lost but repetitions
+            return replace(outcome, run_seconds=min([*seconds, first.run_seconds]), interrupted=True), 0.0
         outcome = last
         seconds.append(last.run_seconds)
-    if not seconds:
-        return first, 0.0
     best = replace(outcome, run_seconds=min(seconds), compile_seconds=first.compile_seconds)
     return best, max(seconds) - min(seconds)

@@ -148,4 +148,3 @@ class Emitted:
             found.multipliers = self.section(w, "multipliers").copy()
             found.power = float(rate[-1])
         return found
-

@@ -1,8 +1,8 @@
 """Textbook kinematics and statics of a raw description, written with sin and cos of the bodies' angles.
 
-Nothing of symgen's markers, measures or derivation is used: each joint and force is evaluated from the keys of its table
-as its documentation defines it. The arithmetic is generic: `ops` is any module with sin, cos, sqrt and exp (`math`,
-`cmath`, `mpmath`, `sympy`), so the same definitions serve complex steps, high-precision differences and SymPy.
+Nothing of symgen's markers, measures or derivation is used: each joint and force is evaluated from the keys of its
+table as its documentation defines it. The arithmetic is generic: `ops` is any module with sin, cos, sqrt and exp
+(`math`, `cmath`, `mpmath`, `sympy`), so the same definitions serve complex steps, high-precision differences and SymPy.
 """
 
 import cmath
@@ -15,7 +15,13 @@ import numpy as np
 GROUND = "ground"
 #: What formulas may call: these from `ops`, and plain ones.
 _FUNCTIONS = ("sin", "cos", "tan", "sqrt", "exp", "log", "tanh", "atan", "atan2")
-PLAIN_FUNCTIONS = {"pi": math.pi, "abs": abs, "min": min, "max": max, "sign": lambda x: float((x > 0) - (x < 0))}
+PLAIN_FUNCTIONS = {
+    "pi": math.pi,
+    "abs": abs,
+    "min": min,
+    "max": max,
+    "sign": lambda x: float(bool(x > 0) - bool(x < 0)),
+}
 STEP = 1e-30
 
 

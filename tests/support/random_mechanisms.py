@@ -20,7 +20,7 @@ OF_STATE = (
     "max(B.x, 0.2)*min(t, k1)",
     "tab(B.x) + abs(B.vx)*sign(B.vy)",
     "B.vx**2/(1 + B.y**2) - tanh(B.x)",
-    "1.0 if B.x <= 0 else sqrt(B.x)",
+    "1.0 if B.x <= 0 and not t > 1 else sqrt(1 + B.x**2)",
 )
 OF_LENGTH = ("0.7*length - rate**2", "k1*sin(length)*rate", "tab(length)")
 OF_ANGLE = ("k1*cos(angle)", "-0.2*rate*abs(rate)", "angle*rate + t")
@@ -153,7 +153,7 @@ def descriptions(draw, joints: tuple[str, ...], forces: tuple[str, ...], most: i
 
 
 @st.composite
-def states(draw, size: int = 15) -> tuple[float, np.ndarray, np.ndarray]:
+def states(draw, size: int = 15) -> tuple[float, list[float], list[float]]:
     """(t, q, v) for up to five bodies, away from the few positions where markers could meet."""
     rng = np.random.default_rng(draw(st.integers(0, 10**6)))
-    return float(rng.uniform(0.0, 2.0)), rng.uniform(-3.0, 3.0, size), rng.uniform(-2.0, 2.0, size)
+    return float(rng.uniform(0.0, 2.0)), rng.uniform(-3.0, 3.0, size).tolist(), rng.uniform(-2.0, 2.0, size).tolist()

@@ -1,9 +1,10 @@
-"""Numbers that emitted code has to meet, from `Plain` alone: derivatives by complex steps and high-precision differences."""
+"""Numbers that emitted code has to meet, from `Plain` alone, by complex steps and high-precision differences."""
 
 import cmath
 
 import mpmath
 import numpy as np
+
 from support.plain import STEP, Plain, cross, dot
 
 

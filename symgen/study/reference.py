@@ -1,0 +1,259 @@
+"""References: the motion as exactly as it can be had, by routes that share nothing with the emitted code.
+
+A mechanism of the catalogue for which `CLOSED` knows a formula, or an equation in one coordinate, gets that; every
+other one is integrated by SciPy's DOP853 at a tight tolerance from independently derived equations, projected at each
+output, twice with different tolerances and segments, the difference of the two being the estimated error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import Mechanism
+from symgen.errors import InputError, SimulationError
+from symgen.study.points import Points
+
+if TYPE_CHECKING:
+    from symgen.study.independent import IndependentEquations
+
+Array = NDArray[np.float64]
+
+#: Tolerances of the two integrations of the general route; the first one is the reference.
+FINE, COARSE = 3e-14, 3e-13
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A motion to compare with.
+
+    Attributes
+    ----------
+    how : str
+        Where it comes from, one sentence.
+    estimated_error : float
+        How far its points may be off [m].
+    times, q : Array, shapes (k,), (k, nq)
+        Times [s] and coordinates.
+    """
+
+    how: str
+    estimated_error: float
+    times: Array
+    q: Array
+
+
+#: Called with how far the work is, from 0 to 1.
+Progress = Callable[[float], None]
+
+
+def reference(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    q: Array,
+    v: Array,
+    times: Array,
+    progress: Progress | None = None,
+) -> Reference:
+    """Return the reference motion of a mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What moves.
+    parameters : mapping
+        Values of all parameters.
+    q, v : Array, shapes (nq,), (nv,)
+        Consistent start.
+    times : Array
+        Where the motion is wanted [s], increasing from 0 or later.
+    progress : callable, optional
+        Called with the fraction that is done.
+
+    Raises
+    ------
+    SimulationError
+        If the motion cannot be integrated, e.g. into a singularity.
+    """
+    closed = CLOSED.get(_family(mechanism))
+    if closed is not None and _from_catalogue(mechanism):
+        how, estimated, motion = closed(mechanism, parameters, q, times)
+        return Reference(how, estimated, times, motion)
+    return integrated(mechanism, parameters, q, v, times, progress)
+
+
+def _family(mechanism: Mechanism) -> str:
+    return "n-four-bar" if mechanism.name.startswith("n-four-bar-") else mechanism.name
+
+
+def _from_catalogue(mechanism: Mechanism) -> bool:
+    """Whether a mechanism is the one of the catalogue, not another of the same name."""
+    from symgen.describe.load import load
+
+    family = _family(mechanism)
+    size = mechanism.name.removeprefix("n-four-bar-")
+    try:
+        return load(f"{family}:{size}" if family == "n-four-bar" else family) == mechanism
+    except InputError:
+        return False
+
+
+# -- formulas ----------------------------------------------------------------------------------------------------------
+
+Closed = tuple[str, float, Array]
+
+
+def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """Released at rest at x = -1: sin(phi / 2) = k cd(w t, k^2), phi from the downward vertical, k = sin(phi_0 / 2)."""
+    from scipy.special import ellipj, ellipk
+
+    length, gravity = 1.0, 9.81
+    phi0 = math.atan2(q[0], -q[1])
+    k = math.sin(phi0 / 2.0)
+    # whole periods are taken off first: the functions lose digits with the size of their argument
+    u = np.remainder(math.sqrt(gravity / length) * times, 4.0 * ellipk(k * k))
+    _, cn, dn, _ = ellipj(u, k * k)
+    phi = 2.0 * np.arcsin(k * cn / dn)
+    motion = length * np.column_stack([np.sin(phi), -np.cos(phi)])
+    return "Jacobi's elliptic functions", 1e-14 * max(100.0, float(times[-1])), motion
+
+
+def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical."""
+    from scipy.integrate import solve_ivp
+
+    n = int(mechanism.name.removeprefix("n-four-bar-"))
+    factor = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
+
+    def solve(rtol: float) -> Array:
+        def rate(_: float, y: Array) -> list[float]:
+            return [y[1], factor * math.sin(y[0])]
+
+        end = float(times[-1])
+        # short steps: interpolation to the output times must not be what limits the accuracy
+        found = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
+        return np.asarray(found.y[0], dtype=float)
+
+    theta = solve(3e-14)
+    s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
+    columns: list[Array] = []
+    for body in mechanism.bodies:
+        if body.name.startswith("vertical"):
+            i = int(body.name.removeprefix("vertical"))
+            columns += [i + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+        else:
+            i = int(body.name.removeprefix("coupler"))
+            columns += [i + 0.5 + s, c, zero]
+    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
+    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
+
+
+def driven_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """Crank angle as prescribed; the joint of coupler and rocker where two circles meet, on the side of the start."""
+    crank, coupler, rocker, base = 2.0, 8.0, 5.0, 10.0
+    theta = parameters["crank_start"] + parameters["crank_speed"] * times
+    bx, by = crank * np.cos(theta), crank * np.sin(theta)
+    dx, dy = base - bx, -by
+    d = np.hypot(dx, dy)
+    along = (d**2 + coupler**2 - rocker**2) / (2.0 * d)
+    across = np.sqrt(coupler**2 - along**2)
+    # q holds crank x, y, theta, coupler x, y, theta, ...: on which side of the line from B to D the coupler lies
+    b0 = crank * np.array([math.cos(parameters["crank_start"]), math.sin(parameters["crank_start"])])
+    side = math.copysign(1.0, (base - b0[0]) * (q[4] - b0[1]) + b0[1] * (q[3] - b0[0]))
+    cx = bx + (along * dx - side * across * dy) / d
+    cy = by + (along * dy + side * across * dx) / d
+    coupler_angle = np.unwrap(np.arctan2(cy - by, cx - bx))
+    rocker_angle = np.unwrap(np.arctan2(cy, cx - base))
+    motion = np.column_stack(
+        [bx / 2, by / 2, theta, (bx + cx) / 2, (by + cy) / 2, coupler_angle, (base + cx) / 2, cy / 2, rocker_angle]
+    )
+    return "closed form: the prescribed crank and the intersection of two circles", 1e-13, motion
+
+
+#: Mechanism of the catalogue -> formula.
+CLOSED: Mapping[str, Callable[[Mechanism, Mapping[str, float], Array, Array], Closed]] = {
+    "driven-four-bar": driven_four_bar,
+    "n-four-bar": n_four_bar,
+    "pendulum": pendulum,
+}
+
+
+# -- any mechanism -----------------------------------------------------------------------------------------------------
+
+
+def integrated(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    q: Array,
+    v: Array,
+    times: Array,
+    progress: Progress | None = None,
+) -> Reference:
+    """Integrate independently derived equations twice; arguments as for `reference`."""
+    from symgen.study.independent import IndependentEquations
+
+    equations = IndependentEquations(mechanism, parameters)
+    y = equations.project(0.0, np.concatenate([q, v]))
+
+    def part(first: float, share: float) -> Progress:
+        return lambda done: None if progress is None else progress(first + share * done)
+
+    fine = _integrate(equations, y, times, FINE, 1, True, part(0.0, 0.6))
+    coarse = _integrate(equations, y, times, COARSE, 3, False, part(0.6, 0.4))
+    estimated = Points.of(mechanism, parameters).distance(fine, coarse)
+    how = (
+        f"independently derived equations, SciPy DOP853 at {FINE:g}, projected at every output; "
+        f"estimated from a second run at {COARSE:g}"
+    )
+    return Reference(how, max(estimated, 1e-14), times, fine)
+
+
+def _integrate(
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    rtol: float,
+    every: int,
+    mass_weighted: bool,
+    progress: Progress,
+) -> Array:
+    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected."""
+    from scipy.integrate import DOP853
+
+    n = equations.n
+    scale = np.maximum(np.abs(y), 1.0)
+    motion = np.empty((len(times), n))
+    solver: Any = None  # SciPy's types know neither arrays of tolerances nor that a step changes the status
+    usual = 0.0
+    end = float(times[-1]) if len(times) else 0.0
+    for k, t in enumerate(times):
+        if t > 0.0:
+            if solver is None:
+                make: Any = DOP853
+                solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale)
+            else:
+                solver.t_bound, solver.status = float(t), "running"
+                # the step before an output is cut short; going on with it would waste evaluations
+                solver.h_abs = max(solver.h_abs, usual)
+            while solver.status == "running":
+                before = solver.h_abs
+                message = solver.step()
+                if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
+                    reason = message or "the state is not finite"
+                    raise SimulationError(
+                        f"the reference motion cannot be integrated beyond t = {solver.t:.6g} s: {reason}"
+                    )
+                usual = before if solver.status == "finished" else solver.h_abs
+            if k % every == 0:
+                solver.y = equations.project(float(t), solver.y, mass_weighted)
+                solver.f = solver.fun(float(t), solver.y)
+            y = solver.y
+        motion[k] = y[:n]
+        if end > 0.0:
+            progress(float(t) / end)
+    return motion

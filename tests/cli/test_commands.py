@@ -1,0 +1,287 @@
+"""Every command in-process: what it prints where, and its exit code."""
+
+import json
+import re
+
+import pytest
+
+import symgen
+from symgen.cli import COMMANDS, main
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line; return exit code, standard output and standard error."""
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+def test_help_names_every_command(cli):
+    code, out, err = cli("--help")
+    assert code == 0 and err == ""
+    for name, (_, line) in COMMANDS.items():
+        assert re.search(rf"^  {name} +{re.escape(line)}$", out, re.MULTILINE), name
+
+
+@pytest.mark.parametrize("name", list(COMMANDS))
+def test_help_of_every_command(cli, name):
+    code, out, _ = cli(name, "--help")
+    assert code == 0 and out.startswith(f"Usage: symgen {name}")
+
+
+def test_no_command_at_all_shows_the_help_and_is_wrong(cli):
+    code, out, err = cli()
+    assert code == 2 and out == "" and "Commands:" in err
+
+
+def test_version(cli):
+    assert cli("--version") == (0, f"symgen {symgen.__version__}\n", "")
+
+
+# -- list, new, check, schema, cache, completion -----------------------------------------------------------------------
+
+
+def test_list(cli):
+    code, out, _ = cli("list")
+    assert code == 0 and "four-bar" in out and "IFToMM" in out and "until [s]" in out
+    found = {row["name"]: row for row in json.loads(cli("list", "--json")[1])["mechanisms"]}
+    assert found["n-four-bar"]["sized"] and found["n-four-bar"]["default_size"] == 2
+    assert found["four-bar"]["until"] == 10.0 and found["four-bar"]["step"] == 1e-3
+
+
+def test_new_gives_a_file_that_runs_and_never_overwrites(cli, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, _ = cli("new", "my-crane")
+    assert code == 0 and out == "wrote my-crane.toml; try: symgen run my-crane.toml\n"
+    before = (tmp_path / "my-crane.toml").read_bytes()
+    code, out, err = cli("new", "my-crane")
+    assert code == 2 and out == "" and "a file that does not exist yet" in err
+    assert (tmp_path / "my-crane.toml").read_bytes() == before
+    assert cli("new", "my-crane", "-o", "-")[1].encode() == before
+    assert cli("run", "my-crane.toml", "--until", "0.05", "--json")[0] == 0
+
+
+def test_check(cli):
+    code, out, _ = cli("check", "four-bar")
+    assert code == 0 and "1 degrees of freedom" in out and "8 constraint rows of rank 8" in out
+    found = json.loads(cli("check", "n-four-bar:3", "--json")[1])
+    assert found["rank"] == 20 and found["degrees_of_freedom"] == 1 and found["sizes"]["coordinates"] == 21
+
+
+def test_check_says_which_joint_stays_open(cli, tmp_path):
+    path = tmp_path / "open.toml"
+    path.write_text(
+        '[mechanism]\nname = "open"\n[bodies.rod]\nmass = 1.0\ninertia = 0.1\nposition = [0.5, 0.0]\n'
+        '[joints.a]\ntype = "revolute"\nbetween = ["ground", "rod"]\nat = [[0.0, 0.0], [-0.5, 0.0]]\n'
+        '[joints.b]\ntype = "revolute"\nbetween = ["ground", "rod"]\nat = [[9.0, 0.0], [0.5, 0.0]]\n'
+    )
+    code, out, err = cli("check", path)
+    assert code == 2 and out == ""
+    assert re.search(r"open: the mechanism cannot be assembled from this start: joint '[ab]' stays open by", err)
+
+
+def test_schema_is_json(cli):
+    assert json.loads(cli("schema")[1])["title"] == "symgen mechanism"
+
+
+def test_cache(cli, tmp_path, monkeypatch):
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
+    found = json.loads(cli("cache", "info", "--json")[1])
+    assert found["path"] == str(tmp_path / "cache") and found["persistent"] and found["entries"] == 0
+    code, out, _ = cli("cache", "clear")
+    assert code == 0 and out.startswith("cleared; ")
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_completion(cli, shell):
+    code, out, _ = cli("completion", shell)
+    assert code == 0 and "_SYMGEN_COMPLETE" in out
+
+
+# -- generate ----------------------------------------------------------------------------------------------------------
+
+
+def test_generate_writes_modules_that_stand_alone(cli, tmp_path):
+    folder = tmp_path / "out"
+    code, out, err = cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)
+    assert code == 0 and err == ""
+    names = {"model", "lagrange", "direct_correction_identity"}
+    assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")}
+    assert len(out.splitlines()) == 6
+    first = {p.name: p.read_bytes() for p in folder.iterdir()}
+    assert cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)[0] == 0
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == first
+
+
+def test_generate_takes_structural_options(cli, tmp_path):
+    code, out, _ = cli(
+        *("generate", "pendulum", "--method", "direct-correction", "--option", "method.weight=mass"),
+        *("-o", tmp_path / "out", "--json"),
+    )
+    assert code == 0
+    assert any(f["path"].endswith("direct_correction_mass.py") for f in json.loads(out)["files"])
+
+
+def test_generate_refuses_what_is_wrong_and_writes_nothing(cli, tmp_path):
+    for arguments in (("--method", "nope"), ("--option", "nope.weight=mass"), ("--option", "weight")):
+        code, out, err = cli("generate", "pendulum", *arguments, "-o", tmp_path / "out")
+        assert code == 2 and out == "" and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+# -- run ---------------------------------------------------------------------------------------------------------------
+
+
+def test_run_json_is_alone_on_standard_output(cli):
+    code, out, err = cli("run", "four-bar", "--until", "0.2", "--json")
+    assert code == 0 and err == ""
+    found = json.loads(out)
+    assert found["status"] == "ok" and found["steps"] == 200 and found["evaluations"] == 800
+
+
+def test_run_defaults(cli):
+    found = json.loads(cli("run", "pendulum", "--until", "0.1", "--json")[1])
+    assert (found["method"], found["integrator"], found["step"]) == ("direct-correction", "rk4", 1e-3)
+
+
+def test_run_takes_everything(cli, tmp_path):
+    code, out, _ = cli(
+        *("run", "four-bar", "--method", "baumgarte", "--integrator", "dopri5", "--rtol", "1e-7", "--atol", "1e-9"),
+        *("--until", "0.3", "--output-step", "0.1", "--set", "crank_mass=3", "--option", "method.alpha=8"),
+        *("--option", "baumgarte.beta=8", "--step", "1e-4", "--repeat", "2", "--strict", "--verify", "--json"),
+        *("--save", tmp_path / "a.csv", "--plot", tmp_path / "a.png"),
+    )
+    assert code == 0
+    found = json.loads(out)
+    assert found["parameters"]["crank_mass"] == 3.0 and found["rtol"] == 1e-7 and found["step"] == 1e-4
+    assert {p.name for p in tmp_path.iterdir()} == {"a.csv", "a.png"}
+    assert len((tmp_path / "a.csv").read_text().splitlines()) == 5
+
+
+def test_run_shows_a_table(cli):
+    code, out, _ = cli("run", "four-bar", "--until", "0.1")
+    assert code == 0
+    assert re.search(r"^status +ok$", out.replace(" \n", "\n"), re.MULTILINE) or "status" in out
+    assert "final state" in out and "coupler" in out and "omega" in out
+
+
+def test_a_failed_run_exits_1_and_still_gives_its_result(cli, tmp_path):
+    code, out, err = cli("run", "n-four-bar:1", "--method", "lagrange", "--json", "--save", tmp_path / "a.csv")
+    assert code == 1
+    found = json.loads(out)
+    assert found["status"] == "failed" and found["final"]["t"] > 0.0
+    assert err.splitlines()[-1] == f"symgen: failed: {found['reason']}"
+    assert (tmp_path / "a.csv").exists()
+
+
+def test_an_unverified_run_exits_0_with_a_warning(cli, monkeypatch):
+    from dataclasses import replace
+
+    from symgen.api import Model
+
+    real = Model.simulate
+
+    def doubtful(self, *a, **k):
+        return replace(real(self, *a, **k), status="unverified", reason="nobody knows")
+
+    monkeypatch.setattr(Model, "simulate", doubtful)
+    code, out, err = cli("run", "pendulum", "--until", "0.1", "--json")
+    assert code == 0 and json.loads(out)["status"] == "unverified"
+    assert err == "symgen: warning: unverified: nobody knows\n"
+
+
+# -- compare -----------------------------------------------------------------------------------------------------------
+
+COMPARE = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.01,0.005", "--until", "0.5")
+
+
+def test_compare_table_json_and_csv(cli, tmp_path):
+    code, out, _ = cli("compare", "pendulum", *COMPARE, "--repeat", "1")
+    assert code == 0 and "Jacobi's elliptic functions" in out and "error [m]" in out
+    code, out, err = cli("compare", "pendulum", *COMPARE, "--repeat", "1", "--json", "--csv", tmp_path / "rows.csv")
+    found = json.loads(out)
+    assert code == 0 and err == "" and len(found["rows"]) == 4
+    assert len((tmp_path / "rows.csv").read_text().splitlines()) == 5
+
+
+def test_compare_several_models(cli):
+    code, out, _ = cli("compare", "pendulum", "four-bar", *COMPARE, "--repeat", "1", "--json")
+    assert code == 0
+    assert [s["mechanism"] for s in json.loads(out)["studies"]] == ["pendulum", "four-bar"]
+
+
+def test_a_study_in_which_everything_failed_exits_1(cli):
+    code, out, err = cli(
+        *("compare", "n-four-bar:1", "--methods", "lagrange", "--integrators", "rk4", "--steps", "1e-3"),
+        *("--until", "4", "--repeat", "1", "--json"),
+    )
+    assert code == 1 and err == "symgen: n-four-bar-1: every run failed\n"
+    assert json.loads(out)["rows"][0]["status"] == "failed"
+
+
+# -- what is wrong -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("rnu four-bar", "there is no command 'rnu'; did you mean 'run'?"),
+        ("run", "missing argument 'MODEL'"),
+        ("run four-bra", "model: expected a catalogue name or the path of a file, got 'four-bra'; did you mean"),
+        ("run nowhere/four-bar.toml", "which is no file"),
+        ("run four-bar --stpe 1e-3", "there is no option '--stpe'; did you mean '--step'?"),
+        ("run four-bar --step abc", "'abc' is not a valid float"),
+        ("run four-bar --step nan", "--step: expected a finite number above 0, got nan"),
+        ("run four-bar --step=-1e-3", "--step: expected a finite number above 0, got -0.001"),
+        ("run four-bar --until inf", "--until: expected a finite number above 0, got inf"),
+        ("run four-bar --rtol 0", "--rtol: expected a finite number above 0, got 0"),
+        ("run four-bar --output-step nan", "--output-step: expected a finite number above 0, got nan"),
+        ("run four-bar --until 1e12", "at most 2e9 steps"),
+        ("run four-bar --method direct-correctoin", "did you mean 'direct-correction'?"),
+        ("run four-bar --integrator rk5", "did you mean 'rk4'?"),
+        ("run four-bar --set crank_mass", "--set: expected NAME=VALUE, got 'crank_mass'"),
+        ("run four-bar --set crank_mass=x", "--set crank_mass: expected a finite number, got 'x'"),
+        ("run four-bar --set crank_mass=nan", "--set crank_mass: expected a finite number, got 'nan'"),
+        ("run four-bar --set crankmass=1", "did you mean 'crank_mass'?"),
+        ("run four-bar --set crank_mass=0", "mass or inertia of crank: expected a value above 0, got 0"),
+        ("run four-bar --option method.wieght=mass", "did you mean 'weight'?"),
+        ("run four-bar --option method.weight=length", "expected one of identity, mass, got 'length'"),
+        ("run four-bar --option lagrange.alpha=1", "expected method.NAME or integrator.NAME"),
+        ("run four-bar --save run.xls", "--save: expected a file ending in .nc, .parquet, .csv, got 'run.xls'"),
+        ("run four-bar --plot run.jpg", "--plot: expected a file ending in .png, .svg, .pdf, got 'run.jpg'"),
+        ("run four-bar --save nowhere/run.csv", "--save: expected a file in a folder that exists"),
+        ("run four-bar --repeat 0", "repeat: expected a whole number from 1 to 1000, got 0"),
+        ("run four-bar --verify=1", "does not take a value"),
+        ("compare four-bar --steps 1e-3,x", "--steps: expected finite numbers above 0, separated by commas, got 'x'"),
+        ("compare four-bar --methods lagrange,,", "--methods: expected words separated by commas"),
+        ("compare four-bar --methods lagrang", "did you mean 'lagrange'?"),
+        ("compare four-bar --csv nowhere/rows.csv", "--csv: expected a file in a folder that exists"),
+        ("inspect four-bar --format pdf", "'pdf' is not one of"),
+        ("cache inof", "no such command 'inof'"),
+        ("new Crane", "expected lower-case words joined by dashes"),
+        ("completion csh", "'csh' is not one of"),
+    ],
+)
+def test_bad_input_gets_one_sentence_exit_code_2_and_no_file(cli, tmp_path, monkeypatch, words, sentence):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli(*words.split())
+    assert code == 2
+    assert out == ""
+    assert sentence in err
+    assert err.startswith("symgen: ") and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", ['x"]; import os', "__import__('os')", "lambda: 0", "a.__class__", "../../etc/passwd"])
+@pytest.mark.parametrize("command", ["run", "check", "inspect", "generate", "compare"])
+def test_hostile_names_are_only_names(cli, tmp_path, monkeypatch, command, name):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli(command, name)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []

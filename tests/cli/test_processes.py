@@ -1,0 +1,167 @@
+"""What only a process of its own shows: imports, signals, pipes and terminals."""
+
+import json
+import os
+import pty
+import select
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+HEAVY = ("numpy", "scipy", "sympy", "numba", "llvmlite", "jinja2", "rich", "pandas", "xarray", "matplotlib", "msgspec")
+
+SCRIPT = """\
+import json, sys
+from symgen.cli import main
+code = main(sys.argv[1:])
+print(json.dumps({{"code": code, "modules": [m for m in {heavy!r} if m in sys.modules]}}), file=sys.stderr)
+"""
+
+
+def imported(*arguments):
+    """Run a command in a process; return its exit code, output and which heavy modules it imported."""
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT.format(heavy=HEAVY), *arguments],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    )
+    facts = json.loads(found.stderr.splitlines()[-1])
+    return facts["code"], found.stdout, set(facts["modules"])
+
+
+@pytest.mark.parametrize("words", ["--help", "--version", "run --help", "compare --help", "inspect --help", "rnu"])
+def test_help_imports_nothing_heavy(words):
+    _, _, modules = imported(*words.split())
+    assert modules == set()
+
+
+def test_running_a_generated_model_imports_neither_sympy_nor_jinja2():
+    arguments = ("run", "four-bar", "--until", "0.05", "--json")
+    assert imported(*arguments)[0] == 0  # now it is in the cache
+    code, out, modules = imported(*arguments)
+    assert code == 0 and json.loads(out)["status"] == "ok"
+    assert modules == {"numpy", "numba", "llvmlite", "msgspec"}
+
+
+def test_check_of_a_generated_model_derives_nothing():
+    imported("check", "four-bar")
+    assert not imported("check", "four-bar")[2] & {"sympy", "jinja2", "rich", "pandas", "matplotlib"}
+
+
+def test_list_needs_neither_numpy_nor_sympy():
+    assert not imported("list", "--json")[2] & {"numpy", "sympy", "numba", "rich"}
+
+
+def test_importing_symgen_imports_nothing_heavy():
+    script = f"import symgen, sys, json; dir(symgen); print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
+    assert json.loads(found.stdout) == []
+
+
+# -- interruption ------------------------------------------------------------------------------------------------------
+
+
+def interrupt(arguments, ready, tmp_path):
+    """Start a command, interrupt it when `ready` says so; return exit code, both outputs, and how long it took to stop."""
+    out, err = tmp_path / "out.txt", tmp_path / "err.txt"
+    with out.open("w") as o, err.open("w") as e:
+        # in the background of some shells SIGINT is ignored, and that is inherited
+        process = subprocess.Popen(
+            [sys.executable, "-c", "from symgen.cli import main; raise SystemExit(main())", *map(str, arguments)],
+            stdout=o,
+            stderr=e,
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+        )
+        try:
+            ready(process)
+            began = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            process.wait(timeout=60)
+        finally:
+            process.kill()
+    return process.returncode, out.read_text(), err.read_text(), time.monotonic() - began
+
+
+def integrating(process):
+    """Wait until the process has a second busy thread: the loop."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and process.poll() is None:
+        names = []
+        for task in os.listdir(f"/proc/{process.pid}/task"):
+            try:
+                with open(f"/proc/{process.pid}/task/{task}/stat") as file:
+                    names.append(int(file.read().rsplit(")", 1)[1].split()[11]))
+            except (OSError, IndexError):
+                continue
+        main = names[0] if names else 0
+        if any(ticks > 30 for ticks in names[1:]) and main:
+            return
+        time.sleep(0.05)
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
+def test_an_interrupted_run_writes_what_it_has(tmp_path):
+    assert imported("run", "pendulum", "--until", "0.1", "--json")[0] == 0
+    saved = tmp_path / "run.csv"
+    arguments = ("run", "pendulum", "--until", "1e5", "--output-step", "10", "--json", "--save", saved)
+    code, out, err, seconds = interrupt(arguments, integrating, tmp_path)
+    assert code == 130
+    found = json.loads(out)
+    assert found["status"] == "failed" and found["reason"] == "interrupted"
+    assert 0.0 < found["final"]["t"] < 1e5
+    assert err.splitlines()[-1] == f"symgen: interrupted; outputs up to t = {found['final']['t']:g} s were kept"
+    lines = saved.read_text().splitlines()
+    assert float(lines[-1].split(",")[0]) == found["final"]["t"]
+    assert seconds < 30.0  # the loop stops at once; what takes time is importing pandas
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
+def test_an_interrupted_study_prints_its_rows(tmp_path):
+    words = ("--methods", "lagrange", "--integrators", "rk4", "--steps", "1e-2,1e-7", "--until", "50")
+    code, out, err, _ = interrupt(("compare", "pendulum", *words, "--json"), integrating, tmp_path)
+    assert code == 130
+    assert err == "symgen: interrupted; the rows that were done are kept\n"
+    assert [row["step"] for row in json.loads(out)["rows"]] == [1e-2]
+
+
+# -- pipes and terminals -----------------------------------------------------------------------------------------------
+
+
+def test_a_closed_pipe_is_no_error():
+    command = f"{sys.executable} -c 'from symgen.cli import main; raise SystemExit(main())' inspect n-four-bar:8"
+    found = subprocess.run(["bash", "-c", f"{command} | head -1"], capture_output=True, text=True, timeout=120)
+    assert found.stderr == "" and "n-four-bar-8" in found.stdout
+
+
+def test_a_long_run_shows_progress_on_a_terminal_only():
+    """Standard error is a terminal, standard output a pipe: the bar is drawn, and JSON stays alone."""
+    leader, follower = pty.openpty()
+    script = "from symgen.cli import main; raise SystemExit(main())"
+    arguments = ["run", "pendulum", "--until", "20000", "--output-step", "100", "--json"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", script, *arguments],
+        stdout=subprocess.PIPE,
+        stderr=follower,
+        env={**os.environ, "TERM": "xterm", "COLUMNS": "100"},
+    )
+    os.close(follower)
+    shown = b""
+    while True:
+        ready, _, _ = select.select([leader], [], [], 60)
+        try:
+            part = os.read(leader, 65536) if ready else b""
+        except OSError:
+            part = b""
+        if not part:
+            break
+        shown += part
+    out, _ = process.communicate(timeout=60)
+    os.close(leader)
+    assert process.returncode == 0
+    assert json.loads(out)["status"] == "ok"
+    assert b"pendulum, direct-correction, rk4" in shown and b"%" in shown

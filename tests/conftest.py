@@ -1,0 +1,37 @@
+"""One cache for all tests of a session, so that the runtime's loops are compiled once, never the user's own cache.
+
+Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST_CACHE_DIR keeps it between sessions.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
+import pytest
+
+_made: list[Path] = []
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Choose the cache before anything of symgen asks for it."""
+    if hasattr(config, "workerinput") and "SYMGEN_CACHE_DIR" in os.environ:
+        return
+    kept = os.environ.get("SYMGEN_TEST_CACHE_DIR")
+    if kept:
+        os.environ["SYMGEN_CACHE_DIR"] = kept
+        return
+    session = os.environ.get("PYTEST_XDIST_TESTRUNUID")
+    if session:  # a worker that inherited nothing: all workers of the session agree on this name
+        os.environ["SYMGEN_CACHE_DIR"] = str(Path(tempfile.gettempdir()) / f"symgen-tests-{session}")
+        return
+    _made.append(Path(tempfile.mkdtemp(prefix="symgen-tests-")))
+    os.environ["SYMGEN_CACHE_DIR"] = str(_made[0])
+
+
+def pytest_unconfigure() -> None:
+    """Remove the cache that this process made."""
+    for path in _made:
+        shutil.rmtree(path, ignore_errors=True)

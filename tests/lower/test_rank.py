@@ -1,0 +1,129 @@
+"""Rank decided on D D^T: dependent rows are skipped, and corrections are those of the Moore-Penrose inverse."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from support.checks import RANDOM, close
+from support.graph_values import node_values
+
+from symgen.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
+from symgen.ir.graph import Graph
+from symgen.lower.algebra import SUSPICIOUS, System
+
+
+def system_of(d: np.ndarray, masses: np.ndarray) -> tuple[System, dict]:
+    """A system with the entries of D as inputs, and their values; a mask of zeros."""
+    graph, (m, n) = Graph(), d.shape
+    values = {("d", i * n + j): float(d[i, j]) for i, j in np.argwhere(d != 0.0)} | {("mask", i): 0.0 for i in range(m)}
+    rows = tuple(
+        ConstraintRow(
+            f"r{i}", f"j{i}", "m", graph.zero, _entries(graph, d[i], i * n), graph.zero, graph.input("gamma", i)
+        )
+        for i in range(m)
+    )
+    names = tuple(Quantity(f"b.{j}", "m") for j in range(n))
+    equations = Equations(
+        name="matrix",
+        graph=graph,
+        parameters=(),
+        coordinates=names,
+        velocities=names,
+        q_rates=tuple(graph.input("v", j) for j in range(n)),
+        mass=tuple(MassBlock((j,), ((graph.constant(float(x)),),)) for j, x in enumerate(masses)),
+        rows=rows,
+        forces=tuple(graph.input("f", j) for j in range(n)),
+        power=graph.zero,
+        kinetic=graph.zero,
+        potential=graph.zero,
+        joint_coordinates=(),
+        tables=(),
+        omissions=(),
+        dropped_rows=(),
+    )
+    return System(equations), values
+
+
+def _entries(graph, row, first):
+    return tuple((int(j), graph.input("d", first + int(j))) for j in np.flatnonzero(row))
+
+
+def random_rows(rng, m: int, n: int) -> np.ndarray:
+    """Sparse rows, none of them empty."""
+    d = rng.normal(size=(m, n)) * (rng.random((m, n)) < 0.5)
+    d[np.arange(m), rng.integers(n, size=m)] += 1.5
+    return d
+
+
+def corrected(system: System, values, d, b, weight=None):
+    """D^+ b as the emitted code computes it: y from the factor of D W D^T, then W D^T y."""
+    g = system.graph
+    factor = system.gram_factor() if weight is None else system.schur_with(system.gram_factor())
+    y = node_values(g, factor.solve(g, [g.constant(float(x)) for x in b]), values)
+    return (np.ones(d.shape[1]) if weight is None else weight) * (d.T @ y), np.array(y)
+
+
+@RANDOM
+@given(seed=st.integers(0, 10**6), independent=st.integers(1, 5), repeated=st.integers(0, 3))
+def test_corrections_are_those_of_the_pseudoinverse(seed, independent, repeated):
+    rng = np.random.default_rng(seed)
+    n = independent + 2
+    base = random_rows(rng, independent, n)
+    if np.linalg.svd(base, compute_uv=False)[-1] < 0.1:
+        return
+    # repeated rows: copies and combinations of few rows, as redundant joints make them
+    mixing = np.vstack([np.eye(independent), rng.integers(-1, 2, size=(repeated, independent))])
+    mixing[independent:][~mixing[independent:].any(axis=1), 0] = 1
+    d = (mixing @ base)[rng.permutation(independent + repeated)]
+    masses = rng.uniform(0.5, 4.0, n)
+    system, values = system_of(d, masses)
+    b = d @ rng.normal(size=n)
+    found, y = corrected(system, values, d, b)
+    np.testing.assert_allclose(found, np.linalg.pinv(d) @ b, rtol=0, atol=1e-9)
+    assert np.count_nonzero(y) <= independent
+    weighted = np.linalg.pinv(d / np.sqrt(masses)) @ b / np.sqrt(masses)
+    np.testing.assert_allclose(corrected(system, values, d, b, 1 / masses)[0], weighted, rtol=0, atol=1e-9)
+
+
+def test_the_row_eliminated_last_is_the_one_that_is_skipped():
+    d = np.array([[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 2.0, 1.0]])
+    system, values = system_of(d, np.ones(3))
+    factor = system.gram_factor()
+    reciprocal = node_values(system.graph, [factor.reciprocal[k] for k in system.order], values)
+    assert [x == 0.0 for x in reciprocal] == [False, False, True]
+
+
+@RANDOM
+@given(seed=st.integers(0, 10**6), m=st.integers(2, 6))
+def test_masked_rows_are_as_if_they_were_not_there(seed, m):
+    rng = np.random.default_rng(seed)
+    n = m + 2
+    d, masses = random_rows(rng, m, n), rng.uniform(0.5, 4.0, n)
+    masked = int(rng.integers(m))
+    kept = [i for i in range(m) if i != masked]
+    if np.linalg.svd(d[kept], compute_uv=False)[-1] < 0.1:
+        return
+    system, values = system_of(d, masses)
+    values["mask", masked] = math.inf
+    f, gamma = rng.normal(size=n), rng.normal(size=m)
+    values |= {("f", j): float(x) for j, x in enumerate(f)} | {("gamma", i): float(x) for i, x in enumerate(gamma)}
+    multipliers = system.solve_schur(system.D @ system.minv(system.f) - system.gamma)
+    found = node_values(system.graph, multipliers.nodes, values)
+    s = d[kept] @ np.diag(1 / masses) @ d[kept].T
+    expected = np.zeros(m)
+    expected[kept] = np.linalg.solve(s, d[kept] @ (f / masses) - gamma[kept])
+    close(found, expected, "lambda", 1e-9)
+
+
+@pytest.mark.parametrize(("angle", "suspicious"), [(1.0, False), (1e-2, False), (1e-4, True), (0.0, True)])
+def test_nearly_parallel_rows_raise_the_flag(angle, suspicious):
+    """The pivot is the squared sine of the angle between the rows."""
+    d = np.array([[1.0, 0.0, 0.3], [math.cos(angle), math.sin(angle), 0.3 * math.cos(angle)]])
+    system, values = system_of(d, np.ones(3))
+    assert system.schur.order
+    flag = node_values(system.graph, [system.flag()], values)[0]
+    assert bool(flag) == suspicious == (math.sin(angle) ** 2 < SUSPICIOUS)
+    values["mask", system.order[-1]] = math.inf
+    assert node_values(system.graph, [system.flag()], values)[0] == 0.0, "a masked row is no suspect"

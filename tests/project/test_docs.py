@@ -1,0 +1,222 @@
+"""What the pages say: every command fenced as ``console`` runs, every Python snippet runs, links lead somewhere,
+and every kind with every key stands in the tables."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from symgen.describe.load import parse_toml
+from symgen.describe.names import CALLABLE
+from symgen.describe.sections import BodySection, MechanismSection, ParameterSection, RunSection, TableSection
+from symgen.describe.validate import validate
+from symgen.forces import FORCES
+from symgen.integrators import INTEGRATORS
+from symgen.joints import JOINTS
+from symgen.methods import METHODS
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = (
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    ROOT / "CHANGELOG.md",
+    *sorted((ROOT / "benchmarks").glob("*.md")),
+    *sorted((ROOT / "docs").rglob("*.md")),
+)
+_FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"(?<!!)\[[^\]]+\]\(([^)\s]+)\)")
+
+
+@dataclass(frozen=True)
+class Fenced:
+    """A fenced block: its language, text and first line."""
+
+    language: str
+    text: str
+    line: int
+
+
+def fenced(page: Path, language: str) -> list[Fenced]:
+    """Return the blocks of one language, in order."""
+    text = page.read_text(encoding="utf-8")
+    return [
+        Fenced(m.group(1), m.group(2), text.count("\n", 0, m.start()) + 2)
+        for m in _FENCE.finditer(text)
+        if m.group(1) == language
+    ]
+
+
+def name(page: Path) -> str:
+    """Return how a page is called in the names of tests."""
+    return page.relative_to(ROOT).as_posix()
+
+
+def with_language(language: str) -> list[object]:
+    """Return the pages that have blocks of a language."""
+    return [pytest.param(page, id=name(page)) for page in PAGES if fenced(page, language)]
+
+
+@pytest.mark.parametrize("page", with_language("console"))
+def test_every_command_runs(page: Path, tmp_path: Path) -> None:
+    commands = [
+        (block.line + i, line[2:])
+        for block in fenced(page, "console")
+        for i, line in enumerate(block.text.splitlines())
+        if line.startswith("$ ")
+    ]
+    assert commands
+    folder = Path(sys.executable).parent
+    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ.get('PATH', '')}"}
+    for line, command in commands:
+        words = shlex.split(command)
+        assert words[0] == "symgen", f"{name(page)}:{line}: only symgen's own commands are run: {command}"
+        done = subprocess.run(
+            words, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=280, check=False
+        )
+        assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"
+
+
+@pytest.mark.parametrize("page", with_language("python"))
+def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The snippets of a page share their names, as a reader would type them one after the other."""
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, object] = {"__name__": "__main__"}
+    for block in fenced(page, "python"):
+        code = compile("\n" * (block.line - 1) + block.text, str(page), "exec")
+        exec(code, names)
+
+
+@pytest.mark.parametrize("page", with_language("toml"))
+def test_every_file_shown_is_valid(page: Path) -> None:
+    for block in fenced(page, "toml"):
+        validate(parse_toml(block.text, name(page)), name(page))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in _LINK.findall(page.read_text(encoding="utf-8")):
+        if target.startswith(("https://", "http://")):
+            continue
+        path, _, anchor = target.partition("#")
+        file = (page.parent / path).resolve() if path else page
+        assert file.exists(), f"{name(page)} links to {target}, which does not exist"
+        assert file.is_relative_to(ROOT)
+        if anchor:
+            assert anchor in anchors(file), f"{name(page)} links to {target}, which has no such heading"
+
+
+def anchors(page: Path) -> set[str]:
+    """Return the anchors of a page's headings, as they are made from the text."""
+    headings = re.findall(r"^#+ (.*)$", page.read_text(encoding="utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).strip().replace(" ", "-") for heading in headings}
+
+
+# -- every kind with every key -----------------------------------------------------------------------------------------
+
+
+def page(stem: str) -> str:
+    """Return the text of a page under docs/."""
+    return (ROOT / "docs" / f"{stem}.md").read_text(encoding="utf-8")
+
+
+def rows(text: str) -> list[str]:
+    """Return the first cells of all table rows."""
+    return [line.split("|")[1].strip() for line in text.splitlines() if line.startswith("|")]
+
+
+def section(text: str, heading: str) -> str:
+    """Return what stands under a heading, up to the next one."""
+    found = re.search(rf"^#+ {re.escape(heading)}\n(.*?)(?=^#|\Z)", text, re.MULTILINE | re.DOTALL)
+    assert found, f"no heading '{heading}'"
+    return found.group(1)
+
+
+KINDS = [*((k, JOINTS) for k in JOINTS.names), *((k, FORCES) for k in FORCES.names)]
+
+
+@pytest.mark.parametrize(("kind", "registry"), KINDS, ids=lambda x: x if isinstance(x, str) else "")
+def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: object) -> None:
+    text = page("file-format")
+    assert any(cell.startswith(f"`{kind}`") for cell in rows(text)), f"{kind} is in no table"
+    keys = {field.name for field in msgspec.structs.fields(registry.get(kind))}  # type: ignore[attr-defined]
+    table = " ".join(rows(section(text, f"`{kind}`")))
+    assert set(re.findall(r"`(\w+)`", table)) == keys
+
+
+@pytest.mark.parametrize(
+    ("heading", "struct"),
+    [
+        ("`[mechanism]`", MechanismSection),
+        ("`[run]`", RunSection),
+        ("`[parameters]`", ParameterSection),
+        ("`[tables.NAME]`", TableSection),
+        ("`[bodies.NAME]`", BodySection),
+    ],
+)
+def test_a_section_stands_in_the_reference_with_all_its_keys(heading: str, struct: type[msgspec.Struct]) -> None:
+    table = " ".join(rows(section(page("file-format"), heading)))
+    assert set(re.findall(r"`(\w+)`", table)) == {field.name for field in msgspec.structs.fields(struct)}
+
+
+def test_every_function_of_an_expression_is_named() -> None:
+    text = section(page("file-format"), "Expressions")
+    missing = [function for function in CALLABLE if not re.search(rf"\b{function}\b", text)]
+    assert not missing
+
+
+@pytest.mark.parametrize("method", METHODS.names)
+def test_a_method_stands_in_its_page_with_parameters_and_defaults(method: str) -> None:
+    text = page("methods")
+    assert f"`{method}`" in rows(text)
+    own = section(text, f"`{method}`")
+    for parameter in METHODS.get(method).parameters:
+        line = next(line for line in own.splitlines() if line.startswith(f"| `{parameter.name}`"))
+        assert f"{parameter.default:g}" in line
+    for option in METHODS.get(method).options:
+        assert f"`{option.name}`" in own
+        assert all(f"`{value}`" in own for value in option.values)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+def test_an_integrator_stands_in_its_page_with_its_order(integrator: str) -> None:
+    text = page("integrators")
+    line = next(line for line in text.splitlines() if line.startswith(f"| `{integrator}`"))
+    assert line.split("|")[3].strip() == str(INTEGRATORS.get(integrator).order)
+
+
+def test_every_command_stands_in_the_readme_and_in_its_page() -> None:
+    from symgen.cli import COMMANDS
+
+    readme, reference = (ROOT / "README.md").read_text(encoding="utf-8"), page("command-line")
+    for command in COMMANDS:
+        assert f"| `symgen {command}" in readme or f"`symgen {command}" in readme
+        assert f"$ symgen {command}" in reference
+
+
+def test_every_option_of_run_is_described() -> None:
+    from symgen.cli.run import command
+
+    reference = section(page("command-line"), "`run`")
+    for option in command.params:
+        for flag in option.opts:
+            if flag.startswith("--") and flag != "--help":
+                assert f"`{flag}" in reference, flag
+    described = re.findall(r"(?<=[| ])`(--[\w-]+)", reference)
+    known = {flag for option in command.params for flag in option.opts}
+    assert set(described) <= known
+
+
+def test_every_decision_is_listed() -> None:
+    folder = ROOT / "docs" / "decisions"
+    index = (folder / "README.md").read_text(encoding="utf-8")
+    for path in sorted(folder.glob("[0-9]*.md")):
+        title = path.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ")
+        assert f"[{title}]({path.name})" in index

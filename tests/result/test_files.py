@@ -1,0 +1,110 @@
+"""Files are read back with other libraries than ours; nothing half-written is ever left."""
+
+import importlib.util
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+import symgen
+from symgen.errors import InputError
+from symgen.result import export
+
+
+@pytest.fixture(scope="module")
+def result():
+    return symgen.simulate("driven-four-bar", until=0.5, output_step=0.05)
+
+
+def test_csv(result, tmp_path):
+    path = result.save(tmp_path / "run.csv")
+    frame = pd.read_csv(path, index_col="t")
+    assert np.array_equal(frame.index.to_numpy(), result.t)
+    assert np.array_equal(frame["crank.theta"].to_numpy(), result["crank.theta"])
+    assert np.array_equal(frame["lam.motor.driver"].to_numpy(), result.lam["motor.driver"])
+    assert np.array_equal(frame["reaction.B.Fx"].to_numpy(), result.reactions["B.Fx"])
+
+
+def test_parquet(result, tmp_path):
+    frame = pd.read_parquet(result.save(tmp_path / "run.parquet"))
+    assert np.array_equal(frame["coupler.alpha"].to_numpy(), result["coupler.alpha"])
+    assert frame.attrs["units"]["coupler.alpha"] == "rad/s^2"
+    assert frame.attrs["run"]["mechanism"] == "driven-four-bar"
+
+
+def test_netcdf(result, tmp_path):
+    path = result.save(tmp_path / "run.nc")
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        column = data["q"].sel(coordinate="rocker.theta")
+        assert np.array_equal(column.to_numpy(), result["rocker.theta"])
+        assert str(column["coordinate_unit"].to_numpy()) == "rad"
+        assert json.loads(data.attrs["run"])["status"] == "ok"
+        assert np.array_equal(data["violations"].sel(level="position").to_numpy(), result.violations["position"])
+
+
+def test_an_interrupted_start_can_be_saved(result, tmp_path):
+    empty = symgen.simulate("pendulum", until=1.0, times=[])
+    assert len(empty.t) == 0
+    assert empty.to_json()["final"] == {"t": None, "q": {}, "v": {}, "lam": {}}
+    for ending in (".csv", ".nc", ".parquet"):
+        assert empty.save(tmp_path / f"empty{ending}").exists()
+
+
+@pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
+def test_plots(result, tmp_path, ending):
+    path = result.plot(tmp_path / f"run{ending}", ("positions", "velocities", "energy", "violations", "reactions"))
+    head = path.read_bytes()[:200]
+    assert {".png": b"\x89PNG", ".svg": b"<?xml", ".pdf": b"%PDF"}[ending] in head
+
+
+def test_an_svg_says_units_and_is_the_same_every_time(result, tmp_path):
+    first = result.plot(tmp_path / "a.svg").read_text()
+    assert "dc:date" not in first
+    assert result.plot(tmp_path / "b.png").stat().st_size > 10_000
+
+
+def test_violations_are_drawn_on_a_logarithmic_axis(result):
+    from symgen.result.plots import draw
+
+    figure = draw(result, ("positions", "violations"))
+    labels = {ax.get_ylabel(): ax.get_yscale() for ax in figure.axes}
+    assert labels == {"position [m]": "linear", "angle [rad]": "linear", "violation [m, m/s, m/s$^2$]": "log"}
+    assert figure.axes[-1].get_xlabel() == "t [s]"
+
+
+@pytest.mark.parametrize(
+    ("name", "sentence"),
+    [
+        ("run.xlsx", "save: expected a file ending in .nc, .parquet, .csv, got"),
+        ("run.parq", "did you mean '.parquet'?"),
+        ("run", "save: expected a file ending in .nc, .parquet, .csv, got"),
+        ("nowhere/run.csv", "save: expected a file in a folder that exists, got"),
+    ],
+)
+def test_a_wrong_file_gets_a_sentence(result, tmp_path, name, sentence):
+    with pytest.raises(InputError) as caught:
+        result.save(tmp_path / name)
+    assert sentence in str(caught.value)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_library_says_how_to_get_it(result, tmp_path, monkeypatch):
+    real = importlib.util.find_spec
+    monkeypatch.setattr(export, "find_spec", lambda name: None if name == "h5netcdf" else real(name))
+    with pytest.raises(InputError, match=r"the library h5netcdf, got none; pip install 'symgen\[data\]' installs it"):
+        result.save(tmp_path / "run.nc")
+
+
+def test_nothing_is_left_of_a_file_that_fails(result, tmp_path):
+    (tmp_path / "run.csv").write_text("old")
+
+    def write(path):
+        path.write_text("half")
+        raise OSError(28, "No space left on device")
+
+    with pytest.raises(InputError, match="No space left on device"):
+        export.write_whole(tmp_path / "run.csv", write)
+    assert [p.name for p in tmp_path.iterdir()] == ["run.csv"]
+    assert (tmp_path / "run.csv").read_text() == "old"

@@ -1,0 +1,222 @@
+"""What a result holds, checked against mechanics rather than against the code that made it."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import InputError
+
+RUN_KEYS = {
+    *("mechanism", "method", "integrator", "step", "rtol", "atol", "until", "status", "reason", "warnings", "notes"),
+    *("parameters", "steps", "rejected", "evaluations", "iterations", "seconds", "position_violation_max"),
+    *("velocity_violation_max", "energy_drift_max", "rank", "rank_events", "rank_event_count", "final"),
+}
+
+
+@pytest.fixture(scope="module")
+def four_bar():
+    return symgen.simulate("four-bar", until=0.5, output_step=0.05)
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory):
+    """A crank on a driven pin, and a rod between them with a damper: work of both signs."""
+    path = tmp_path_factory.mktemp("model") / "damped.toml"
+    path.write_text(
+        """
+[mechanism]
+name = "damped"
+gravity = [0.0, -9.81]
+[bodies.rod]
+mass = 2.0
+inertia = 0.3
+points = { top = [-0.5, 0.0] }
+position = [0.5, 0.0]
+angular_velocity = 1.0
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.2, 0.1], "top"]
+[forces.friction]
+type = "torsional-spring-damper"
+between = ["ground", "rod"]
+damping = 0.7
+"""
+    )
+    return symgen.load(path)
+
+
+# -- tables ------------------------------------------------------------------------------------------------------------
+
+
+def test_tables_have_one_row_an_output(four_bar):
+    k = len(four_bar.t)
+    assert k == 11
+    assert four_bar.t[-1] == 0.5
+    for name, table in four_bar.tables().items():
+        assert table.values.shape == (k, len(table.names)), name
+        assert np.all(np.isfinite(table.values)), name
+
+
+def test_columns_are_found_by_name(four_bar):
+    assert four_bar["t"] is four_bar.t
+    assert np.array_equal(four_bar["crank.theta"], four_bar.q.values[:, 2])
+    assert np.array_equal(four_bar["coupler.omega"], four_bar.v.values[:, 5])
+    assert np.array_equal(four_bar["rocker.alpha"], four_bar.a.values[:, 8])
+    assert np.array_equal(four_bar["B.Fx"], four_bar.reactions["B.Fx"])
+    with pytest.raises(InputError, match=r"did you mean 'crank\.theta'"):
+        four_bar["crank.thet"]
+
+
+def test_joint_coordinates_are_angles_between_bodies(four_bar):
+    joints = four_bar.joint_coordinates
+    assert np.allclose(joints["B.angle"], four_bar["coupler.theta"] - four_bar["crank.theta"], atol=1e-14)
+    assert np.allclose(joints["B.angle.rate"], four_bar["coupler.omega"] - four_bar["crank.omega"], atol=1e-14)
+    assert joints.unit("B.angle.rate") == "rad/s"
+
+
+def test_accelerations_are_rates_of_velocities():
+    result = symgen.simulate("four-bar", until=0.1, output_step=0.001)
+    slope = np.gradient(result["coupler.vx"], result.t)
+    assert np.allclose(slope[2:-2], result["coupler.ax"][2:-2], rtol=1e-4, atol=1e-4)
+
+
+# -- reactions ---------------------------------------------------------------------------------------------------------
+
+
+def test_reactions_balance_each_body(four_bar):
+    """m a = weight + reactions, I alpha = moments about the centre of mass, signs by Newton's third law."""
+    r = four_bar.reactions
+    mass, inertia = 2.0, 2.0 * 2.0**2 / 12
+    theta = four_bar["crank.theta"]
+    # A is reported on the ground, B on the crank
+    fx, fy = -r["A.Fx"] + r["B.Fx"], -r["A.Fy"] + r["B.Fy"]
+    assert np.allclose(mass * four_bar["crank.ax"], fx, atol=1e-9)
+    assert np.allclose(mass * four_bar["crank.ay"], fy - mass * 9.81, atol=1e-9)
+    arm = np.column_stack([-np.cos(theta), -np.sin(theta)])  # from the centre of mass to A
+    moment = arm[:, 0] * -r["A.Fy"] - arm[:, 1] * -r["A.Fx"] + r["B.M"]
+    assert np.allclose(inertia * four_bar["crank.alpha"], moment, atol=1e-9)
+
+
+def test_a_pin_carries_no_moment(four_bar):
+    r = four_bar.reactions
+    theta = four_bar["crank.theta"]
+    assert np.allclose(r["B.M"], np.cos(theta) * r["B.Fy"] - np.sin(theta) * r["B.Fx"], atol=1e-9)
+    # D is reported on the ground: about the origin, its force acts at (10, 0)
+    assert np.allclose(r["D.M"], 10.0 * r["D.Fy"], atol=1e-9)
+    assert four_bar.reaction("D").shape == (len(four_bar.t), 3)
+    assert r.unit("D.M") == "N m" and r.unit("D.Fx") == "N"
+
+
+def test_a_point_mass_has_no_moment():
+    result = symgen.simulate("pendulum", until=0.2, output_step=0.1)
+    assert set(result.reactions.names) == {"link.Fx", "link.Fy", "link.M"}  # on the ground
+    assert np.allclose(result.reactions["link.M"], 0.0, atol=1e-9)
+    tension = np.hypot(result.reactions["link.Fx"], result.reactions["link.Fy"])
+    # released from the horizontal: T = 3 m g sin(angle below the horizontal)
+    assert np.allclose(tension, 3 * 9.81 * -result["bob.y"], atol=1e-6)
+
+
+# -- energy ------------------------------------------------------------------------------------------------------------
+
+
+def test_energy_of_a_conservative_mechanism(four_bar):
+    e = four_bar.energy
+    assert np.allclose(e["error"], e["kinetic"] + e["potential"] - e["kinetic"][0] - e["potential"][0], atol=1e-12)
+    assert np.allclose(e["work"], 0.0)
+    assert np.abs(e["error"]).max() <= four_bar.energy_drift_max < 1e-8
+
+
+def test_work_of_a_damper_is_what_the_energy_loses(model):
+    result = model.simulate(until=2.0, integrator="rk4", step=1e-3)
+    rate = 0.7 * result["rod.omega"] ** 2
+    lost = np.concatenate([[0.0], np.cumsum(0.5 * (rate[1:] + rate[:-1]) * np.diff(result.t))])
+    assert np.allclose(result.work, -lost, atol=1e-5)
+    assert np.abs(result.energy_error).max() < 1e-9
+
+
+def test_work_of_a_driver_balances():
+    result = symgen.simulate("driven-four-bar", until=1.0)
+    assert np.abs(result.work).max() > 1.0
+    assert result.energy_drift_max < 1e-5 * np.abs(result.work).max()
+
+
+def test_the_energy_at_the_start_needs_no_output_there(four_bar):
+    late = symgen.simulate("four-bar", until=0.5, times=[0.25, 0.5])
+    assert np.allclose(late.energy_error, four_bar.energy_error[[5, 10]], atol=1e-12)
+
+
+# -- the start ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_start_that_was_changed_is_noted(model):
+    result = model.simulate(until=0.01)
+    assert any("closed by minimum-norm Newton" in note for note in result.notes)
+    with pytest.raises(InputError, match="--strict"):
+        model.simulate(until=0.01, strict=True)
+
+
+# -- JSON --------------------------------------------------------------------------------------------------------------
+
+
+def test_json_is_the_contract(four_bar):
+    found = four_bar.to_json()
+    assert set(found) == RUN_KEYS
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+    assert set(found["seconds"]) == {"derive", "emit", "compile", "run"}
+    assert found["rank"] == {"rows": 8, "rank": 8, "identical_rows_dropped": 0}
+    assert found["step"] == 1e-3 and found["rtol"] is None and found["atol"] is None
+    assert found["final"]["t"] == 0.5
+    assert list(found["final"]["q"])[:3] == ["crank.x", "crank.y", "crank.theta"]
+    assert list(found["final"]["v"])[:3] == ["crank.vx", "crank.vy", "crank.omega"]
+    assert found["final"]["lam"] == pytest.approx(four_bar.lam.row(), abs=1e-9)
+    assert found["parameters"] == {"crank_mass": 2.0, "coupler_mass": 8.0, "rocker_mass": 5.0}
+
+
+def test_json_of_an_adaptive_run_has_tolerances_instead_of_a_step():
+    found = symgen.simulate("pendulum", integrator="dopri5", rtol=1e-7, until=0.5).to_json()
+    assert found["step"] is None and found["rtol"] == 1e-7 and found["atol"] == 1e-10
+    assert found["rejected"] >= 0
+
+
+def test_json_has_no_nan(four_bar):
+    broken = replace(four_bar, energy_drift_max=float("nan"), position_violation_max=float("inf"))
+    found = broken.to_json()
+    assert found["energy_drift_max"] is None and found["position_violation_max"] is None
+    json.dumps(found, allow_nan=False)
+
+
+def test_notebooks_get_an_escaped_table(four_bar):
+    text = replace(four_bar, reason="a < b", status="failed")._repr_html_()
+    assert "a &lt; b" in text and text.startswith("<table>")
+
+
+# -- settings ----------------------------------------------------------------------------------------------------------
+
+
+def test_repeated_runs_report_the_shortest():
+    result = symgen.simulate("pendulum", until=0.1, repeat=3)
+    assert result.seconds.run > 0.0 and result.seconds.run_spread >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("settings", "sentence"),
+    [
+        ({"steps": 1}, "settings: expected the name of a setting, got 'steps'; did you mean 'step'?"),
+        ({"step": float("nan")}, "step: expected a finite number, got 'nan'"),
+        ({"step": -1.0}, "step: expected a number above 0, got -1.0"),
+        ({"until": float("inf")}, "until: expected a finite number, got 'inf'"),
+        ({"repeat": 0}, "repeat: expected a whole number from 1 to 1000, got 0"),
+        ({"parameters": {"crank_mas": 1.0}}, "did you mean 'crank_mass'?"),
+        ({"method": "direct-corection"}, "did you mean 'direct-correction'?"),
+        ({"integrator": "rk5"}, "did you mean 'rk4'?"),
+        ({"times": [0.0, 2.0], "until": 1.0}, "times: expected output times from 0 to 1, got 0 to 2"),
+    ],
+)
+def test_wrong_settings_get_a_sentence(settings, sentence):
+    with pytest.raises(InputError) as caught:
+        symgen.simulate("four-bar", **settings)
+    assert sentence in str(caught.value)

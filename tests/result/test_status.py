@@ -1,0 +1,202 @@
+"""What a run may claim, and what it must say."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.api import Settings, make_plan
+from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
+from symgen.runtime.run import RankEvent, integrate
+
+
+def outcome_of(model, method="direct-correction", **changes):
+    """An honest run with some of what its loop saw replaced."""
+    settings = Settings(method=method, until=0.05)
+    plan = make_plan(model, settings)
+    compiled = model.compile(method)
+    start = model.assemble(compiled)
+    return settings, plan, compiled, replace(integrate(compiled, plan.tableau, start, plan.spec), **changes)
+
+
+@pytest.fixture(scope="module")
+def four_bar():
+    return symgen.load("four-bar")
+
+
+PASSAGE = {
+    "rank_events": (RankEvent(0.01, 0.02, 8, 3e-9),),
+    "rank_event_count": 1,
+    "smallest_pivot": 3e-9,
+    "energy_scale": 10.0,
+}
+
+
+def test_a_plain_run_is_ok(four_bar):
+    verdict = judge(*outcome_of(four_bar))
+    assert (verdict.status, verdict.reason, verdict.warnings) == ("ok", None, ())
+
+
+def test_a_corrected_run_past_a_singular_position_is_ok_with_a_warning(four_bar):
+    verdict = judge(*outcome_of(four_bar, **PASSAGE))
+    assert verdict.status == "ok"
+    assert verdict.warnings == (
+        "passed near a singular position at t = 0.01 s: smallest pivot 3e-09; "
+        "the error there is not controlled by the step size",
+    )
+
+
+@pytest.mark.parametrize("method", ["lagrange", "baumgarte"])
+def test_an_uncorrected_one_is_unverified(four_bar, method):
+    verdict = judge(*outcome_of(four_bar, method, **PASSAGE))
+    assert verdict.status == "unverified"
+    assert "t = 0.01 s: smallest pivot 3e-09" in verdict.reason
+    assert verdict.warnings
+
+
+def test_a_small_pivot_without_event_counts_too(four_bar):
+    verdict = judge(*outcome_of(four_bar, "lagrange", smallest_pivot=5e-5))
+    assert verdict.status == "unverified"
+
+
+@pytest.mark.parametrize(
+    ("share", "status", "warnings"),
+    [(JUMP_WARNING / 2, "ok", 1), (JUMP_WARNING * 2, "ok", 2), (JUMP_FAILURE * 2, "failed", 1)],
+)
+def test_energy_jumps_over_a_passage(four_bar, share, status, warnings):
+    verdict = judge(*outcome_of(four_bar, **PASSAGE, energy_jump=share * 10.0))
+    assert (verdict.status, len(verdict.warnings)) == (status, warnings)
+    if status == "failed":
+        assert verdict.reason == "energy jumped by 0.02 J, 0.002 of the energy in motion, over a singular passage"
+
+
+def test_light_bodies_are_said(four_bar):
+    _, _, _, outcome = found = outcome_of(four_bar)
+    counters = {**outcome.counters, "light": 7}
+    verdict = judge(*found[:3], replace(outcome, counters=counters))
+    assert verdict.status == "ok"
+    assert "light bodies made D M^-1 D^T ill-conditioned in 7 evaluations" in verdict.warnings[0]
+
+
+def test_a_second_run_that_agrees_settles_it(four_bar):
+    settings, plan, compiled, outcome = outcome_of(four_bar, "lagrange", **PASSAGE)
+    verdict = judge(replace(settings, verify=True), plan, compiled, outcome)
+    assert verdict.status == "ok" and verdict.reason is None
+    assert "verified: a rerun with step = 0.0009 s agrees within" in verdict.notes[0]
+
+
+def test_a_second_run_that_differs_does_not(four_bar):
+    settings, plan, compiled, outcome = outcome_of(four_bar, **PASSAGE)
+    wrong = replace(outcome, states=outcome.states + 1e-3)
+    verdict = judge(replace(settings, verify=True), plan, compiled, wrong)
+    assert verdict.status == "unverified"
+    assert "a rerun with step = 0.0009 s differs by 0.001 in a coordinate" in verdict.reason
+
+
+def test_nothing_to_verify_is_said(four_bar):
+    result = four_bar.simulate(until=0.05, verify=True)
+    assert result.ok and "nothing to verify" in result.notes[0]
+
+
+def test_uncorrected_runs_through_singular_positions_never_end_ok():
+    model = symgen.load("n-four-bar:1")
+    for method in ("lagrange", "baumgarte"):
+        for step in (0.95e-3, 1e-3, 1.05e-3):
+            result = model.simulate(method=method, step=step, until=4.0)
+            assert result.status in ("failed", "unverified"), (method, step)
+            assert result.reason and result.warnings
+
+
+def test_a_corrected_run_through_singular_positions_warns():
+    result = symgen.simulate("n-four-bar:1", until=4.0)
+    assert result.status == "ok"
+    assert result.rank_event_count == len(result.rank_events) > 0
+    assert any("passed near a singular position" in w for w in result.warnings)
+
+
+def test_a_failure_has_reason_and_time():
+    result = symgen.simulate("four-bar", method="lagrange", step=0.2, until=10.0)
+    assert result.status == "failed"
+    assert " at t = " in result.reason
+    assert len(result.t) and np.all(np.isfinite(result.q.values[0]))
+
+
+# -- interruption ------------------------------------------------------------------------------------------------------
+
+
+def test_an_interrupted_run_keeps_what_was_computed():
+    def progress(reached):
+        raise KeyboardInterrupt
+
+    result = symgen.load("four-bar").simulate(until=50_000.0, output_step=1.0, progress=progress)
+    assert result.interrupted and result.status == "failed" and result.reason == "interrupted"
+    assert 0 < len(result.t) < 50_001
+    assert result.reactions.values.shape[0] == len(result.t)
+    assert result.to_json()["final"]["t"] == result.t[-1]
+
+
+# -- redundant constraints ---------------------------------------------------------------------------------------------
+
+PARALLELOGRAM = """
+[mechanism]
+name = "three-cranks"
+gravity = [0.0, -9.81]
+[bodies.table]
+mass = 3.0
+inertia = 1.0
+position = [1.0, 1.0]
+angle = 0.0
+velocity = [0.0, 0.0]
+"""
+
+
+def parallelogram():
+    """A table on three parallel cranks: one row too many, but only where the mechanism is closed."""
+    text = PARALLELOGRAM
+    for i in range(3):
+        text += f"""
+[bodies.crank{i}]
+mass = 1.0
+inertia = 0.1
+points = {{ foot = [-0.5, 0.0], head = [0.5, 0.0] }}
+position = [{i}.3, 0.5]
+angle = "pi/2 - 0.3"
+[joints.foot{i}]
+type = "revolute"
+between = ["ground", "crank{i}"]
+at = [[{i}.0, 0.0], "foot"]
+[joints.head{i}]
+type = "revolute"
+between = ["crank{i}", "table"]
+at = ["head", [{i - 1}.0, 0.0]]
+"""
+    return text
+
+
+def test_redundant_constraints_give_multipliers_of_minimum_norm(tmp_path):
+    path = tmp_path / "cranks.toml"
+    path.write_text(parallelogram())
+    result = symgen.simulate(path, until=0.3, output_step=0.1)
+    assert result.ok, result.reason
+    assert result.rank.rows == 12 and result.rank.rank == 11
+    assert any("1 constraint row depends on the others" in note for note in result.notes)
+    assert any("reactions are not unique at" in note for note in result.notes)
+    assert set(result.non_unique_reactions) == {f"{end}{i}" for end in ("foot", "head") for i in range(3)}
+    # the table's own balance holds whatever the split: weight and inertia are carried by the three heads
+    r = result.reactions
+    total = sum(r[f"head{i}.Fy"] for i in range(3))
+    assert np.allclose(3.0 * result["table.ay"], -total - 3.0 * 9.81, atol=1e-8)
+    raw = result.outcome.multipliers
+    assert np.all(np.linalg.norm(result.lam.values, axis=1) <= np.linalg.norm(raw, axis=1) * (1 + 1e-12))
+    assert result.to_json()["final"]["lam"] == pytest.approx(result.lam.row(), abs=1e-9)
+
+
+def test_repeated_rows_make_reactions_not_unique(tmp_path):
+    path = tmp_path / "twice.toml"
+    joint = '[joints.{}]\ntype = "revolute"\nbetween = ["ground", "rod"]\nat = [[0.0, 0.0], [-0.5, 0.0]]\n'
+    body = '[bodies.rod]\nmass = 1.0\ninertia = 0.1\nposition = [0.5, 0.0]\n'
+    path.write_text('[mechanism]\nname = "twice"\n' + body + joint.format("a") + joint.format("b"))
+    result = symgen.simulate(path, until=0.01)
+    assert result.rank.identical_rows_dropped == 2
+    assert result.non_unique_reactions == ("a", "b")

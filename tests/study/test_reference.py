@@ -1,0 +1,133 @@
+"""References are checked against each other and against published values."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import SimulationError
+from symgen.study.independent import IndependentEquations
+from symgen.study.points import Points, own_length
+from symgen.study.reference import CLOSED, integrated, reference
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+def start_of(model, parameters=None):
+    compiled = model.compile()
+    start = model.assemble(compiled, parameters)
+    nq = compiled.info.nq
+    return start.y[:nq], start.y[nq:-1]
+
+
+def both(name, times, parameters=None):
+    """The registered reference, and the general route."""
+    model = symgen.load(name)
+    values = model.parameters(parameters)
+    arguments = model.mechanism, values, *start_of(model, parameters), times
+    return reference(*arguments), integrated(*arguments), Points.of(model.mechanism, values)
+
+
+@pytest.mark.parametrize(
+    ("name", "until", "parameters"),
+    [
+        ("pendulum", 5.0, None),
+        ("driven-four-bar", 1.5, None),
+        ("driven-four-bar", 1.0, {"crank_start": 2.0, "crank_speed": -3.0}),
+        # up to its first singular position, behind which only the equation of the regular branch leads on
+        ("n-four-bar:1", 0.6, None),
+        ("n-four-bar:3", 0.6, None),
+    ],
+)
+def test_formulas_agree_with_the_general_route(name, until, parameters):
+    closed, general, points = both(name, np.linspace(0.0, until, 31), parameters)
+    assert closed.how != general.how
+    distance = points.distance(closed.q, general.q)
+    assert distance < 1e-11
+    assert distance < 10.0 * (closed.estimated_error + general.estimated_error)
+
+
+def test_the_pendulum_is_periodic_for_ever():
+    from scipy.special import ellipk
+
+    period = 4.0 * ellipk(0.5) / np.sqrt(9.81)
+    _, _, q = CLOSED["pendulum"](None, {}, np.array([-1.0, 0.0]), np.array([0.0, period / 2, 1000 * period]))
+    assert np.allclose(q, [[-1.0, 0.0], [1.0, 0.0], [-1.0, 0.0]], atol=1e-11)
+
+
+def test_andrews_meets_the_published_values():
+    """Angles of K1, K3, K5, K7 are beta, gamma, delta, epsilon; 9 digits or more of the test set's."""
+    published = json.loads((DATA / "andrews_ivp.json").read_text())
+    end = dict(zip(published["coordinates"], published["end"], strict=False))
+    model = symgen.load("andrews")
+    found = integrated(model.mechanism, model.parameters(), *start_of(model), np.array([0.0, 0.03]))
+    theta = {b.name: found.q[-1, 3 * i + 2] for i, b in enumerate(model.mechanism.bodies)}
+    assert theta["K1"] == pytest.approx(end["beta"], rel=1e-11)
+    assert theta["K2"] - theta["K1"] == pytest.approx(end["theta"], rel=1e-11)
+    assert theta["K3"] == pytest.approx(end["gamma"], rel=1e-9)
+    assert theta["K5"] == pytest.approx(end["delta"], rel=1e-9)
+    assert theta["K7"] == pytest.approx(end["epsilon"], rel=1e-9)
+
+
+def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
+    path = tmp_path / "pendulum.toml"
+    path.write_text(
+        '[mechanism]\nname = "pendulum"\ngravity = [0.0, -1.0]\n'
+        '[bodies.bob]\ntype = "point"\nmass = 1.0\nposition = [2.0, 0.0]\nvelocity = [0.0, 0.0]\n'
+        '[joints.link]\ntype = "distance"\nbetween = ["ground", "bob"]\nat = [[0.0, 0.0], "centre"]\nlength = 2.0\n'
+    )
+    model = symgen.load(path)
+    found = reference(model.mechanism, {}, *start_of(model), np.linspace(0.0, 1.0, 5))
+    assert "independently derived" in found.how
+    energy = found.q[:, 1] * 1.0
+    assert energy[-1] < -0.4
+
+
+def test_a_singular_position_is_not_passed_silently():
+    model = symgen.load("n-four-bar:1")
+    times = np.linspace(0.0, 10.0, 21)
+    try:
+        found = integrated(model.mechanism, {}, *start_of(model), times)
+    except SimulationError as error:
+        assert "cannot be integrated beyond t = " in str(error)
+    else:
+        assert found.estimated_error > 1e-9
+
+
+def test_redundant_rows_do_no_harm():
+    """Two rows more than needed change nothing: the same crank pinned twice."""
+    joint = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], [-0.5, 0.0]]}
+    from symgen.describe.validate import validate
+
+    raw = {
+        "mechanism": {"name": "rod", "gravity": [0.0, -9.81]},
+        "bodies": {"rod": {"mass": 1.0, "inertia": 0.1, "position": [0.5, 0.0]}},
+        "joints": {"a": joint},
+    }
+    one = IndependentEquations(validate(raw, "test"), {})
+    two = IndependentEquations(validate({**raw, "joints": {"a": joint, "b": joint}}, "test"), {})
+    y = np.array([0.5, 0.0, 0.0, 0.0, 0.5, 1.0])
+    assert np.allclose(one.rate(0.0, y), two.rate(0.0, y), atol=1e-12)
+    assert one.rate(0.0, y)[5] == pytest.approx(-0.5 * 9.81 / (0.1 + 0.25))
+
+
+def test_own_lengths():
+    bodies = {b.name: own_length(b, symgen.load("slider-crank").parameters()) for b in
+              symgen.load("slider-crank").mechanism.bodies}
+    assert bodies["crank"] == pytest.approx(0.075)
+    assert bodies["slider"] == pytest.approx(np.sqrt(5e-4 / 0.6))
+    assert own_length(symgen.load("pendulum").mechanism.body("bob"), {"bob_mass": 1.0}) == 0.0
+
+
+def test_distances_count_the_far_end():
+    model = symgen.load("four-bar")
+    points = Points.of(model.mechanism, model.parameters())
+    a = np.zeros((1, 9))
+    b = a.copy()
+    b[0, 5] = 1e-3
+    assert points.distance(a, b) == pytest.approx(4e-3, rel=1e-6)
+    assert points.distance(a, a) == 0.0
+    b[0, 5] = 2.0 * np.pi
+    assert points.distance(a, b) < 1e-14

@@ -1,0 +1,22 @@
+"""How often random tests try, and how numbers are compared."""
+
+import os
+
+import numpy as np
+from hypothesis import HealthCheck, Phase, settings
+
+#: Random inputs are drawn anew by every run; a failure prints the case. SYMGEN_EXAMPLES asks for more of them.
+RANDOM = settings(
+    max_examples=int(os.environ.get("SYMGEN_EXAMPLES", "12")),
+    deadline=None,
+    database=None,
+    phases=[Phase.explicit, Phase.generate, Phase.shrink],
+    suppress_health_check=list(HealthCheck),
+)
+
+
+def close(found, expected, what: str, tolerance: float = 2e-11) -> None:
+    """Compare numbers up to rounding on the scale of the largest expected one, at least 1."""
+    expected = np.asarray(expected, dtype=float)
+    scale = max(1.0, float(np.abs(expected).max(initial=0.0)))
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=tolerance * scale, err_msg=what)

@@ -1,0 +1,123 @@
+"""Fixed descriptions: mechanisms that hold every joint and force kind, and small ones for single questions."""
+
+#: Every joint kind but the weld and every force kind, all rows independent, everything smooth: SymPy can take it.
+EVERYTHING = {
+    "mechanism": {"name": "everything", "gravity": ["0.3*k1", -9.81]},
+    "parameters": {"k1": 1.7, "k2": -0.6, "m1": {"value": 2.5, "unit": "kg"}},
+    "bodies": {
+        "arm": {
+            "mass": "m1",
+            "inertia": "m1*0.3",
+            "centre_of_mass": [0.2, "k2/3"],
+            "points": {"A": [-0.5, 0.0], "B": [1.0, 0.2]},
+        },
+        "rod": {"mass": 1.2, "inertia": 0.4, "points": {"B": [-0.7, 0.1], "C": [0.8, 0.0]}},
+        "slide": {"mass": "k1", "inertia": 0.2, "centre_of_mass": [0.1, 0.0]},
+        "disc": {"mass": 0.9, "inertia": 0.15, "centre_of_mass": [0.05, -0.02]},
+        "plate": {"mass": 3.0, "inertia": 1.1, "centre_of_mass": [0.0, 0.3]},
+        "wheel": {"mass": 0.7, "inertia": 0.05},
+        "skate": {"mass": 1.4, "inertia": 0.3, "centre_of_mass": [-0.2, 0.1]},
+        "dot": {"type": "point", "mass": 0.6},
+    },
+    "joints": {
+        "pin": {"type": "revolute", "between": ["ground", "arm"], "at": [[0.1, "k2"], "A"]},
+        "knee": {"type": "revolute", "between": ["arm", "rod"], "at": ["B", "B"]},
+        "slot": {"type": "pin-in-slot", "between": ["rod", "plate"], "at": ["C", [0.3, 0.1]], "axis": [1.0, 0.4]},
+        "rail": {
+            "type": "prismatic",
+            "between": ["plate", "slide"],
+            "at": [[0.2, 0.5], "centre"],
+            "axis": ["k1", 1.0],
+            "angle": 0.2,
+        },
+        "push": {"type": "driver", "joint": "rail", "value": "0.3*sin(k1*t) + 0.1*t**2"},
+        "roll": {
+            "type": "rolling",
+            "between": ["disc", "plate"],
+            "radius": "0.2*k1",
+            "axis": [1.0, 0.1],
+            "on": [0.0, 0.9],
+            "centre": [0.0, 0.0],
+            "offset": 0.4,
+        },
+        "mesh": {
+            "type": "gear",
+            "between": ["disc", "wheel"],
+            "carrier": "arm",
+            "radii": [0.3, "k1/4"],
+            "mesh": "external",
+            "offset": 0.1,
+        },
+        "hub": {"type": "revolute", "between": ["wheel", "rod"], "at": ["centre", [0.1, -0.3]]},
+        "blade": {"type": "knife-edge", "body": "skate", "at": [0.4, 0.1], "axis": [1.0, -0.3]},
+        "link": {"type": "distance", "between": ["dot", "skate"], "at": ["centre", [0.2, 0.2]], "length": "k1/2"},
+    },
+    "forces": {
+        "wind": {
+            "type": "force",
+            "body": "skate",
+            "at": [0.1, 0.3],
+            "force": ["2*sin(t)", "k1*skate.vx - 0.2*t"],
+            "frame": "body",
+        },
+        "field": {"type": "force", "body": "dot", "potential": ["0.5*k1*x**2", "cos(y)"]},
+        "strut": {
+            "type": "spring-damper",
+            "between": ["skate", "plate"],
+            "at": [[0.0, 0.1], [0.5, 0.5]],
+            "stiffness": 40.0,
+            "damping": "k1",
+            "free_length": 0.7,
+            "actuator": "0.3*length*cos(t) - rate**2",
+            "potential": "0.2*length**3",
+        },
+        "twist": {
+            "type": "torsional-spring-damper",
+            "between": ["arm", "rod"],
+            "stiffness": "3*k1",
+            "damping": 0.4,
+            "free_angle": 0.2,
+            "actuator": "0.1*t*angle",
+        },
+        "motor": {
+            "type": "torque",
+            "body": "disc",
+            "reaction": "plate",
+            "torque": "1.5 - 0.2*rate",
+            "potential": "0.1*angle**2",
+        },
+    },
+}
+
+#: A weld, and formulas that are not smooth: tables, conditions, minima.
+ROUGH = {
+    "mechanism": {"name": "rough", "gravity": [0.0, -9.81]},
+    "parameters": {"k1": 1.7},
+    "tables": {"curve": {"x": [-1.0, 0.0, 0.5, 2.0], "y": [0.3, -1.0, 2.0, 0.4]}},
+    "bodies": {
+        "a": {"mass": 1.1, "inertia": 0.3, "points": {"P": [0.3, 0.1]}},
+        "b": {"mass": 0.8, "inertia": 0.2, "centre_of_mass": [0.1, 0.2]},
+        "c": {"mass": 0.5, "inertia": 0.1},
+    },
+    "joints": {
+        "weld": {"type": "rigid", "between": ["a", "b"], "at": ["P", [0.2, -0.4]], "angle": "k1/3"},
+        "hinge": {"type": "revolute", "between": ["ground", "a"], "at": [[0.0, 0.0], "centre"]},
+        "turn": {"type": "driver", "body": "c", "coordinate": "theta", "value": "k1*t"},
+        "gear": {"type": "gear", "between": ["b", "c"], "ratio": 2.0, "mesh": "internal"},
+    },
+    "forces": {
+        "table": {"type": "torque", "body": "b", "torque": "curve(a.theta)*curve(5*rate)"},
+        "guarded": {"type": "torque", "body": "c", "torque": "1.0 if c.x <= 0 else sqrt(c.x)"},
+        "steps": {
+            "type": "force",
+            "body": "c",
+            "force": ["piecewise(t < 0.5, 1, t < 1, -k1, 0)", "min(c.x, 0.2, max(c.y, -1))"],
+        },
+        "signs": {
+            "type": "torque",
+            "body": "a",
+            "reaction": "c",
+            "torque": "abs(rate)*sign(angle) - (1 if rate > 0.1 or not angle > 0 else 0)",
+        },
+    },
+}

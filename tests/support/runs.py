@@ -1,0 +1,27 @@
+"""Short runs for tests: an outcome with everything that the loop left behind."""
+
+import numpy as np
+
+from symgen.api import Model, Settings, make_plan
+from symgen.runtime.run import Outcome, integrate
+
+
+def run(model: Model, **settings) -> Outcome:
+    """The outcome of a run, not judged."""
+    chosen = Settings(**settings)
+    plan = make_plan(model, chosen)
+    compiled = model.compile(plan.choice.method.name, plan.choice.options)
+    start = model.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
+    return integrate(compiled, plan.tableau, start, plan.spec)
+
+
+def positions(outcome: Outcome) -> np.ndarray:
+    """q at the outputs."""
+    return outcome.states[:, : outcome.compiled.info.nq]
+
+
+def fixed(integrator: str) -> dict:
+    """Settings for constant steps with an integrator that could adapt."""
+    return {"integrator": integrator} | (
+        {} if integrator == "rk4" else {"options": {f"{integrator}.adaptive": "false"}}
+    )
