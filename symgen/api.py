@@ -15,12 +15,13 @@ from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
 from symgen.pipeline import MethodChoice, choose_method, compile_model
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.run import Array, RunSpec
 
 if TYPE_CHECKING:
-    from symgen.integrators._tableau import Tableau
+    from symgen.integrators._base import Integrator
     from symgen.model import CompiledModel
     from symgen.result.result import Result
     from symgen.vocabulary.expressions import Expr
@@ -47,7 +48,7 @@ class Settings:
     """Everything that shapes a run beside the model; see `Model.simulate` for the meaning."""
 
     method: str = "direct-correction"
-    integrator: str = "rk4"
+    integrator: str | None = None  # None: the method's default
     step: float | None = None
     rtol: float | None = None
     atol: float | None = None
@@ -221,7 +222,7 @@ class Plan:
     """Settings resolved: method, integrator and what the loop gets."""
 
     choice: MethodChoice
-    tableau: Tableau
+    tableau: Integrator
     method_parameters: Mapping[str, float]
     spec: RunSpec
     warnings: tuple[str, ...]
@@ -235,7 +236,16 @@ def make_plan(model: Model, s: Settings) -> Plan:
     InputError
         If a name, option or number is wrong.
     """
-    tableau = INTEGRATORS.get(s.integrator, "--integrator")
+    method = METHODS.get(s.method, "--method")
+    tableau = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
+    if not set(method.forms) & set(tableau.forms):
+        fits = [n for n, i in INTEGRATORS.items() if set(i.forms) & set(method.forms)]
+        raise InputError(
+            f"integrator '{tableau.name}'",
+            f"one that solves the form of {method.name} ({', '.join(method.forms)})",
+            f"one for {', '.join(tableau.forms)}",
+            "these do: " + ", ".join(fits),
+        )
     choice, method_parameters, integrator_options = split_options(s, tableau)
     adaptive = tableau.adaptive and integrator_options.get("adaptive", "true") == "true"
     defaults = model.mechanism.defaults
@@ -249,7 +259,7 @@ def make_plan(model: Model, s: Settings) -> Plan:
     atol = _positive("atol", ATOL if s.atol is None else s.atol)
     if not isinstance(s.repeat, int) or not 1 <= s.repeat <= 1000:
         raise InputError("repeat", "a whole number from 1 to 1000", f"{s.repeat}")
-    method, warnings = choice.method, list[str]()
+    warnings = list[str]()
     limit = method.largest_step(
         {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, tableau.real_boundary
     )
@@ -271,7 +281,7 @@ def make_plan(model: Model, s: Settings) -> Plan:
     return Plan(choice, tableau, method_parameters, spec, tuple(warnings))
 
 
-def split_options(s: Settings, tableau: Tableau) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:
+def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:
     """Return the method with structural options, its numeric parameters, and the integrator's options.
 
     Keys are ``method.NAME`` or the method's own name, ``integrator.NAME`` or the integrator's own name.
@@ -301,7 +311,7 @@ def split_options(s: Settings, tableau: Tableau) -> tuple[MethodChoice, dict[str
             raise InputError(
                 f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
             )
-    return choose_method(s.method, structural), parameters, integrator
+    return choose_method(s.method, structural, "ode" not in tableau.forms), parameters, integrator
 
 
 def _output_times(s: Settings, default: float | None, until: float, step: float | None, adaptive: bool) -> Array:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 @click.command("run", short_help="Simulate a mechanism.")
 @click.argument("model")
 @click.option("--method", default="direct-correction", show_default=True, help="Constraint stabilisation method.")
-@click.option("--integrator", default="rk4", show_default=True, help="Integrator.")
+@click.option("--integrator", default=None, help="Integrator; by default the method's own.")
 @click.option("--step", type=float, help="Step [s]: constant, or the first one of an adaptive integrator.")
 @click.option("--rtol", type=float, help="Relative tolerance of an adaptive integrator.")
 @click.option("--atol", type=float, help="Absolute tolerance of an adaptive integrator.")

@@ -7,6 +7,6 @@ from typing import TYPE_CHECKING
 from symgen.registry import Registry
 
 if TYPE_CHECKING:
-    from symgen.integrators._tableau import Tableau
+    from symgen.integrators._base import Integrator
 
-INTEGRATORS: Registry[Tableau] = Registry("symgen.integrators", "integrator")
+INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator")

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from symgen.integrators._base import Array, LoopCall, State
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+    from symgen.runtime.run import RunSpec
 
 
 @dataclass(frozen=True)
@@ -70,3 +74,22 @@ class ImplicitTableau:
     def together(self) -> bool:
         """Whether all stages have to be solved together."""
         return bool(np.any(np.triu(self.a, 1) != 0.0))
+
+    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
+        """Return the loop for a run and its arguments."""
+        from symgen.runtime.implicit import implicit_steps
+
+        law, info, s = compiled.law_module, compiled.info, self.stages
+        n, width, ny = compiled.law.unknowns, info.nq + info.nv, info.ny
+        size = s * n if self.together else n
+        room = np.zeros(2 * ny + n + s * n + 2 * size + s + n * n + n * width + size * size + size)
+        step = spec.step if spec.step is not None else 1e-4 * spec.until
+        before = (
+            *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
+            *(np.ascontiguousarray(self.a).ravel(), self.b, self.c, s, int(self.together)),
+            *(np.zeros(s + 1) if self.errors is None else self.errors, self.filter_factor, self.error_order),
+            *(info.nq, info.nv, info.m, n, info.sections["multipliers"][0]),
+            *(state.y, state.p, state.w, state.iw, int(spec.adaptive), 0.0, step),
+            *(spec.largest_step, spec.until, spec.rtol, spec.atol),
+        )
+        return LoopCall(implicit_steps, before, (room, np.zeros(size, dtype=np.int64)))

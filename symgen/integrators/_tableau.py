@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from symgen.integrators._base import Array, LoopCall, State
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+    from symgen.runtime.run import RunSpec
 
 
 @dataclass(frozen=True)
@@ -20,6 +25,8 @@ class Tableau:
         Name as typed, and the source of the coefficients.
     order : int
         Order of the propagated solution.
+    forms : tuple of str
+        Problem forms it solves.
     a : Array, shape (s, s)
         Strictly lower triangular.
     b, c : Array, shape (s,)
@@ -43,6 +50,7 @@ class Tableau:
     b: Array
     c: Array
     real_boundary: float
+    forms: tuple[str, ...] = ("ode",)
     errors: tuple[Array, ...] = ()
     error_order: int = 0
     extra_a: Array = field(default_factory=lambda: np.zeros((0, 0)))
@@ -90,3 +98,23 @@ class Tableau:
             start.append(len(column))
         nodes = np.concatenate([self.c, [1.0], self.extra_c])
         return np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value), nodes
+
+    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
+        """Return the loop for a run and its arguments."""
+        law = compiled.law_module
+        confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
+        y, p, w, iw = state.y, state.p, state.w, state.iw
+        common = (law.rhs, confirm, law.accept, *self.packed(), self.stages, compiled.info.nq)
+        room = np.zeros((self.stages + 3 + len(self.extra_c)) * len(y))  # all stages, and two states
+        if not spec.adaptive:
+            from symgen.runtime.explicit import fixed_steps
+
+            assert spec.step is not None, "a constant step is given"
+            return LoopCall(fixed_steps, (*common, y, p, w, iw, 0.0, spec.step, spec.until), (room,))
+        from symgen.runtime.explicit import adaptive_steps
+
+        assert self.dense is not None, "every adaptive tableau has dense output"
+        pair = (np.concatenate(self.errors), len(self.errors), self.error_order)
+        control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
+        dense = np.ascontiguousarray(self.dense).ravel()
+        return LoopCall(adaptive_steps, (*common, *pair, dense, y, p, w, iw, *control), (room,))

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.integrators._base import State
 from symgen.ir.program import COUNTERS
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
-    from symgen.integrators._tableau import Tableau
+    from symgen.integrators._base import Integrator, LoopCall
     from symgen.model import CompiledModel
 
 Array = NDArray[np.float64]
@@ -152,7 +153,7 @@ class Outcome:
 
 def integrate(
     compiled: CompiledModel,
-    tableau: Tableau,
+    integrator: Integrator,
     start: Start,
     spec: RunSpec,
     progress: Callable[[float], None] | None = None,
@@ -163,8 +164,8 @@ def integrate(
     ----------
     compiled : CompiledModel
         Model and method.
-    tableau : Tableau
-        The integrator.
+    integrator : Integrator
+        The scheme and its loop.
     start : Start
         From `symgen.runtime.assembly.assemble`; not changed.
     spec : RunSpec
@@ -181,11 +182,10 @@ def integrate(
     w, iw, gauges, control, events = _arrays(compiled, start, spec)
     y, p = start.y.copy(), start.p.copy()
     outputs = spec.times, np.empty((len(spec.times), len(y))), np.empty((len(spec.times), abi.RANK + 1))
-    loop, arguments = _loop(compiled, tableau, spec, y, p, w, iw)
+    call = integrator.call(compiled, spec, State(y, p, w, iw))
     watched = gauges, control, events
-    room = np.zeros((tableau.stages + 3 + len(tableau.extra_c)) * len(y))  # all stages, and two states
-    _warm(loop, arguments, outputs, (*watched, room))
-    code, seconds, interrupted = _in_thread(loop, (*arguments, *outputs, *watched, room), gauges, control, progress)
+    _warm(call, outputs, watched)
+    code, seconds, interrupted = _in_thread(call, (*outputs, *watched), gauges, control, progress)
 
     k = int(control[abi.OUTPUTS])
     after = cache_stats()
@@ -224,31 +224,6 @@ def integrate(
     )
 
 
-def _loop(
-    compiled: CompiledModel, tableau: Tableau, spec: RunSpec, y: Array, p: Array, w: Array, iw: Any
-) -> tuple[Any, tuple[Any, ...]]:
-    """Return the loop for a run and its arguments up to the outputs."""
-    law = compiled.law_module
-    confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
-    common = (law.rhs, confirm, law.accept, *tableau.packed(), tableau.stages, compiled.info.nq)
-    if not spec.adaptive:
-        from symgen.runtime.explicit import fixed_steps
-
-        assert spec.step is not None, "a constant step is given"
-        return fixed_steps, (*common, y, p, w, iw, 0.0, spec.step, spec.until)
-    from symgen.runtime.explicit import adaptive_steps
-
-    assert tableau.dense is not None, "every adaptive tableau has dense output"
-    pair = (
-        np.concatenate(tableau.errors),
-        len(tableau.errors),
-        tableau.error_order,
-        np.ascontiguousarray(tableau.dense).ravel(),
-    )
-    control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
-    return adaptive_steps, (*common, *pair, y, p, w, iw, *control)
-
-
 def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array, Any, Array, Any, Array]:
     w = start.w.copy()
     iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
@@ -262,16 +237,18 @@ def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array
     return w, iw, gauges, control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)
 
 
-def _warm(loop: Any, arguments: tuple[Any, ...], outputs: tuple[Array, ...], watched: tuple[Any, ...]) -> None:
+def _warm(call: LoopCall, outputs: tuple[Array, ...], watched: tuple[Any, ...]) -> None:
     """Compile everything by a run that is told to stop before its first step, so that the clock sees the loop alone."""
-    gauges, control, events, room = (a.copy() for a in watched)
+    gauges, control, events = (a.copy() for a in watched)
     control[abi.STOP] = 1
-    fresh = (a.copy() if isinstance(a, np.ndarray) else a for a in arguments)
-    loop(*fresh, *(a[:0] for a in outputs), gauges, control, events, room)
+    before, after = (
+        tuple(a.copy() if isinstance(a, np.ndarray) else a for a in part) for part in (call.before, call.after)
+    )
+    call.loop(*before, *(a[:0] for a in outputs), gauges, control, events, *after)
 
 
 def _in_thread(
-    loop: Any, arguments: tuple[Any, ...], gauges: Array, control: Any, progress: Callable[[float], None] | None
+    call: LoopCall, watched: tuple[Any, ...], gauges: Array, control: Any, progress: Callable[[float], None] | None
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
@@ -283,7 +260,7 @@ def _in_thread(
     def work() -> None:
         began = time.perf_counter()
         try:
-            code = loop(*arguments)
+            code = call.loop(*call.before, *watched, *call.after)
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)

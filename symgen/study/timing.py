@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from symgen.runtime.run import integrate
 
 if TYPE_CHECKING:
-    from symgen.integrators._tableau import Tableau
+    from symgen.integrators._base import Integrator
     from symgen.model import CompiledModel
     from symgen.runtime.assembly import Start
     from symgen.runtime.run import Outcome, RunSpec
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def repeated(
     compiled: CompiledModel,
-    tableau: Tableau,
+    tableau: Integrator,
     start: Start,
     spec: RunSpec,
     repeat: int,
