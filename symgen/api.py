@@ -277,6 +277,9 @@ def make_plan(model: Model, s: Settings) -> Plan:
         largest_step=np.inf if limit is None else limit,
         max_violation=_positive("max_violation", s.max_violation),
         max_energy_error=_positive("max_energy_error", s.max_energy_error),
+        integrator_parameters={
+            q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
+        },
     )
     return Plan(choice, tableau, method_parameters, spec, tuple(warnings))
 
@@ -301,17 +304,29 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
             else:
                 structural[name] = str(value)
         elif owner in ("integrator", tableau.name):
-            allowed = ("true", "false") if tableau.adaptive and name == "adaptive" else ()
-            if str(value).lower() not in allowed:
-                known = "adaptive=true or adaptive=false" if tableau.adaptive else "no options"
-                raise InputError(f"option {key}", f"{known} for {tableau.name}", f"'{name}={value}'")
-            integrator[name] = str(value).lower()
+            integrator[name] = _integrator_option(key, name, value, tableau)
         else:
             known_owners = ("method", base.name, "integrator", tableau.name)
             raise InputError(
                 f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
             )
     return choose_method(s.method, structural, "ode" not in tableau.forms), parameters, integrator
+
+
+def _integrator_option(key: str, name: str, value: str | float, integrator: Integrator) -> str:
+    """Return the checked text of an integrator's option: a switch or a number."""
+    numeric = {q.name: q for q in integrator.parameters}
+    if name in numeric:
+        q, number = numeric[name], _number(key, value)
+        if not q.minimum <= number <= q.maximum:
+            raise InputError(f"option {key}", f"from {q.minimum:g} to {q.maximum:g}", f"{value}")
+        return repr(number)
+    if integrator.adaptive and name == "adaptive" and str(value).lower() in ("true", "false"):
+        return str(value).lower()
+    known = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
+    raise InputError(
+        f"option {key}", f"an option of {integrator.name}", f"'{name}={value}'", nearest(name, known) if known else "it has none"
+    )
 
 
 def _output_times(s: Settings, default: float | None, until: float, step: float | None, adaptive: bool) -> Array:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.integrators._base import LoopCall, State
+from symgen.integrators._base import IntegratorParameter, LoopCall, State
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -36,6 +36,7 @@ class Adams:
     adaptive: bool
     real_boundary: float
     forms: tuple[str, ...] = ("ode",)
+    parameters: tuple[IntegratorParameter, ...] = ()
 
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""

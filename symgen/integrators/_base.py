@@ -16,6 +16,17 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
+class IntegratorParameter:
+    """A number that an integrator takes; values outside [minimum, maximum] are refused."""
+
+    name: str
+    default: float
+    note: str
+    minimum: float
+    maximum: float
+
+
+@dataclass(frozen=True)
 class State:
     """The arrays a loop works on: state, parameters, scratch and integers."""
 
@@ -60,6 +71,10 @@ class Integrator(Protocol):
     @property
     def adaptive(self) -> bool:
         """Whether it estimates its error and chooses its steps."""
+
+    @property
+    def parameters(self) -> tuple[IntegratorParameter, ...]:
+        """Numbers that shape the scheme."""
 
     @property
     def real_boundary(self) -> float:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.integrators._base import Array, LoopCall, State
+from symgen.integrators._base import Array, IntegratorParameter, LoopCall, State
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -50,6 +50,7 @@ class ImplicitTableau:
     filter_factor: float = 0.0
     index2_order: int = 0
     real_boundary: float = np.inf
+    parameters: tuple[IntegratorParameter, ...] = ()
 
     def __post_init__(self) -> None:
         s = self.stages

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.integrators._base import Array, LoopCall, State
+from symgen.integrators._base import Array, IntegratorParameter, LoopCall, State
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -51,6 +51,7 @@ class Tableau:
     c: Array
     real_boundary: float
     forms: tuple[str, ...] = ("ode",)
+    parameters: tuple[IntegratorParameter, ...] = ()
     errors: tuple[Array, ...] = ()
     error_order: int = 0
     extra_a: Array = field(default_factory=lambda: np.zeros((0, 0)))

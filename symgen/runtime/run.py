@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -50,6 +50,8 @@ class RunSpec:
         Largest |Phi| (times the largest coordinate) and |D v - nu| (times the largest speed) that is tolerated.
     max_energy_error : float
         Largest energy error that is tolerated, as a fraction of the energy in motion.
+    integrator_parameters : mapping
+        Values of the integrator's parameters that differ from the defaults.
     """
 
     until: float
@@ -61,6 +63,7 @@ class RunSpec:
     largest_step: float = np.inf
     max_violation: float = 1e-6
     max_energy_error: float = 0.05
+    integrator_parameters: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
