@@ -310,7 +310,7 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
             raise InputError(
                 f"option {key}", "method.NAME or integrator.NAME", f"'{key}'", nearest(owner, known_owners)
             )
-    return choose_method(s.method, structural, "ode" not in tableau.forms), parameters, integrator
+    return choose_method(s.method, structural, not {"ode", "one-step"} & set(tableau.forms)), parameters, integrator
 
 
 def _integrator_option(key: str, name: str, value: str | float, integrator: Integrator) -> str:

@@ -114,6 +114,7 @@ class LawInfo(msgspec.Struct, frozen=True):
     velocity_correction: bool
     nw: int
     unknowns: int
+    level: str
     operations: dict[str, int]
 
     @classmethod
@@ -130,6 +131,7 @@ class LawInfo(msgspec.Struct, frozen=True):
             velocity_correction=program.correction.velocity,
             nw=program.layout.nw,
             unknowns=program.unknowns,
+            level=program.level,
             operations={b.name: b.operations for b in program.blocks},
         )
 

@@ -50,7 +50,7 @@ class Tableau:
     b: Array
     c: Array
     real_boundary: float
-    forms: tuple[str, ...] = ("ode",)
+    forms: tuple[str, ...] = ("ode", "one-step")
     parameters: tuple[IntegratorParameter, ...] = ()
     errors: tuple[Array, ...] = ()
     error_order: int = 0

@@ -253,6 +253,19 @@ class Graph:
                 image[node] = self.rebuild(op, tuple(image[a] for a in args), payload)
         return [image[o] for o in outputs]
 
+    def replaced(self, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
+        """Return `outputs` with some inputs replaced by nodes of this graph."""
+        image: dict[int, int] = {}
+        for node in self.needed(outputs):
+            op, args, payload = self.nodes[node]
+            if op == "input" and payload in inputs:
+                image[node] = inputs[payload]  # type: ignore[index]  # an input's payload is its key
+            elif op in ("const", "input"):
+                image[node] = node
+            else:
+                image[node] = self.rebuild(op, tuple(image[a] for a in args), payload)
+        return [image[o] for o in outputs]
+
     def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
         """Return the operation `op` on `args`, simplified as if it had been built by its own method."""
         builder = _BUILDERS.get(op)

@@ -192,3 +192,4 @@ class LawProgram:
     options: Mapping[str, str] = field(default_factory=dict)
     degrees: int = 0  # room for columns of a tangent basis
     unknowns: int = 0  # of a stage in the descriptor form; 0 where it was not asked for
+    level: str = ""  # of the constraints in the descriptor form

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import overload
 
 from symgen.formulate.equations import Equations
+from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import STATUS, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
@@ -152,6 +153,7 @@ class System:
         self.gamma = Vector(g, tuple(r.gamma for r in e.rows))
         self.nu = Vector(g, tuple(r.nu for r in e.rows))
         self.phi = Vector(g, tuple(g.zero if r.phi is None else r.phi for r in e.rows))
+        self.q_rates = Vector(g, e.q_rates)
         self.v = Vector(g, tuple(g.input("v", i) for i in range(e.nv)))
         self.flags: list[int] = []
         self.kept: list[tuple[Target, int]] = []
@@ -377,6 +379,28 @@ class System:
     def variable(self, section: str, size: int) -> Vector:
         """Return a vector that the iteration changes, as it reads it."""
         return Vector(self.graph, tuple(self.graph.input(section, i) for i in range(size)))
+
+    def at_velocity(self, x: Vector, v: Vector) -> Vector:
+        """Return a vector with the velocities replaced by `v`."""
+        inputs = {("v", i): n for i, n in enumerate(v)}
+        return Vector(self.graph, tuple(self.graph.replaced(x.nodes, inputs)))
+
+    def constraint_rate_transposed(self, y: Vector, v: Vector) -> Vector:
+        """Return (dD/dt)^T y along the motion with velocities `v`."""
+        g, e = self.graph, self.equations
+        flat = [n for row in self.D.rows for _, n in row]
+        rates = self.at_velocity(Vector(g, e.q_rates), v)
+        keys = [("t", 0), *(("q", i) for i in range(e.nq))]
+        derivatives = iter(jacobian(g, flat, keys))
+        result = [g.zero] * e.nv
+        for row, factor in zip(self.D.rows, y, strict=True):
+            for j, _ in row:
+                rate = g.total(
+                    node if space == "t" else g.mul(node, rates.nodes[i])
+                    for (space, i), node in sorted(next(derivatives).items())
+                )
+                result[j] = g.add(result[j], g.mul(rate, factor))
+        return Vector(g, tuple(result))
 
     def zeros(self, size: int) -> Vector:
         """Return the zero vector."""

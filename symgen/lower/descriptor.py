@@ -5,7 +5,8 @@ Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also et
 - ``q' - N v + D^T eta``,
 - ``M v' + D^T lambda - f``,
 - the constraints at the level of the method: ``D v' - g - e lambda`` (acceleration), ``Phi`` (position, with ``D v - nu`` in
-  nonholonomic rows), or ``D v - nu`` and ``Phi`` together (stabilised).
+  nonholonomic rows), or ``D v - nu`` and ``Phi`` together (stabilised); ``Phi`` with the two other levels behind the
+  equations for projections (projected).
 
 The Jacobian with respect to k and to y = (q, v) is differentiated on the graph (`symgen.ir.derivative`).
 """
@@ -39,9 +40,10 @@ def descriptor_blocks(hoister: Hoister, system: System, descriptor: Descriptor) 
     """
     e, g = system.equations, system.graph
     rows, unknowns = _equations(system, descriptor)
+    more = _projected_rows(system, descriptor)
     power = g.sub(e.power, Vector(g, tuple(g.input("k", e.nq + e.nv + i) for i in range(e.m))).dot(system.nu).node)
     arguments = ("t", "y", "k", "p", "w", "r")
-    residual = [(Target("r", i), n) for i, n in enumerate(rows)]
+    residual = [(Target("r", i), n) for i, n in enumerate([*rows, *more])]
     residual.append((Target("status", STATUS.index("power")), power))
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
     width = e.nq + e.nv
@@ -72,7 +74,7 @@ def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
         kinematic = kinematic + _through_kinematic_map(e, system.D.transposed(eta))
         holonomic = [_select(r.phi, eta.nodes[i]) for i, r in enumerate(e.rows)]
         constraints = [*velocity, *holonomic]
-    elif descriptor.level == "position":
+    elif descriptor.level in ("position", "projected"):
         constraints = [_select(r.phi, velocity.nodes[i]) for i, r in enumerate(e.rows)]
     else:
         assert descriptor.target is not None, "an acceleration-level descriptor has a target"
@@ -81,6 +83,16 @@ def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
             rest = rest - descriptor.compliance * multipliers
         constraints = list(rest)
     return [*kinematic, *dynamic, *constraints], unknowns
+
+
+def _projected_rows(system: System, descriptor: Descriptor) -> list[int]:
+    """Return ``D v - nu`` and ``D v' - gamma`` where velocities and accelerations are projected, behind the equations."""
+    if descriptor.level != "projected":
+        return []
+    assert descriptor.target is not None, "a projected descriptor has gamma as its target"
+    e, g = system.equations, system.graph
+    accelerations = Vector(g, tuple(g.input("k", e.nq + i) for i in range(e.nv)))
+    return [*(system.D @ system.v - system.nu), *(system.D @ accelerations - descriptor.target)]
 
 
 def _select(phi: int | None, otherwise: int) -> int:

@@ -11,7 +11,7 @@ from symgen.lower.descriptor import descriptor_blocks
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.parts import Outputs, Stored, geometry_outputs, loaded_rows, pivot_outputs, spread, to_status, transposed_product
-from symgen.methods._base import Acceleration, Iteration, Method
+from symgen.methods._base import Acceleration, Iteration, Method, multiplier_law
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
@@ -55,12 +55,13 @@ def lower_law(
         builder.independent_metric()
     elif correction.metric == "augmented":
         builder.augmented_metric()
-    unknowns = 0
+    unknowns, level = 0, ""
     if implicit:
         descriptor = method.descriptor(builder.system, options)
         assert descriptor is not None, "the caller has checked that the method gives a form the integrator solves"
         blocks, unknowns = descriptor_blocks(builder.hoister, builder.system, descriptor)
         builder.blocks += blocks
+        level = descriptor.level
     return LawProgram(
         method=method.name,
         key=method.stem(options, implicit),
@@ -74,6 +75,7 @@ def lower_law(
         options=dict(options),
         degrees=builder.degrees,
         unknowns=unknowns,
+        level=level,
     )
 
 
@@ -107,9 +109,9 @@ class _Builder:
         outputs += [(Target("multipliers", i), n) for i, n in enumerate(law.multipliers)]
         self.blocks.append(self.hoister.block(name, purpose, outputs, _RHS, flag))
 
-    def _rates(self, acceleration: Vector, multipliers: Vector) -> Outputs:
+    def _rates(self, acceleration: Vector, multipliers: Vector, position: Vector | None = None) -> Outputs:
         e, g = self.equations, self.system.graph
-        outputs: Outputs = [(Target("ydot", i), n) for i, n in enumerate(e.q_rates)]
+        outputs: Outputs = [(Target("ydot", i), n) for i, n in enumerate(e.q_rates if position is None else position)]
         outputs += [(Target("ydot", e.nq + i), n) for i, n in enumerate(acceleration)]
         power = g.sub(e.power, multipliers.dot(self.system.nu).node)
         outputs.append((Target("ydot", e.nq + e.nv), power))
@@ -133,12 +135,21 @@ class _Builder:
             g.add(g.one, law.state[0].following.dot(law.state[0].following).node),
         )
         iterate.append(to_status("increment", g.call("sqrt", relative)))
-        final = [Vector(g, tuple(g.input(s.section, i) for i in range(len(s.start.nodes)))) for s in law.state]
+        final = [system.variable(s.section, len(s.start.nodes)) for s in law.state]
+        if law.rates is None:
+            finish = self._rates(final[0], final[1])
+        else:
+            finish = self._rates(law.rates.velocity, law.rates.multipliers, law.rates.position)
+            # what is integrated is not v: v' and lambda for results come from a law of their own
+            observed = multiplier_law(system, system.gamma)
+            outputs = self._rates(observed.acceleration, observed.multipliers)
+            outputs += [(Target("multipliers", i), n) for i, n in enumerate(observed.multipliers)]
+            self.blocks.append(self.hoister.block("rates", "q', v' and multipliers for results", outputs, _RHS))
         add = self.hoister.block
         self.blocks += [
             add("begin", "matrices and start of the iteration", begin, ("t", "y", "p", "w")),
             add("iterate", f"one iteration of {self.method.name}", iterate, ("p", "w")),
-            add("finish", "q', v' and power", self._rates(final[0], final[1]), ("t", "y", "p", "w", "ydot")),
+            add("finish", "rates of the state, and power", finish, ("t", "y", "p", "w", "ydot")),
         ]
 
     def tangent(self) -> None:

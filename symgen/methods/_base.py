@@ -64,11 +64,23 @@ class Iteration:
     state : tuple of IterationState
         What an iteration changes; the first one is v', the second the multipliers.
     increment : Vector
-        The change of v' in one iteration; it ends when this is small.
+        The change of the first one in an iteration; it ends when this is small.
+    rates : Rates, optional
+        The rates of the state where they are not v and v' as iterated.
     """
 
     state: tuple[IterationState, ...]
     increment: Vector
+    rates: Rates | None = None
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Rates of what is integrated in place of q and v, and the multipliers of v' for the power of drivers."""
+
+    position: Vector
+    velocity: Vector
+    multipliers: Vector
 
 
 @dataclass(frozen=True)
@@ -91,8 +103,9 @@ class Descriptor:
 
     Parameters
     ----------
-    level : {"acceleration", "position", "stabilised"}
-        ``D v' = g + e lambda``; ``Phi = 0``; or ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``.
+    level : {"acceleration", "position", "stabilised", "projected"}
+        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; or ``Phi = 0`` with
+        what projections to the other levels need.
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional

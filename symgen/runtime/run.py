@@ -137,8 +137,11 @@ class Outcome:
 
         info, law, k = self.compiled.info, self.compiled.law_module, len(self.times)
         accelerations, multipliers = np.zeros((k, info.nv)), np.zeros((k, info.m))
+        rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
+        confirm = getattr(law, "confirm", rates)
+        iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
         observe_rates(
-            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, self.times, self.states, self.p, self.start.w.copy(), np.zeros(abi.N_COUNTERS, np.int64)),
+            *(rates, confirm, law.accept, self.times, self.states, self.p, self.start.w.copy(), iw),
             *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
         )
         return accelerations, multipliers

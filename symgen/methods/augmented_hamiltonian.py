@@ -1,0 +1,61 @@
+"""Augmented Hamiltonian method: momenta are integrated, velocities follow from them and the constraints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.program import Correction
+from symgen.methods._augmented import PENALTY, TOLERANCE
+from symgen.methods._base import Iteration, IterationState, Method, Rates, multiplier_law
+
+if TYPE_CHECKING:
+    from symgen.lower.algebra import System
+
+
+class AugmentedHamiltonian(Method):
+    """Integrates ``p = M v + D^T sigma`` by ``p' = f + (dD/dt)^T sigma``; v and sigma from p by the augmented iteration.
+
+    ``(M + a D^T D) dv = p - M v - D^T (sigma + a (D v - nu))``, ``sigma += a (D v - nu)`` until v changes no more, so that
+    the velocity constraint holds in every evaluation and only one derivative of the constraints is needed. The state holds
+    M^-1 p in place of v. sigma is the impulse of the constraint forces; it starts from 0 at every step, where p becomes
+    M v again (a change of gauge), so methods with memory over steps cannot use it. Readings differ: Bayo and Avello let
+    sigma grow and add penalties in Phi, which this gauge makes superfluous.
+    """
+
+    name = "augmented-hamiltonian"
+    summary = "momenta are integrated; velocities satisfy their constraint in every evaluation"
+    reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
+    forms = ("one-step",)
+    parameters = (PENALTY, TOLERANCE)
+
+    def law(self, system: System, options: Mapping[str, str]) -> Iteration:
+        """Return the iteration for v and sigma, and the rates of q and M^-1 p."""
+        penalty = system.parameter("penalty")
+        factor = system.keep_factor(system.augmented_factor(penalty))
+        constraints, target = system.keep_constraints(), system.keep("kept_target", system.nu)
+        momentum = system.keep("kept_momentum", system.mass(system.v))
+        v = system.variable("kept_velocity", len(momentum.nodes))
+        impulse = system.variable("kept_impulse", len(target.nodes))
+        right = momentum - system.mass(v) - constraints.transposed(impulse + penalty * (constraints @ v - target))
+        increment = system.solve(factor, right)
+        following = v + increment
+        raised = impulse + penalty * (constraints @ following - target)
+        force = system.at_velocity(system.f, v) + system.constraint_rate_transposed(impulse, v)
+        position = system.at_velocity(system.q_rates, v)
+        multipliers = system.at_velocity(multiplier_law(system, system.gamma).multipliers, v)
+        return Iteration(
+            (
+                IterationState("kept_velocity", system.v, following),
+                IterationState("kept_impulse", system.zeros(len(target.nodes)), raised),
+            ),
+            increment,
+            Rates(position, system.minv(force), multipliers),
+        )
+
+    def correction(self, options: Mapping[str, str]) -> Correction:
+        """Return the change of gauge: velocities projected in the metric of M."""
+        return Correction("none", True, "mass")
+
+
+KIND = AugmentedHamiltonian()

@@ -1,0 +1,248 @@
+"""The loop of the index-3 augmented Lagrangian method with projections: trapezoidal rule in positions.
+
+With ``v1 = 2/h (q1 - q0) - v0`` and ``a1 = 4/h^2 (q1 - q0) - 4/h v0 - a0`` the equations of motion at the end of the step are
+solved for q1 with the leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every
+iteration. Then velocities and accelerations are projected with the same matrix,
+``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``, iterated, since one pass leaves a residual.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import types
+
+from symgen.runtime import abi
+from symgen.runtime.bare import bare, part
+from symgen.runtime.dense import eliminate, substitute
+from symgen.runtime.explicit import store
+from symgen.runtime.watch import begin, keep_maxima, watch
+from symgen.store.jit import jit
+
+_F8, _I8 = types.float64, types.int64
+_A, _I, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
+
+_STOP, _STEPS, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS
+_JACOBIANS, _ITERATIONS = abi.JACOBIANS, abi.NEWTON_ITERATIONS
+_DONE, _STOPPED, _NEWTON = abi.DONE, abi.STOPPED, abi.NEWTON
+_STEP_STATUS, _PROBING, _POWER = abi.STEP_STATUS, abi.PROBING, abi.POWER
+_MOST_ITERATIONS = 100
+
+
+@jit
+def leading_matrix(
+    step: float, penalty: float, nq: int, nv: int, m: int, slopes: Any, matrix: Any
+) -> None:
+    """Write W from the Jacobian of the descriptor form."""
+    n, width = nq + nv + m, nq + nv
+    quarter = 0.25 * step * step
+    for i in range(nv):
+        row = nq + i
+        for j in range(nv):
+            base = n * n + row * width
+            total = slopes[row * n + nq + j] + 0.5 * step * slopes[base + nq + j] + quarter * slopes[base + j]
+            for c in range(m):
+                total += quarter * penalty * slopes[row * n + width + c] * slopes[(nq + j) * n + width + c]
+            matrix[i * nv + j] = total
+
+
+@jit
+def pull_back(factor: float, nq: int, nv: int, m: int, slopes: Any, rest: Any, at: int, right: Any) -> None:
+    """Set right = factor D^T times `m` residuals from index `at` of `rest`."""
+    n, width = nq + nv + m, nq + nv
+    for i in range(nv):
+        total = 0.0
+        for c in range(m):
+            total += slopes[(nq + i) * n + width + c] * rest[at + c]
+        right[i] = factor * total
+
+
+@jit(
+    _I8(
+        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _F8, _I8, _I8, _I8, _I8),
+        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
+    ),
+)
+def projected_steps(
+    residual: Any,
+    tangent: Any,
+    rhs: Any,
+    confirm: Any,
+    accept: Any,
+    penalty: float,
+    nq: int,
+    nv: int,
+    m: int,
+    multipliers: int,
+    y: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    t0: float,
+    h: float,
+    until: float,
+    times: Any,
+    states: Any,
+    status: Any,
+    gauges: Any,
+    control: Any,
+    events: Any,
+    room: Any,
+    rows: Any,
+) -> int:
+    """Integrate with constant steps; an output between two steps is reached by a shortened step of its own."""
+    width, ny, n = nq + nv, nq + nv + 1, nq + nv + m
+    y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)
+    gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
+    at = 0
+    trial = part(room, at, ny)
+    at += ny
+    begun = part(room, at, ny)
+    at += ny
+    k = part(room, at, n)
+    at += n
+    rest = part(room, at, n + 2 * m)
+    at += n + 2 * m
+    right = part(room, at, nv)
+    at += nv
+    change = part(room, at, nv)
+    at += nv
+    forces = part(room, at, m)  # multipliers at the beginning of the step
+    at += m
+    held = part(room, at, m)  # the same in the iteration
+    at += m
+    slopes = part(room, at, n * n + n * width)
+    at += n * n + n * width
+    matrix = part(room, at, nv * nv + nv)
+
+    t, out, tiny, index = t0, 0, 1e-9 * h, 0
+    accept(t, y, p, w, iw)
+    begin(w, gauges)
+    code = watch(t, y, nq, w, gauges, control, events)
+    if code != _DONE:
+        return code
+    while out < times.shape[0] and times[out] <= t + tiny:
+        store(out, y, w, states, status)
+        out += 1
+    control[_OUTPUTS] = out
+    if rhs(t, y, p, w, iw, begun) != 0:
+        confirm(t, y, p, w, iw, begun)
+    control[_EVALUATIONS] += 1
+    for c in range(m):
+        forces[c] = w[multipliers + c]
+    power = begun[width]
+    while t < until - tiny:
+        if control[_STOP] != 0:
+            return _STOPPED
+        following = t0 + (index + 1) * h
+        step = h
+        if following > until - tiny:
+            following = until
+            step = until - t
+        partial = out < times.shape[0] and times[out] < following - tiny
+        if partial:
+            following = times[out]
+            step = following - t
+        w[_STEP_STATUS] = step
+        quarter = 0.25 * step * step
+        for i in range(nv):
+            trial[i] = y[i] + step * y[nq + i] + 0.5 * step * step * begun[nq + i]
+        for c in range(m):
+            held[c] = forces[c]
+            k[width + c] = forces[c]
+        last, fresh, converged = math.inf, True, False
+        for iteration in range(_MOST_ITERATIONS):
+            for i in range(nv):
+                trial[nq + i] = 2.0 / step * (trial[i] - y[i]) - y[nq + i]
+                k[i] = trial[nq + i]
+                k[nq + i] = 4.0 / (step * step) * (trial[i] - y[i]) - 4.0 / step * y[nq + i] - begun[nq + i]
+            residual(following, trial, k, p, w, rest)
+            for c in range(m):
+                if iteration > 0:
+                    held[c] += penalty * rest[width + c]
+                k[width + c] = held[c] + penalty * rest[width + c]
+            residual(following, trial, k, p, w, rest)
+            control[_EVALUATIONS] += 2
+            if fresh:
+                tangent(following, trial, k, p, w, slopes)
+                leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
+                eliminate(matrix, nv, rows)
+                control[_JACOBIANS] += 1
+                fresh = False
+            for i in range(nv):
+                right[i] = quarter * rest[nq + i]
+            substitute(matrix, nv, rows, right, change)
+            control[_ITERATIONS] += 1
+            moved, total, violation = 0.0, 0.0, 0.0
+            for i in range(nv):
+                trial[i] -= change[i]
+                moved += change[i] ** 2
+                total += trial[i] ** 2
+            for c in range(m):
+                violation += rest[width + c] ** 2
+            moved = max(math.sqrt(moved), math.sqrt(violation)) / (1.0 + math.sqrt(total))
+            if not math.isfinite(moved):
+                break
+            if moved < 1e-14 or (moved > 0.5 * last and moved < 1e-11):
+                converged = True
+                break
+            fresh = moved > 0.5 * last
+            last = moved
+        if not converged:
+            return _NEWTON
+        for i in range(nv):
+            trial[nq + i] = 2.0 / step * (trial[i] - y[i]) - y[nq + i]
+            k[nq + i] = 4.0 / (step * step) * (trial[i] - y[i]) - 4.0 / step * y[nq + i] - begun[nq + i]
+        tangent(following, trial, k, p, w, slopes)
+        leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
+        eliminate(matrix, nv, rows)
+        for level in range(2):  # velocities, then accelerations
+            last = math.inf
+            for iteration in range(_MOST_ITERATIONS):
+                for i in range(nv):
+                    k[i] = trial[nq + i]
+                residual(following, trial, k, p, w, rest)
+                control[_EVALUATIONS] += 1
+                violation = 0.0
+                for c in range(m):
+                    violation += rest[n + level * m + c] ** 2
+                violation = math.sqrt(violation)
+                if violation > 0.95 * last or violation == 0.0:
+                    break
+                last = violation
+                pull_back(quarter * penalty, nq, nv, m, slopes, rest, n + level * m, right)
+                substitute(matrix, nv, rows, right, change)
+                for i in range(nv):
+                    if level == 0:
+                        trial[nq + i] -= change[i]
+                    else:
+                        k[nq + i] -= change[i]
+        reached = w[_POWER]
+        trial[width] = y[width] + 0.5 * step * (power + reached)
+        iw[_PROBING] = 1 if partial else 0
+        accept(following, trial, p, w, iw)
+        iw[_PROBING] = 0
+        if partial:
+            keep_maxima(w, trial[width], gauges)
+            store(out, trial, w, states, status)
+            out += 1
+            control[_OUTPUTS] = out
+            continue
+        for i in range(nv):
+            begun[nq + i] = k[nq + i]
+        for c in range(m):
+            forces[c] = held[c]
+        power = reached
+        y, trial = trial, y
+        t = following
+        index += 1
+        control[_STEPS] = index
+        code = watch(t, y, nq, w, gauges, control, events)
+        if code != _DONE:
+            return code
+        if out < times.shape[0] and times[out] <= t + tiny:
+            store(out, y, w, states, status)
+            out += 1
+            control[_OUTPUTS] = out
+    return _DONE
