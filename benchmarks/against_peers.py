@@ -16,6 +16,7 @@ import sys
 import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.table import Table
@@ -27,7 +28,6 @@ from benchmarks.show import show
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = 1e-6
-METHODS = ("direct-correction", "lagrange")
 TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 23))
 #: Constant steps in units of the model's own.
 STEPS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.5, 0.25, 0.1)
@@ -73,8 +73,8 @@ def rows(model: models.Model) -> Iterator[Row]:
     loaded = symgen.load(describe(model))
     truth, times = reference.angles(model), reference.sample_times(model)
     columns = [f"{body.name}.theta" for body in model.bodies]
-    common: dict[str, object] = {"until": model.duration, "times": times}
-    settings: list[tuple[str, dict[str, object]]] = []
+    common: dict[str, Any] = {"until": model.duration, "times": times}
+    settings: list[tuple[str, dict[str, Any]]] = []
     for tolerance in TOLERANCES:
         for integrator in ("dop853", "dopri5"):
             control = {"integrator": integrator, "rtol": tolerance, "atol": tolerance}
@@ -82,7 +82,7 @@ def rows(model: models.Model) -> Iterator[Row]:
     for factor in STEPS:
         step = factor * model.step
         settings.append((f"rk4 {step:.3g} s", {"integrator": "rk4", "step": step}))
-    weights: tuple[tuple[str, str, dict[str, object]], ...] = (
+    weights: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("direct-correction", "direct-correction", {}),
         ("direct-correction mass", "direct-correction", {"method.weight": "mass"}),
         ("lagrange", "lagrange", {}),

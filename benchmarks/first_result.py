@@ -13,6 +13,7 @@ import argparse
 import json
 import os
 import random
+import resource
 import statistics
 import subprocess
 import sys
@@ -32,9 +33,10 @@ STAGES = ("derive", "emit", "compile", "run")
 
 @dataclass(frozen=True)
 class Timed:
-    """Seconds of one process, and of the stages it reports."""
+    """Seconds of one process by the clock and of the processor, and of the stages it reports."""
 
     wall: float
+    processor: float
     stages: tuple[float, ...]
 
 
@@ -69,13 +71,19 @@ def timed(cache: Path, *arguments: str, stages: bool = True) -> Timed:
     """Run one `symgen` process and time it from start to exit."""
     program = Path(sys.executable).with_name("symgen")
     environment = {**os.environ, "SYMGEN_CACHE_DIR": str(cache)}
-    began = time.perf_counter()
+    began, used = time.perf_counter(), _processor()
     done = subprocess.run([program, *arguments], capture_output=True, text=True, env=environment, check=False)
-    wall = time.perf_counter() - began
+    wall, processor = time.perf_counter() - began, _processor() - used
     if done.returncode:
         raise SystemExit(f"symgen {' '.join(arguments)} failed: {done.stderr.strip() or done.stdout.strip()}")
     seconds = json.loads(done.stdout)["seconds"] if stages else {}
-    return Timed(wall, tuple(float(seconds[stage]) for stage in STAGES) if stages else ())
+    return Timed(wall, processor, tuple(float(seconds[stage]) for stage in STAGES) if stages else ())
+
+
+def _processor() -> float:
+    """Return the seconds of the processor that all ended children of this process have used."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def measure(folder: Path, repeat: int) -> dict[str, list[Timed]]:
@@ -102,11 +110,12 @@ def main(arguments: Sequence[str] | None = None) -> None:
     with tempfile.TemporaryDirectory() as folder:
         found = measure(Path(folder), options.repeat)
     table = Table(title=f"time to the first result of a four-bar, whole processes, median of {options.repeat} [s]")
-    for column in ("situation", "process", "spread", *STAGES, "start-up and the rest"):
+    for column in ("situation", "process", "spread", "processor", *STAGES, "start-up and the rest"):
         table.add_column(column, justify="left" if column == "situation" else "right")
     for situation, runs in found.items():
         walls = [r.wall for r in runs]
         cells = [f"{statistics.median(walls):.2f}", f"{min(walls):.2f} .. {max(walls):.2f}"]
+        cells.append(f"{statistics.median(r.processor for r in runs):.2f}")
         if runs[0].stages:
             stages = [statistics.median(r.stages[i] for r in runs) for i in range(len(STAGES))]
             rest = statistics.median(r.wall - sum(r.stages) for r in runs)

@@ -103,6 +103,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 str(silent(passages)),
                 f"{np.median([p.seconds for p in passages]) * 1e3:.1f}",
             )
+    table.caption = "errors of failed runs are those up to where they stopped"
     show(table)
     return 1 if wrong else 0
 

@@ -331,12 +331,12 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
 
 def _output_times(s: Settings, default: float | None, until: float, step: float | None, adaptive: bool) -> Array:
     if s.times is not None:
-        times = np.asarray(s.times, dtype=np.float64)
-        if times.ndim != 1 or not np.all(np.isfinite(times)) or np.any(np.diff(times) <= 0.0):
+        given = np.asarray(s.times, dtype=np.float64)
+        if given.ndim != 1 or not np.all(np.isfinite(given)) or np.any(np.diff(given) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
-        if len(times) and (times[0] < 0.0 or times[-1] > until * (1.0 + 1e-12)):
-            raise InputError("times", f"output times from 0 to {until:g}", f"{times[0]:g} to {times[-1]:g}")
-        return times
+        if len(given) and (given[0] < 0.0 or given[-1] > until * (1.0 + 1e-12)):
+            raise InputError("times", f"output times from 0 to {until:g}", f"{given[0]:g} to {given[-1]:g}")
+        return np.minimum(given, until)  # a multiple of a step may exceed the end by rounding
     every = s.output_step if s.output_step is not None else default
     if every is None:
         if adaptive:

@@ -82,7 +82,8 @@ class Registry(Generic[T]):
             hint = nearest(name, known)
             if not hint.startswith("known"):
                 hint += " (known: " + ", ".join(sorted(known)) + ")"
-            raise InputError(where or self.what, f"a {self.what}", f"'{name}'", hint)
+            article = "an" if self.what[0] in "aeiou" else "a"
+            raise InputError(where or self.what, f"{article} {self.what}", f"'{name}'", hint)
         return resolved
 
     def get(self, name: str, where: str = "") -> T:

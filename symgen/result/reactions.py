@@ -157,11 +157,11 @@ class Forces:
 
 
 def jacobian(outcome: Outcome, t: float, y: Array) -> Array:
-    """Return D at one state, shape (m, nv), without compiling anything."""
-    from symgen.runtime.probe import interpreted
+    """Return D at one state, shape (m, nv)."""
+    from symgen.runtime.probe import call_measure
 
     w = outcome.w.copy()
-    interpreted(outcome.compiled.model.geometry)(float(t), y.copy(), outcome.p, w)
+    call_measure(outcome.compiled.model.geometry, float(t), y.copy(), outcome.p, w)
     return outcome.compiled.jacobian(w)
 
 

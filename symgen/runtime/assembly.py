@@ -83,15 +83,21 @@ def assemble(
     """
     info = compiled.info
     w = compiled.scratch()
-    for function in (compiled.model.prepare, compiled.law_module.prepare):
-        interpreted(function)(p)
-    interpreted(compiled.model.masses)(p, w)
+    not_finite = "parameters", "values for which every formula is finite", "one that divides by 0 or overflows"
+    try:
+        # interpreted functions warn or raise where compiled ones give inf or nan
+        with np.errstate(all="ignore"):
+            for function in (compiled.model.prepare, compiled.law_module.prepare):
+                interpreted(function)(p)
+            interpreted(compiled.model.masses)(p, w)
+    except (ArithmeticError, ValueError):
+        raise InputError(*not_finite) from None
     masses = compiled.section(w, "mass")
     if not np.all(masses > 0.0):
         name = info.velocities[int(np.argmin(masses))].name.split(".")[0]
         raise InputError(f"parameters: mass or inertia of {name}", "a value above 0", f"{float(masses.min()):g}")
     if not np.all(np.isfinite(p)):
-        raise InputError("parameters", "values for which every formula is finite", "one that divides by 0 or overflows")
+        raise InputError(*not_finite)
     y = np.zeros(info.ny)
     y[: info.nq] = q
     notes: list[str] = []

@@ -301,7 +301,7 @@ def _times(model: Model, end: float, output_step: float | None) -> Array:
         every *= max(1, round(end / every / OUTPUTS))
     count = int(end / every * (1.0 + 1e-12))
     times: Array = np.arange(count + 1, dtype=np.float64) * every
-    return times if end - times[-1] <= 1e-9 * every else np.append(times, end)
+    return np.minimum(times, end) if end - times[-1] <= 1e-9 * every else np.append(times, end)
 
 
 def _combinations(

@@ -26,6 +26,8 @@ Array = NDArray[np.float64]
 
 #: Tolerances of the two integrations of the general route; the first one is the reference.
 FINE, COARSE = 3e-14, 3e-13
+#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
+COLLAPSE, PATIENCE = 1e-3, 30
 
 
 @dataclass(frozen=True)
@@ -229,12 +231,12 @@ def _integrate(
     scale = np.maximum(np.abs(y), 1.0)
     motion = np.empty((len(times), n))
     solver: Any = None  # SciPy's types know neither arrays of tolerances nor that a step changes the status
-    usual = 0.0
+    make: Any = DOP853
+    usual, steps, tiny = 0.0, 0, 0
     end = float(times[-1]) if len(times) else 0.0
     for k, t in enumerate(times):
         if t > 0.0:
             if solver is None:
-                make: Any = DOP853
                 solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale)
             else:
                 solver.t_bound, solver.status = float(t), "running"
@@ -243,11 +245,15 @@ def _integrate(
             while solver.status == "running":
                 before = solver.h_abs
                 message = solver.step()
-                if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
-                    reason = message or "the state is not finite"
-                    raise SimulationError(
-                        f"the reference motion cannot be integrated beyond t = {solver.t:.6g} s: {reason}"
-                    )
+                steps += 1
+                # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
+                tiny = (
+                    tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * solver.t / steps else 0
+                )
+                if solver.status == "failed" or tiny >= PATIENCE or not np.all(np.isfinite(solver.y)):
+                    reason = message or ("the step size collapses" if tiny else "the state is not finite")
+                    where = f"t = {solver.t:.6g} s"
+                    raise SimulationError(f"the reference motion cannot be integrated beyond {where}: {reason}")
                 usual = before if solver.status == "finished" else solver.h_abs
             if k % every == 0:
                 solver.y = equations.project(float(t), solver.y, mass_weighted)

@@ -195,7 +195,7 @@ def test_redundant_constraints_give_multipliers_of_minimum_norm(tmp_path):
 def test_repeated_rows_make_reactions_not_unique(tmp_path):
     path = tmp_path / "twice.toml"
     joint = '[joints.{}]\ntype = "revolute"\nbetween = ["ground", "rod"]\nat = [[0.0, 0.0], [-0.5, 0.0]]\n'
-    body = '[bodies.rod]\nmass = 1.0\ninertia = 0.1\nposition = [0.5, 0.0]\n'
+    body = "[bodies.rod]\nmass = 1.0\ninertia = 0.1\nposition = [0.5, 0.0]\n"
     path.write_text('[mechanism]\nname = "twice"\n' + body + joint.format("a") + joint.format("b"))
     result = symgen.simulate(path, until=0.01)
     assert result.rank.identical_rows_dropped == 2

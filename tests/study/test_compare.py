@@ -70,7 +70,7 @@ def test_rows_below_the_reference_are_marked(monkeypatch):
 
 def test_options_go_to_those_they_are_meant_for():
     study = symgen.compare(
-        "pendulum", ["lagrange", "baumgarte"], ["rk4"], [1e-2], until=0.5, repeat=1, options={"baumgarte.alpha": 20.0}
+        "pendulum", ["lagrange", "baumgarte"], ["rk4"], [1e-3], until=0.5, repeat=1, options={"baumgarte.alpha": 20.0}
     )
     assert [r.status for r in study.rows] == ["ok", "ok"]
 

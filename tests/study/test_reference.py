@@ -58,14 +58,14 @@ def test_the_pendulum_is_periodic_for_ever():
 
 
 def test_andrews_meets_the_published_values():
-    """Angles of K1, K3, K5, K7 are beta, gamma, delta, epsilon; 9 digits or more of the test set's."""
+    """Angles of K1, K3, K5, K7 are beta, gamma, delta, epsilon; the test set's are good to about ten digits."""
     published = json.loads((DATA / "andrews_ivp.json").read_text())
     end = dict(zip(published["coordinates"], published["end"], strict=False))
     model = symgen.load("andrews")
     found = integrated(model.mechanism, model.parameters(), *start_of(model), np.array([0.0, 0.03]))
     theta = {b.name: found.q[-1, 3 * i + 2] for i, b in enumerate(model.mechanism.bodies)}
-    assert theta["K1"] == pytest.approx(end["beta"], rel=1e-11)
-    assert theta["K2"] - theta["K1"] == pytest.approx(end["theta"], rel=1e-11)
+    assert theta["K1"] == pytest.approx(end["beta"], rel=1e-9)
+    assert theta["K2"] - theta["K1"] == pytest.approx(end["theta"], rel=1e-9)
     assert theta["K3"] == pytest.approx(end["gamma"], rel=1e-9)
     assert theta["K5"] == pytest.approx(end["delta"], rel=1e-9)
     assert theta["K7"] == pytest.approx(end["epsilon"], rel=1e-9)
@@ -87,13 +87,8 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
 
 def test_a_singular_position_is_not_passed_silently():
     model = symgen.load("n-four-bar:1")
-    times = np.linspace(0.0, 10.0, 21)
-    try:
-        found = integrated(model.mechanism, {}, *start_of(model), times)
-    except SimulationError as error:
-        assert "cannot be integrated beyond t = " in str(error)
-    else:
-        assert found.estimated_error > 1e-9
+    with pytest.raises(SimulationError, match=r"cannot be integrated beyond t = .* s: the step size collapses"):
+        integrated(model.mechanism, {}, *start_of(model), np.linspace(0.0, 10.0, 21))
 
 
 def test_redundant_rows_do_no_harm():
@@ -114,8 +109,10 @@ def test_redundant_rows_do_no_harm():
 
 
 def test_own_lengths():
-    bodies = {b.name: own_length(b, symgen.load("slider-crank").parameters()) for b in
-              symgen.load("slider-crank").mechanism.bodies}
+    bodies = {
+        b.name: own_length(b, symgen.load("slider-crank").parameters())
+        for b in symgen.load("slider-crank").mechanism.bodies
+    }
     assert bodies["crank"] == pytest.approx(0.075)
     assert bodies["slider"] == pytest.approx(np.sqrt(5e-4 / 0.6))
     assert own_length(symgen.load("pendulum").mechanism.body("bob"), {"bob_mass": 1.0}) == 0.0

@@ -121,3 +121,22 @@ ROUGH = {
         },
     },
 }
+
+
+def parallelogram() -> dict:
+    """Three parallel links under a bar: one of twelve rows follows from the others where the constraints hold."""
+    bodies, joints = {}, {}
+    for i in range(3):
+        rod = {"mass": 1.0, "inertia": "1/12", "points": {"A": [-0.5, 0.0], "B": [0.5, 0.0]}}
+        bodies[f"link{i}"] = rod | {"position": [float(i), 0.5], "angle": "pi/2"}
+        joints[f"A{i}"] = {"type": "revolute", "between": ["ground", f"link{i}"], "at": [[float(i), 0.0], "A"]}
+        joints[f"B{i}"] = {"type": "revolute", "between": [f"link{i}", "bar"], "at": ["B", f"P{i}"]}
+    bodies["link0"]["angular_velocity"] = -1.0
+    points = {f"P{i}": [float(i - 1), 0.0] for i in range(3)}
+    bodies["bar"] = {"mass": 2.0, "inertia": 1.0, "points": points, "position": [1.0, 1.0]}
+    return {
+        "mechanism": {"name": "parallelogram", "gravity": [0.0, -9.81]},
+        "run": {"until": 0.5, "step": 1e-3},
+        "bodies": bodies,
+        "joints": joints,
+    }

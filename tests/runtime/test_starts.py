@@ -1,0 +1,153 @@
+"""Starts: closed, completed, projected and noted, or refused; and what cannot be assembled is named."""
+
+import copy
+import re
+import warnings
+
+import numpy as np
+import pytest
+from support import reference
+from support.emitted import mechanism_of
+from support.models import parallelogram
+from support.plain import Plain
+
+from symgen.api import load
+from symgen.catalogue import raw
+from symgen.errors import AssemblyError, InputError
+
+
+def start_of(description, **settings):
+    model = load(mechanism_of(description))
+    return model.assemble(model.compile("lagrange"), **settings)
+
+
+def changed(name, *path_and_value):
+    """A catalogue description with one value changed."""
+    description = copy.deepcopy(raw(name))
+    *path, last, value = path_and_value
+    part = description
+    for key in path:
+        part = part[key]
+    part[last] = value
+    return description
+
+
+def residuals(description, start):
+    """(|Phi|, |D v - nu|) of a start by the reference."""
+    plain = Plain(description)
+    n = plain.size
+    q, v = start.y[:n].tolist(), start.y[n : 2 * n].tolist()
+    drift = list(reference.velocity_residual(plain, 0.0, q, v).values())
+    return np.linalg.norm(list(plain.phi(0.0, q).values())), np.linalg.norm(drift)
+
+
+def test_a_consistent_start_is_left_alone():
+    description = raw("four-bar")
+    start = start_of(description, strict=True)
+    assert start.notes == () and start.rank == 8 and start.redundant_rows == ()
+    np.testing.assert_allclose(start.y[:9], load("four-bar").initial_state(Plain(description).values)[0], atol=1e-12)
+    assert max(residuals(description, start)) <= 1e-13
+
+
+def test_positions_are_closed_with_the_smallest_change_and_noted():
+    description = changed("four-bar", "bodies", "crank", "angle", 1.2)
+    start = start_of(description)
+    assert max(residuals(description, start)) <= 1e-13
+    assert len(start.notes) == 1 and "closed by minimum-norm Newton" in start.notes[0]
+    with pytest.raises(InputError, match=r"initial state: expected a consistent start \(--strict\)"):
+        start_of(description, strict=True)
+
+
+def test_one_newton_step_is_the_pseudoinverse():
+    """Near the constraints the change of a coordinate is -D^+ Phi to second order."""
+    description = changed("four-bar", "bodies", "crank", "angle", np.pi / 3 + 1e-5)
+    plain = Plain(description)
+    model = load(mechanism_of(description))
+    q, _ = model.initial_state(plain.values)
+    d = np.array(list(reference.jacobian(plain, 0.0, q.tolist(), [0.0] * 9).values()))
+    expected = -np.linalg.pinv(d) @ np.array(list(plain.phi(0.0, q.tolist()).values()))
+    np.testing.assert_allclose(start_of(description).y[:9] - q, expected, atol=1e-9)
+
+
+def test_velocities_follow_from_one_that_is_given():
+    description = raw("slider-crank")
+    start = start_of(description, strict=True)
+    v = dict(
+        zip((q.name for q in load("slider-crank").compile("lagrange").info.velocities), start.y[9:18], strict=True)
+    )
+    assert v["crank.omega"] == pytest.approx(10.0, abs=1e-12)
+    assert residuals(description, start)[1] <= 1e-13
+    # velocity of the slider of an in-line slider-crank, by differentiating r cos(phi) + sqrt(l^2 - r^2 sin(phi)^2)
+    r, length, phi, w = 0.15, 0.45, np.pi / 4, 10.0
+    expected = -r * w * np.sin(phi) * (1 + r * np.cos(phi) / np.sqrt(length**2 - (r * np.sin(phi)) ** 2))
+    assert v["slider.vx"] == pytest.approx(expected, rel=1e-12)
+
+
+def test_velocities_follow_from_a_driver():
+    description = raw("driven-four-bar")
+    for body in description["bodies"].values():
+        body.pop("angular_velocity", None)
+    start = start_of(description, strict=True)
+    assert start.y[11] == pytest.approx(2 * np.pi, rel=1e-13)
+    assert residuals(description, start)[1] <= 1e-12
+
+
+def test_missing_velocities_are_the_smallest_ones():
+    """Of all velocities that fulfil the constraints and the given ones, those of least norm."""
+    description = parallelogram()
+    del description["bodies"]["link0"]["angular_velocity"]
+    assert np.abs(start_of(description).y[12:24]).max() <= 1e-14
+
+
+def test_velocities_that_contradict_are_projected_with_the_mass_matrix():
+    description = changed("four-bar", "bodies", "crank", "velocity", [3.0, 1.0])
+    start = start_of(description)
+    assert len(start.notes) == 1 and "projected in the metric of the mass matrix" in start.notes[0]
+    assert "crank." in start.notes[0] or "coupler." in start.notes[0]
+    assert residuals(description, start)[1] <= 1e-12
+    with pytest.raises(InputError, match="velocities contradicted"):
+        start_of(description, strict=True)
+    # M (v - v0) has no part along the directions in which the mechanism can move
+    plain = Plain(description)
+    q, v = start.y[:9], start.y[9:18]
+    d = np.array(list(reference.jacobian(plain, 0.0, q.tolist(), v.tolist()).values()))
+    free = np.linalg.svd(d)[2][-1]
+    given = np.array([3.0, 1.0, 0.0, *start.y[12:18]])
+    assert abs(free @ d.T @ np.linalg.lstsq(d.T, reference.masses(plain) * (v - given), rcond=None)[0]) <= 1e-9
+
+
+@pytest.mark.parametrize(
+    ("name", "path", "value", "joint"),
+    [
+        ("four-bar", ("bodies", "coupler", "points"), {"B": [-1.0, 0.0], "C": [1.0, 0.0]}, "[ABCD]"),
+        ("slider-crank", ("joints", "guide", "at"), [[0.0, 2.0], "centre"], "[OPQ]|guide"),
+    ],
+)
+def test_what_cannot_be_assembled_names_the_joint_and_the_gap(name, path, value, joint):
+    with pytest.raises(AssemblyError) as caught:
+        start_of(changed(name, *path, value))
+    found = re.search(rf"{name}: .* joint '({joint})' stays open by ([\d.]+) m", str(caught.value))
+    assert found, str(caught.value)
+    assert float(found.group(2)) > 0.1
+    assert caught.value.exit_code == 2
+
+
+def test_velocities_that_no_motion_has_are_an_error():
+    description = changed("four-bar", "joints", "motor", {"type": "driver", "joint": "A", "value": "pi/3 + 2*t"})
+    description["joints"]["second"] = {"type": "driver", "joint": "D", "value": "1.8938968124057762 - 5*t"}
+    with pytest.raises(AssemblyError, match="no velocities satisfy the constraints"):
+        start_of(description)
+
+
+@pytest.mark.parametrize("value", [0.0, -2.0])
+def test_a_mass_that_is_not_positive_is_refused(value):
+    model = load("four-bar")
+    with warnings.catch_warnings():  # what is refused anyway shall not add noise of its own
+        warnings.simplefilter("error")
+        with pytest.raises(InputError, match="mass or inertia of crank: expected a value above 0"):
+            model.assemble(model.compile("lagrange"), {"crank_mass": value})
+
+
+def test_redundant_rows_are_found():
+    start = start_of(parallelogram())
+    assert start.rank == 11 and len(start.redundant_rows) == 1
