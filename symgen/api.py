@@ -325,7 +325,10 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
         return str(value).lower()
     known = [*numeric, *(("adaptive=true", "adaptive=false") if integrator.adaptive else ())]
     raise InputError(
-        f"option {key}", f"an option of {integrator.name}", f"'{name}={value}'", nearest(name, known) if known else "it has none"
+        f"option {key}",
+        f"an option of {integrator.name}",
+        f"'{name}={value}'",
+        nearest(name, known) if known else "it has none",
     )
 
 

@@ -86,7 +86,8 @@ class _Printer:
                 value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
                 self.text[node] = (repr(value), 5 if value >= 0.0 else 3)
             elif op == "input":
-                space, index = payload  # type: ignore[misc]  # an input's payload is its key
+                assert isinstance(payload, tuple), "an input's payload is its key"
+                space, index = payload
                 name, expression = self.access.read(space, index)
                 if name != expression:
                     note = self.access.note(space, index)

@@ -38,7 +38,7 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
         if op == "const":
             derivative[node] = {}
         elif op == "input":
-            derivative[node] = {payload: graph.one} if payload in wanted else {}  # type: ignore[dict-item]
+            derivative[node] = {payload: graph.one} if payload in wanted else {}
         else:
             derivative[node] = _chain(graph, node, op, args, str(payload), [derivative[a] for a in args])
     return [dict(derivative[o]) for o in outputs]

@@ -9,7 +9,7 @@ the order of construction: the same mechanism gives the same numbers in every pr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 #: Bits of what a node depends on.
@@ -23,7 +23,7 @@ FUNCTIONS = frozenset(
     "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max sign lt le gt ge and or not where step".split()
 )
 
-_FOLD = {
+_FOLD: dict[str, Callable[[float], float]] = {
     "sqrt": math.sqrt,
     "exp": math.exp,
     "log": math.log,

@@ -10,7 +10,16 @@ from symgen.lower.algebra import SKIP, Sparse, System, Vector
 from symgen.lower.descriptor import descriptor_blocks
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
-from symgen.lower.parts import Outputs, Stored, geometry_outputs, loaded_rows, pivot_outputs, spread, to_status, transposed_product
+from symgen.lower.parts import (
+    Outputs,
+    Stored,
+    geometry_outputs,
+    loaded_rows,
+    pivot_outputs,
+    spread,
+    to_status,
+    transposed_product,
+)
 from symgen.methods._base import Acceleration, Iteration, Method, multiplier_law
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.

@@ -119,5 +119,3 @@ def observe(hoister: Hoister, system: System) -> Block:
     return hoister.block(
         "observe", "D v' - gamma, then joint coordinates and their rates", outputs, ("t", "y", "p", "w", "ydot", "out")
     )
-
-

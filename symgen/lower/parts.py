@@ -14,7 +14,6 @@ from symgen.lower.hoist import Hoister
 Outputs = list[tuple[Target, int]]
 
 
-
 class Stored:
     """The variable entries of a factor, kept in ``w`` between the block that factorises and those that solve."""
 

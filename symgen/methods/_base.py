@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from symgen.errors import InputError, nearest
-
 from symgen.ir.program import Correction
 
 if TYPE_CHECKING:
@@ -214,7 +213,7 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
 class MultiplierMethod(Method):
     """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target."""
 
-    forms = ("ode", "index-1")
+    forms: ClassVar[tuple[str, ...]] = ("ode", "index-1")
 
     def target(self, system: System) -> Vector:
         """Return what D v' shall be; gamma unless overridden."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System, Vector
+
 
 class AdaptiveBaumgarte(MultiplierMethod):
     """`baumgarte` with ``alpha = beta = min(gain, a / h)``, h being the step that is taken.

@@ -11,6 +11,7 @@ from symgen.methods._base import Iteration, Method
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
+
 class AugmentedLagrangian(Method):
     """Iterates ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - g))``, ``lambda += a (D v' - g)``.
 

@@ -11,6 +11,7 @@ from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
+
 class CoordinatePartitioning(MultiplierMethod):
     """Integrates independent coordinates w; dependent ones u follow from ``Phi = 0``, their rates from ``D v = nu``.
 
@@ -26,7 +27,9 @@ class CoordinatePartitioning(MultiplierMethod):
     forms = ("ode",)
     integrates = "independent"
     parameters = (
-        MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
+        MethodParameter(
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+        ),
     )
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:

@@ -9,7 +9,7 @@ from symgen.ir.program import Correction
 from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    pass
 
 
 class DirectCorrection(MultiplierMethod):

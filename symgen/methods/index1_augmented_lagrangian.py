@@ -12,6 +12,7 @@ from symgen.methods._base import Iteration, Method
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
+
 class Index1AugmentedLagrangian(Method):
     """The iteration of `augmented-lagrangian` for ``D v' = gamma``, then mass-orthogonal projections of q and v.
 
@@ -22,9 +23,7 @@ class Index1AugmentedLagrangian(Method):
 
     name = "index1-augmented-lagrangian"
     summary = "iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities"
-    reference = (
-        "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
-    )
+    reference = "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
     parameters = (PENALTY, TOLERANCE)
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:

@@ -28,7 +28,9 @@ class Index3AugmentedLagrangian(MultiplierMethod):
     forms = ("index-3-projected",)
     default_integrator = "trapezoidal"
     parameters = (
-        MethodParameter("penalty", 1e9, "kg/s^2", "factor a of D^T D at position level, usual range 1e7 to 1e9", 1e-300),
+        MethodParameter(
+            "penalty", 1e9, "kg/s^2", "factor a of D^T D at position level, usual range 1e7 to 1e9", 1e-300
+        ),
     )
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.methods._base import MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    pass
 
 
 class Lagrange(MultiplierMethod):
@@ -21,7 +20,6 @@ class Lagrange(MultiplierMethod):
     name = "lagrange"
     summary = "constraints at acceleration level only; violations grow with time"
     reference = "Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988"
-
 
 
 KIND = Lagrange()

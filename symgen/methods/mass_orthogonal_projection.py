@@ -10,7 +10,8 @@ from symgen.methods._augmented import PENALTY
 from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    pass
+
 
 class MassOrthogonalProjection(MultiplierMethod):
     """As `lagrange`; after each step ``(M + a D^T D) dv = -M delta - D^T (a Phi + lambda)`` is iterated for q, then for v.
@@ -24,7 +25,9 @@ class MassOrthogonalProjection(MultiplierMethod):
     reference = "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296"
     parameters = (
         PENALTY,
-        MethodParameter("tolerance", 1e-13, "m", "violation at which the iteration ends, times the largest coordinate or speed"),
+        MethodParameter(
+            "tolerance", 1e-13, "m", "violation at which the iteration ends, times the largest coordinate or speed"
+        ),
     )
 
     def correction(self, options: Mapping[str, str]) -> Correction:

@@ -28,7 +28,9 @@ class NullSpace(Method):
         "Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188"
     )
     parameters = (
-        MethodParameter("tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"),
+        MethodParameter(
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+        ),
     )
 
     def law(self, system: System, options: Mapping[str, str]) -> Tangent:

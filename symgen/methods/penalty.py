@@ -11,6 +11,7 @@ from symgen.methods._base import Acceleration, Descriptor, Method
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
+
 class Penalty(Method):
     """``(M + a D^T D) v' = f + a D^T g`` with ``g = gamma - 2 omega mu Phi' - omega^2 Phi``; ``lambda = a (D v' - g)``.
 

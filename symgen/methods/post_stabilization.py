@@ -9,7 +9,8 @@ from symgen.ir.program import Correction
 from symgen.methods._base import MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    pass
+
 
 class PostStabilization(MultiplierMethod):
     """As `lagrange`; after each step once ``q -= N D^+ Phi`` and once ``v -= D^+ (D v - nu)``.
@@ -20,9 +21,7 @@ class PostStabilization(MultiplierMethod):
 
     name = "post-stabilization"
     summary = "one correction of positions and velocities after each step, not iterated"
-    reference = (
-        "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
-    )
+    reference = "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
 
     def correction(self, options: Mapping[str, str]) -> Correction:

@@ -10,6 +10,7 @@ from symgen.methods._base import Acceleration, Method
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
+
 class UdwadiaKalaba(Method):
     """``v' = a + M^-1/2 (D M^-1/2)^+ (gamma - D a)`` with ``a = M^-1 f``: Gauss's principle solved in closed form.
 

@@ -9,7 +9,8 @@ from symgen.ir.program import Correction
 from symgen.methods._base import MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    pass
+
 
 class VelocityProjection(MultiplierMethod):
     """As `lagrange`; after each step ``v -= D^+ (D v - nu)``.

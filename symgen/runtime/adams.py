@@ -30,7 +30,7 @@ DEPTH = 9
 _DEPTH = DEPTH
 
 
-@jit
+@jit()
 def weights(count: int, times: Any, low: float, high: float, nodes: Any, factors: Any, out: Any) -> None:
     """Integrals from `low` to `high` of the Lagrange polynomials on the first `count` entries of `times`."""
     for i in range(count):
@@ -46,7 +46,7 @@ def weights(count: int, times: Any, low: float, high: float, nodes: Any, factors
             out[i] += half * factors[g] * product
 
 
-@jit
+@jit()
 def advance(ny: int, count: int, coefficients: Any, history: Any, y: Any, out: Any) -> None:
     """Set out = y + sum of coefficient times past derivative."""
     for i in range(ny):

@@ -154,7 +154,7 @@ def alpha_steps(
         ratio = (1.0 - alpha_f) / (1.0 - alpha_m)
         by_velocity, by_position = step * gamma * ratio, step * step * beta * ratio
         last, fresh, converged = math.inf, True, False
-        for iteration in range(_MOST_ITERATIONS):
+        for _ in range(_MOST_ITERATIONS):
             for i in range(nv):
                 a1[i] = ((1.0 - alpha_f) * k[nq + i] + alpha_f * begun[nq + i] - alpha_m * a0[i]) / (1.0 - alpha_m)
                 trial[i] = y[i] + step * y[nq + i] + step * step * ((0.5 - beta) * a0[i] + beta * a1[i])

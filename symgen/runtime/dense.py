@@ -7,7 +7,7 @@ from typing import Any
 from symgen.store.jit import jit
 
 
-@jit
+@jit()
 def eliminate(a: Any, n: int, rows: Any) -> int:
     """Factorise `a` (n x n, row by row, in place) with scaled partial pivoting; return the number of skipped pivots.
 
@@ -57,7 +57,7 @@ def eliminate(a: Any, n: int, rows: Any) -> int:
     return skipped
 
 
-@jit
+@jit()
 def substitute(a: Any, n: int, rows: Any, right: Any, x: Any) -> None:
     """Solve with the factors that `eliminate` left; `right` and `x` are different arrays of length n."""
     for i in range(n):

@@ -30,7 +30,7 @@ _STEP, _PHI, _STEP_STATUS, _PROBING = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PR
 _N_STATUS = abi.RANK + 1
 
 
-@jit
+@jit()
 def store(k: int, y: Any, w: Any, states: Any, status: Any) -> None:
     """Write output `k`: the state and what ``accept`` measured."""
     for i in range(y.shape[0]):
@@ -39,7 +39,7 @@ def store(k: int, y: Any, w: Any, states: Any, status: Any) -> None:
         status[k, i] = w[i]
 
 
-@jit
+@jit()
 def combine(n: int, h: float, first: int, last: int, column: Any, value: Any, y: Any, stages: Any, out: Any) -> None:
     """Set out = y + h sum of value times stage, over the entries from `first` to `last` of a packed tableau."""
     k = first
@@ -71,7 +71,7 @@ def combine(n: int, h: float, first: int, last: int, column: Any, value: Any, y:
         k += 2
 
 
-@jit
+@jit()
 def error_norm(
     n: int,
     size: int,
@@ -104,7 +104,31 @@ def error_norm(
 
 
 @jit(
-    _I8(abi.RHS, abi.RHS, abi.ACCEPT, _I, _I, _A, _A, _I8, _I8, _A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A),
+    _I8(
+        abi.RHS,
+        abi.RHS,
+        abi.ACCEPT,
+        _I,
+        _I,
+        _A,
+        _A,
+        _I8,
+        _I8,
+        _A,
+        _A,
+        _A,
+        _I,
+        _F8,
+        _F8,
+        _F8,
+        _A,
+        _M,
+        _M,
+        _A,
+        _I,
+        _A,
+        _A,
+    ),
 )
 def fixed_steps(
     rhs: Any,

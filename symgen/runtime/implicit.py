@@ -30,7 +30,7 @@ _STEP, _PHI, _STEP_STATUS, _PROBING, _POWER = abi.STEP, abi.PHI, abi.STEP_STATUS
 _MOST_ITERATIONS = 15
 
 
-@jit
+@jit()
 def stage_state(y: Any, width: int, n: int, h: float, a: Any, row: int, stages: int, k: Any, out: Any) -> None:
     """Set out = y + h sum_j a[row, j] y'_j for q and v."""
     for i in range(width):
@@ -43,7 +43,7 @@ def stage_state(y: Any, width: int, n: int, h: float, a: Any, row: int, stages: 
                 out[i] += factor * k[j * n + i]
 
 
-@jit
+@jit()
 def place_block(
     matrix: Any, size: int, at: int, to: int, n: int, width: int, diagonal: float, factor: float, tangent: Any
 ) -> None:
@@ -58,7 +58,26 @@ def place_block(
 
 @jit(
     _I8(
-        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _A, _A, _A, _I8, _I8, _A, _F8, _I8, _I8, _I8, _I8, _I8, _I8),
+        *(
+            abi.STAGE,
+            abi.STAGE,
+            abi.RHS,
+            abi.RHS,
+            abi.ACCEPT,
+            _A,
+            _A,
+            _A,
+            _I8,
+            _I8,
+            _A,
+            _F8,
+            _I8,
+            _I8,
+            _I8,
+            _I8,
+            _I8,
+            _I8,
+        ),
         *(_A, _A, _A, _I, _I8, _F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
     ),
 )
@@ -189,7 +208,7 @@ def implicit_steps(
                 continue  # an explicit first stage is the derivative that is known
             low, high = (0, n_stages) if together == 1 else (group, group + 1)
             last, fresh, converged = math.inf, True, False
-            for iteration in range(_MOST_ITERATIONS):
+            for _ in range(_MOST_ITERATIONS):
                 if fresh:
                     for s in range(low, high):
                         stage_state(y, width, n, step, a, s, n_stages, k, trial)

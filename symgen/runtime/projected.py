@@ -30,10 +30,8 @@ _STEP_STATUS, _PROBING, _POWER = abi.STEP_STATUS, abi.PROBING, abi.POWER
 _MOST_ITERATIONS = 100
 
 
-@jit
-def leading_matrix(
-    step: float, penalty: float, nq: int, nv: int, m: int, slopes: Any, matrix: Any
-) -> None:
+@jit()
+def leading_matrix(step: float, penalty: float, nq: int, nv: int, m: int, slopes: Any, matrix: Any) -> None:
     """Write W from the Jacobian of the descriptor form."""
     n, width = nq + nv + m, nq + nv
     quarter = 0.25 * step * step
@@ -47,7 +45,7 @@ def leading_matrix(
             matrix[i * nv + j] = total
 
 
-@jit
+@jit()
 def pull_back(factor: float, nq: int, nv: int, m: int, slopes: Any, rest: Any, at: int, right: Any) -> None:
     """Set right = factor D^T times `m` residuals from index `at` of `rest`."""
     n, width = nq + nv + m, nq + nv
@@ -199,7 +197,7 @@ def projected_steps(
         eliminate(matrix, nv, rows)
         for level in range(2):  # velocities, then accelerations
             last = math.inf
-            for iteration in range(_MOST_ITERATIONS):
+            for _ in range(_MOST_ITERATIONS):
                 for i in range(nv):
                     k[i] = trial[nq + i]
                 residual(following, trial, k, p, w, rest)

@@ -20,14 +20,14 @@ _IN, _OUT, _EVENT_RANK, _EVENT_PIVOT = abi.EVENT_IN, abi.EVENT_OUT, abi.EVENT_RA
 _DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, abi.POSITION, abi.VELOCITY, abi.ENERGY
 
 
-@jit
+@jit()
 def begin(w: Any, gauges: Any) -> None:
     """Take the energies of the first accepted state as those the balance starts from."""
     gauges[_START] = w[_KINETIC] + w[_POTENTIAL]
     gauges[_POTENTIAL_START] = w[_POTENTIAL]
 
 
-@jit
+@jit()
 def keep_maxima(w: Any, work: float, gauges: Any) -> float:
     """Update the largest violations and energy error from the status in `w`; return the energy error."""
     if w[_PHI] > gauges[_MAX_PHI]:
@@ -37,10 +37,10 @@ def keep_maxima(w: Any, work: float, gauges: Any) -> float:
     error = w[_KINETIC] + w[_POTENTIAL] - gauges[_START] - work
     if abs(error) > gauges[_MAX_ENERGY]:
         gauges[_MAX_ENERGY] = abs(error)
-    return error
+    return float(error)
 
 
-@jit
+@jit()
 def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: Any) -> int:
     """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
 

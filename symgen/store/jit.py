@@ -21,7 +21,7 @@ import time
 import types
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar, overload
+from typing import Any, ClassVar, TypeVar
 
 import llvmlite
 import numba
@@ -51,11 +51,7 @@ _DEFAULTS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-@overload
-def jit(function: _Function, /) -> _Function: ...
-@overload
-def jit(*signatures: Any, **options: Any) -> Callable[[_Function], _Function]: ...
-def jit(*signatures: Any, **options: Any) -> Any:
+def jit(*signatures: Any, **options: Any) -> Callable[[_Function], _Function]:
     """Compile a function with Numba when it is first called, through the cache.
 
     With signatures, exactly these are compiled, all at the first call, and any other arguments are a TypeError; this is
@@ -66,8 +62,7 @@ def jit(*signatures: Any, **options: Any) -> Any:
     Parameters
     ----------
     *signatures : Signature or str
-        As for `numba.njit`; none for compilation by the types of the arguments. Alternatively the function itself
-        (``@jit`` without parentheses).
+        As for `numba.njit`; none for compilation by the types of the arguments.
     **options : Any
         As for `numba.njit`; by default ``nogil=True, error_model="numpy", fastmath={"contract"}``, where contraction
         to fused multiply-add is the only liberty taken with floating-point arithmetic.
@@ -75,7 +70,7 @@ def jit(*signatures: Any, **options: Any) -> Any:
     Returns
     -------
     Callable
-        A decorator, or the compiled function: a Numba dispatcher, or the plain function under ``NUMBA_DISABLE_JIT=1``.
+        A decorator; it returns a Numba dispatcher, or the plain function under ``NUMBA_DISABLE_JIT=1``.
 
     Examples
     --------
@@ -86,9 +81,12 @@ def jit(*signatures: Any, **options: Any) -> Any:
     >>> double(2)
     4.0
     """
-    if len(signatures) == 1 and not options and inspect.isfunction(signatures[0]):
-        return _decorate(signatures[0], (), {})
-    return lambda function: _decorate(function, signatures, options)
+
+    def decorate(function: _Function) -> _Function:
+        compiled: _Function = _decorate(function, signatures, options)
+        return compiled
+
+    return decorate
 
 
 def attach(dispatcher: Any, stamp: str | None = None) -> None:

@@ -45,7 +45,7 @@ RHS = types.FunctionType(
 )
 ARRAY = types.float64[::1]
 
-@jit
+@jit()
 def advance(y, ydot, h):
     for i in range(y.shape[0]):
         y[i] += h * ydot[i]

@@ -125,10 +125,10 @@ def make(factor, step):
     def scale(x):
         return factor * step(x)
     return scale
-@jit
+@jit()
 def one(x):
     return x
-@jit
+@jit()
 def half(x):
     return 0.5 * x
 """)
@@ -244,9 +244,9 @@ class TestDecorator:
         def closes(x):
             return x if odd is None else 2 * x
 
-        closes_jitted = jit.jit(lambda x: 2 * x)
+        closes_jitted = jit.jit()(lambda x: 2 * x)
         assert type(closes_jitted._cache).__name__ == "_MachineCode"
-        assert type(jit.jit(closes)._cache).__name__ == "NullCache"
+        assert type(jit.jit()(closes)._cache).__name__ == "NullCache"
 
     def test_recompile_forgets_and_works(self, cache):
         @jit.jit
@@ -264,11 +264,11 @@ def test_nothing_is_unpickled_from_a_folder_that_others_can_enter(cache, monkeyp
     def double(x):
         return 2 * x
 
-    jit.jit(double)(1.0)
+    jit.jit()(double)(1.0)
     folder = next((cache / "native").iterdir())
     folder.chmod(0o750)
     monkeypatch.setattr(pickle, "loads", lambda *_: pytest.fail("unpickled"))
-    assert jit.jit(double)(1.0) == 2.0
+    assert jit.jit()(double)(1.0) == 2.0
 
 
 class TestIdentity:
