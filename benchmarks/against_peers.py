@@ -23,14 +23,14 @@ from rich.table import Table
 
 import symgen
 from benchmarks.peers import models, reference
-from benchmarks.peers.measure import BUDGET, REPEATS, WRONG, Row, fastest
+from benchmarks.peers.measure import BUDGET, ENOUGH, MOST, REPEATS, WRONG, Row, fastest
 from benchmarks.show import show
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = 1e-6
 TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 23))
-#: Constant steps in units of the model's own.
-STEPS = (8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.5, 0.25, 0.1)
+#: Constant steps between two outputs, for each integrator; a whole number, as the peers have it.
+STEPS = {"rk4": (13, 17, 20, 25, 33, 40, 50, 67, 80, 100, 200, 400), "dop853": (1, 2, 3, 4, 5, 6, 8, 10, 13, 17, 25)}
 
 
 def describe(model: models.Model) -> symgen.Mechanism:
@@ -79,9 +79,13 @@ def rows(model: models.Model) -> Iterator[Row]:
         for integrator in ("dop853", "dopri5"):
             control = {"integrator": integrator, "rtol": tolerance, "atol": tolerance}
             settings.append((f"{integrator} {tolerance:.0e}", control))
-    for factor in STEPS:
-        step = factor * model.step
-        settings.append((f"rk4 {step:.3g} s", {"integrator": "rk4", "step": step}))
+    for integrator, counts in STEPS.items():
+        for count in counts:
+            step = model.duration / reference.INTERVALS / count
+            constant: dict[str, Any] = {"integrator": integrator, "step": step}
+            if integrator == "dop853":
+                constant["options"] = {"integrator.adaptive": "false"}
+            settings.append((f"{integrator} {step:.3g} s", constant))
     weights: tuple[tuple[str, str, dict[str, Any]], ...] = (
         ("direct-correction", "direct-correction", {}),
         ("direct-correction mass", "direct-correction", {"method.weight": "mass"}),
@@ -89,9 +93,12 @@ def rows(model: models.Model) -> Iterator[Row]:
     )
     for label, method, options in weights:
         for text, chosen in settings:
-            result = loaded.simulate(None, method=method, options=options, **common, **chosen)
+            all_options = options | chosen.get("options", {})
+            asked = common | chosen | {"method": method, "options": all_options}
+            result = loaded.simulate(**asked)
             if result.status != "failed" and result.seconds.run < BUDGET / REPEATS:
-                result = loaded.simulate(None, method=method, options=options, repeat=REPEATS, **common, **chosen)
+                repeat = min(MOST, max(REPEATS, round(ENOUGH / result.seconds.run)))
+                result = loaded.simulate(**asked, repeat=repeat)
             done = len(result.t) == len(times)
             angles = np.column_stack([result[c] for c in columns])
             error = reference.largest_error(angles, truth) if done else float("nan")

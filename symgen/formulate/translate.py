@@ -69,6 +69,10 @@ class Translator:
             return self._product(e)
         if e.is_Pow:
             return g.power(self.node(e.base), self.node(e.exp))
+        if isinstance(e, sp.Heaviside):  # slope of min and max; which side the kink itself counts to is a convention
+            return g.call("step", self.node(e.args[0]), g.zero)
+        if isinstance(e, sp.DiracDelta):  # slope of a jump: zero everywhere else
+            return g.zero
         if e.func in _UNARY:
             return g.call(_UNARY[e.func], self.node(e.args[0]))
         if e.func in _RELATIONS:
