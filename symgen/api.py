@@ -17,8 +17,9 @@ from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.pipeline import MethodChoice, choose_method, compile_model
-from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.assembly import Start, assemble, has_light_bodies
 from symgen.runtime.run import Array, RunSpec
+from symgen.vocabulary.expressions import ZERO
 
 if TYPE_CHECKING:
     from symgen.integrators._base import Integrator
@@ -179,6 +180,24 @@ class Model:
         p = compiled.parameter_array(values, method_parameters or {})
         return assemble(compiled, q, v, p, strict=strict)
 
+    def ready(
+        self, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
+    ) -> tuple[CompiledModel, Start]:
+        """Return the compiled model and the consistent start of a plan.
+
+        Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
+        M + W D^T D instead, and a note says so.
+        """
+        compiled = compile_model(self.mechanism, plan.choice)
+        start = self.assemble(compiled, parameters, plan.method_parameters, strict)
+        if not plan.solver_is_free or not has_light_bodies(compiled, start):
+            return compiled, start
+        choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+        compiled = compile_model(self.mechanism, choice)
+        start = self.assemble(compiled, parameters, plan.method_parameters, strict)
+        note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
+        return compiled, replace(start, notes=(*start.notes, note))
+
     def simulate(
         self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object
     ) -> Result:
@@ -208,9 +227,8 @@ class Model:
 
         chosen = changed(settings or Settings(), changes)
         plan = make_plan(self, chosen)
-        compiled = compile_model(self.mechanism, plan.choice)
         before = seconds_in_cache()
-        start = self.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
+        compiled, start = self.ready(plan, chosen.parameters, chosen.strict)
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
@@ -226,6 +244,7 @@ class Plan:
     method_parameters: Mapping[str, float]
     spec: RunSpec
     warnings: tuple[str, ...]
+    solver_is_free: bool = False  # the solver was not asked for and may be chosen by the start
 
 
 def make_plan(model: Model, s: Settings) -> Plan:
@@ -281,7 +300,14 @@ def make_plan(model: Model, s: Settings) -> Plan:
             q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
         },
     )
-    return Plan(choice, tableau, method_parameters, spec, tuple(warnings))
+    asked = any(key.partition(".")[2] == "solver" for key in s.options)
+    free = "solver" in choice.options and not asked
+    if any(ZERO in (body.mass, body.inertia) for body in model.mechanism.bodies):
+        if method.needs_regular_mass(choice.options):
+            raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
+        if free:
+            choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
+    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free)
 
 
 def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:

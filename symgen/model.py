@@ -55,6 +55,7 @@ class ModelInfo(msgspec.Struct, frozen=True):
     jacobian: tuple[tuple[int, int, float | None, int | None], ...]
     hoisted: int
     dropped_rows: tuple[str, ...]
+    massless: tuple[int, ...]
     operations: dict[str, int]
 
     @classmethod
@@ -72,6 +73,12 @@ class ModelInfo(msgspec.Struct, frozen=True):
             jacobian=tuple((e.row, e.column, e.constant, e.slot) for e in program.jacobian),
             hoisted=program.hoisted,
             dropped_rows=equations.dropped_rows,
+            massless=tuple(
+                j
+                for b in equations.mass
+                for i, j in enumerate(b.columns)
+                if equations.graph.value(b.entries[i][i]) == 0.0
+            ),
             operations={b.name: b.operations for b in program.blocks},
         )
 

@@ -125,8 +125,11 @@ class Scope:
 
     # Formulas ------------------------------------------------------------------------------------------------------
 
-    def constant(self, key: str, value: float | str, *, positive: bool = False) -> Expr:
-        """Return a number or an expression of parameters that is finite (`positive`: above 0) with their defaults."""
+    def constant(self, key: str, value: float | str, *, positive: bool = False, or_zero: bool = False) -> Expr:
+        """Return a number or an expression of parameters that is finite with their defaults.
+
+        With `positive` it must be above 0; with `or_zero` besides it may be the number 0 itself, no expression.
+        """
         names = Names(
             "a number or an expression of parameters",
             _same(self.model.values),
@@ -134,7 +137,7 @@ class Scope:
         )
         expression = self._expression(key, value, names)
         size = self.value(expression, key)
-        if positive and not size > 0:
+        if positive and not size > 0 and not (or_zero and expression == ZERO):
             raise self.error(key, "a value above 0", repr(size))
         return expression
 

@@ -173,8 +173,10 @@ class _Validator:
         vx, vy = section.velocity or (None, None)
         return Body(
             name=name,
-            mass=scope.constant("mass", section.mass, positive=True),
-            inertia=None if section.inertia is None else scope.constant("inertia", section.inertia, positive=True),
+            mass=scope.constant("mass", section.mass, positive=True, or_zero=True),
+            inertia=None
+            if section.inertia is None
+            else scope.constant("inertia", section.inertia, positive=True, or_zero=True),
             centre_of_mass=scope.vector("centre_of_mass", section.centre_of_mass or (0.0, 0.0)),
             points=tuple(points),
             position=scope.vector("position", section.position),

@@ -75,7 +75,7 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
     wanted -= {"nq", "nv", "m"} if parts else set()  # set by the parent for its parts
     if parts:
         # what a part could ask for belongs to the interface even if the parts at hand do not
-        wanted |= {"skip", "counters", "status", "tolerance"}
+        wanted |= {"skip", "counters", "status", "tolerance", "iteration_tolerance"}
     if wanted != set(values):
         missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
         raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
@@ -121,7 +121,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
         shared.add("spread")
     parts = _parts(program)
     text = "".join((templates_folder() / part).read_text(encoding="utf-8") for part in (*parts, _CLOSING))
-    tolerance = [i for i, (name, _) in enumerate(program.parameters) if name == "tolerance"]
+    place = {name: f"p[{program.parameter_offset + i}]" for i, (name, _) in enumerate(program.parameters)}
     return render(
         "numba/law.py.j2",
         {
@@ -138,7 +138,8 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "parts": parts,
             "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
             "counters": {name: i for i, name in enumerate(COUNTERS)},
-            "tolerance": program.parameter_offset + tolerance[0] if tolerance else -1,
+            "tolerance": place.get("tolerance", "1e-13"),
+            "iteration_tolerance": place.get("iteration_tolerance", "1e-13"),
             "skip": SKIP,
             "functions": _functions(program.blocks, layout, equations),
         },
@@ -155,7 +156,7 @@ def _parts(program: LawProgram) -> list[str]:
     correction, parts = program.correction, list[str]()
     if program.form == "iterated":
         parts.append("rhs_iterated")
-    if program.form == "closed":
+    if program.closed:
         parts += ["choose", "rhs_closed"]
     if program.form == "tangent":
         parts += ["choose", "rhs_tangent"]

@@ -187,7 +187,8 @@ class LawProgram:
     parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
     parameter_offset: int
     hoisted: int
-    form: str  # how rhs is put together: direct, iterated, closed or tangent
+    form: str  # how v' is found: direct, iterated or tangent
+    closed: bool  # whether dependent coordinates are closed before every evaluation
     correction: Correction
     options: Mapping[str, str] = field(default_factory=dict)
     degrees: int = 0  # room for columns of a tangent basis

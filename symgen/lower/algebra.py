@@ -204,6 +204,23 @@ class System:
         return Vector(g, tuple(result))
 
     @property
+    def regular(self) -> bool:
+        """Whether no mass is a literal 0."""
+        return all(self.graph.value(b.entries[i][i]) != 0.0 for b in self.equations.mass for i in range(len(b.columns)))
+
+    @property
+    def free_acceleration(self) -> Vector:
+        """Return M^-1 f, or 0 where M is singular: the start of iterations."""
+        return self.minv(self.f) if self.regular else self.zeros(self.equations.nv)
+
+    @property
+    def heavy_penalty(self) -> Scalar:
+        """Return 1e5 times the mean of M's diagonal: large enough for few iterations, small enough for few digits lost."""
+        g = self.graph
+        diagonal = [b.entries[i][i] for b in self.equations.mass for i in range(len(b.columns))]
+        return Scalar(g, g.mul(g.constant(1e5 / max(1, len(diagonal))), g.total(diagonal)))
+
+    @property
     def inverse_mass_root(self) -> Vector:
         """Return the diagonal of M^-1/2.
 

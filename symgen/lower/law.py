@@ -49,8 +49,8 @@ def lower_law(
     builder = _Builder(equations, model, method)
     law = method.law(builder.system, options)
     if isinstance(law, Acceleration):
-        form = "closed" if method.integrates == "independent" else "direct"
-        builder.direct(law, "rhs" if form == "direct" else "accelerate")
+        form = "direct"
+        builder.direct(law, "accelerate" if method.integrates == "independent" else "rhs")
     elif isinstance(law, Iteration):
         form = "iterated"
         builder.iterated(law)
@@ -80,6 +80,7 @@ def lower_law(
         parameter_offset=builder.parameter_offset,
         hoisted=len(builder.hoister.slots),
         form=form,
+        closed=method.integrates == "independent",
         correction=correction,
         options=dict(options),
         degrees=builder.degrees,

@@ -182,9 +182,14 @@ class Method(ABC):
                 )
         return {o.name: given.get(o.name, o.values[0]) for o in self.options}
 
+    def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
+        """Whether the method cannot do with massless bodies."""
+        return options.get("weight") == "mass"
+
     def stem(self, options: Mapping[str, str], implicit: bool = False) -> str:
-        """Return the file stem of the emitted module: the method, its structural options, and the form if implicit."""
-        parts = [self.name, *(options[o.name] for o in self.options), *(("implicit",) if implicit else ())]
+        """Return the file stem of the emitted module: the method, options that are not the default, and the form if implicit."""
+        chosen = (options[o.name] for o in self.options if options[o.name] != o.values[0])
+        parts = [self.name, *chosen, *(("implicit",) if implicit else ())]
         return "_".join(parts).replace("-", "_")
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
@@ -210,17 +215,58 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
 
+def augmented_iteration(system: System, penalty: Scalar, target: Vector) -> Iteration:
+    """Return the augmented Lagrangian iteration for D v' = target.
+
+    ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``,
+    ``lambda += a (D v' - target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo, Garcia de
+    Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a times it.
+    """
+    factor = system.keep_factor(system.augmented_factor(penalty))
+    constraints = system.keep_constraints()
+    force, target = system.keep("kept_force", system.f), system.keep("kept_target", target)
+    rows, columns = len(target.nodes), len(force.nodes)
+    v = system.variable("kept_acceleration", columns)
+    multipliers = system.variable("multipliers", rows)
+    residual = constraints @ v - target
+    right = force - system.mass(v) - constraints.transposed(multipliers + penalty * residual)
+    increment = system.solve(factor, right)
+    following = v + increment
+    raised = multipliers + penalty * (constraints @ following - target)
+    return Iteration(
+        (
+            IterationState("kept_acceleration", system.free_acceleration, following),
+            IterationState("multipliers", system.zeros(rows), raised),
+        ),
+        increment,
+    )
+
+
+SOLVER = MethodOption(
+    "solver",
+    ("elimination", "augmented"),
+    "how the law is solved: by elimination of v', or with M + W D^T D, for light and massless bodies",
+)
+
+
 class MultiplierMethod(Method):
-    """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target."""
+    """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target.
+
+    Very light bodies spoil the elimination, whose matrix S = D M^-1 D^T mixes 1 / m of all bodies, and massless ones
+    forbid it: then the same equations are solved by the residual form of the augmented iteration.
+    """
 
     forms: ClassVar[tuple[str, ...]] = ("ode", "index-1")
+    options: ClassVar[tuple[MethodOption, ...]] = (SOLVER,)
 
     def target(self, system: System) -> Vector:
         """Return what D v' shall be; gamma unless overridden."""
         return system.gamma
 
     def law(self, system: System, options: Mapping[str, str]) -> Law:
-        """Return the elimination of v'."""
+        """Return the elimination of v', or the iteration for light bodies."""
+        if options["solver"] == "augmented":
+            return augmented_iteration(system, system.heavy_penalty, self.target(system))
         return multiplier_law(system, self.target(system))
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:

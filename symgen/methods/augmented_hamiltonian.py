@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._augmented import PENALTY, TOLERANCE
+from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.methods._base import Iteration, IterationState, Method, Rates, multiplier_law
 
 if TYPE_CHECKING:
@@ -27,7 +27,11 @@ class AugmentedHamiltonian(Method):
     summary = "momenta are integrated; velocities satisfy their constraint in every evaluation"
     reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
     forms = ("one-step",)
-    parameters = (PENALTY, TOLERANCE)
+    parameters = (PENALTY, ITERATION_TOLERANCE)
+
+    def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
+        """Return True: M is inverted."""
+        return True
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for v and sigma, and the rates of q and M^-1 p."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.methods._augmented import MU, OMEGA, PENALTY, TOLERANCE, augmented_iteration, stabilised
-from symgen.methods._base import Iteration, Method
+from symgen.methods._augmented import ITERATION_TOLERANCE, MU, OMEGA, PENALTY, stabilised
+from symgen.methods._base import Iteration, Method, augmented_iteration
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
@@ -22,7 +22,7 @@ class AugmentedLagrangian(Method):
     name = "augmented-lagrangian"
     summary = "penalty terms with iterated multipliers and stabilised constraints"
     reference = "Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195"
-    parameters = (PENALTY, OMEGA, MU, TOLERANCE)
+    parameters = (PENALTY, OMEGA, MU, ITERATION_TOLERANCE)
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the stabilised constraints."""

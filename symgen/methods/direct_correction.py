@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
+from symgen.methods._base import SOLVER, MethodOption, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
     pass
@@ -30,7 +30,10 @@ class DirectCorrection(MultiplierMethod):
             "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
         ),
     )
-    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),)
+    options = (
+        MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),
+        SOLVER,
+    )
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return Newton's iteration at position level and one correction at velocity level, in the chosen metric."""

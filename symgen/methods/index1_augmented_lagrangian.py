@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._augmented import PENALTY, TOLERANCE, augmented_iteration
-from symgen.methods._base import Iteration, Method
+from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
+from symgen.methods._base import Iteration, Method, MethodParameter, augmented_iteration
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
@@ -24,7 +24,13 @@ class Index1AugmentedLagrangian(Method):
     name = "index1-augmented-lagrangian"
     summary = "iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities"
     reference = "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
-    parameters = (PENALTY, TOLERANCE)
+    parameters = (
+        PENALTY,
+        ITERATION_TOLERANCE,
+        MethodParameter(
+            "tolerance", 1e-13, "m", "violation at which projections end, times the largest coordinate or speed"
+        ),
+    )
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for the constraints at acceleration level."""

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import MethodOption, MultiplierMethod
+from symgen.methods._base import SOLVER, MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
     pass
@@ -22,7 +22,7 @@ class PostStabilization(MultiplierMethod):
     name = "post-stabilization"
     summary = "one correction of positions and velocities after each step, not iterated"
     reference = "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
-    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
+    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"), SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at both levels."""

@@ -23,6 +23,10 @@ class UdwadiaKalaba(Method):
     summary = "accelerations closest to the free ones in the metric of M, by a pseudoinverse"
     reference = "Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158"
 
+    def needs_regular_mass(self, options: Mapping[str, str]) -> bool:
+        """Return True: M is inverted."""
+        return True
+
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law in terms of B = D M^-1/2."""
         root = system.inverse_mass_root

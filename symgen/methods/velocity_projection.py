@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.ir.program import Correction
-from symgen.methods._base import MethodOption, MultiplierMethod
+from symgen.methods._base import SOLVER, MethodOption, MultiplierMethod
 
 if TYPE_CHECKING:
     pass
@@ -22,7 +22,7 @@ class VelocityProjection(MultiplierMethod):
     name = "velocity-projection"
     summary = "velocities are projected after each step; positions are left"
     reference = "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076"
-    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"),)
+    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"), SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at velocity level."""

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError, InputError
-from symgen.runtime.probe import call_measure, interpreted
+from symgen.runtime.abi import N_COUNTERS
+from symgen.runtime.probe import call_measure, call_rhs, interpreted
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -92,7 +93,8 @@ def assemble(
             interpreted(compiled.model.masses)(p, w)
     except (ArithmeticError, ValueError):
         raise InputError(*not_finite) from None
-    masses = compiled.section(w, "mass")
+    masses = compiled.section(w, "mass").copy()
+    masses[list(info.massless)] = 1.0  # described as massless; a mass that became 0 is another matter
     if not np.all(masses > 0.0):
         name = info.velocities[int(np.argmin(masses))].name.split(".")[0]
         raise InputError(f"parameters: mass or inertia of {name}", "a value above 0", f"{float(masses.min()):g}")
@@ -184,7 +186,9 @@ def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | 
         return ""
     before = velocity.copy()
     for _ in range(2):
-        root = 1.0 / np.sqrt(compiled.section(w, "mass"))
+        # massless bodies give way first
+        masses = compiled.section(w, "mass")
+        root = 1.0 / np.sqrt(np.maximum(masses, 1e-12 * masses.max()))
         velocity += root * np.linalg.lstsq(d * root, nu - d @ velocity, rcond=RANK_CUTOFF)[0]
     if np.linalg.norm(nu - d @ velocity) > 1e-8 * scale:
         raise AssemblyError(
@@ -196,3 +200,22 @@ def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | 
         f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix; "
         f"{name.name} changed from {before[k]:.6g} to {velocity[k]:.6g} {name.unit}"
     )
+
+
+def has_light_bodies(compiled: CompiledModel, start: Start) -> bool:
+    """Whether a pivot of S is suspiciously small at the start although D D^T finds no more dependent rows than are masked.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        A method that eliminates v'.
+    start : Start
+        Its consistent start; not changed.
+    """
+    if not hasattr(compiled.law_module, "confirm"):
+        return False
+    y, w, iw = start.y.copy(), start.w.copy(), np.zeros(N_COUNTERS, dtype=np.int64)
+    if call_rhs(compiled.law_module.rhs, 0.0, y, start.p, w, iw, np.zeros_like(y)) == 0:
+        return False
+    call_measure(compiled.model.geometry, 0.0, y, start.p, w)
+    return bool(np.all(compiled.section(w, "pivot")[compiled.section(w, "mask") == 0.0] >= SKIP))

@@ -232,8 +232,7 @@ def compare(
         for i, (s, plan) in enumerate(zip(settings, plans, strict=True)):
             key = plan.choice.stem, tuple(sorted(plan.method_parameters.items()))
             if key not in ready:
-                compiled = chosen.compile(plan.choice.method.name, plan.choice.options)
-                ready[key] = compiled, chosen.assemble(compiled, parameters, plan.method_parameters)
+                ready[key] = chosen.ready(plan, parameters)
             compiled, start = ready[key]
             if known is None:
                 say("reference", 0.0, total)

@@ -128,7 +128,7 @@ CASES = [
     ("bodies.ground", {"mass": 1.0}, "bodies: expected a body name that has no meaning of its own, got 'ground'"),
     ("bodies.pin", {"type": "point", "mass": 1.0}, "joints.pin: expected a name used once, got 'pin', which is a body"),
     ("bodies.rod.mass", GONE, "bodies.rod.mass: expected a number or an expression of parameters, got no such key"),
-    ("bodies.rod.mass", 0, "bodies.rod.mass: expected a value above 0, got 0.0"),
+    ("bodies.rod.mass", "rod_mass - 2", "bodies.rod.mass: expected a value above 0, got 0.0"),
     ("bodies.rod.mass", "rod_mass - 3", "bodies.rod.mass: expected a value above 0, got -1.0"),
     ("bodies.rod.mass", "rodmass", "got the unknown name 'rodmass'; did you mean 'rod_mass'?"),
     ("bodies.rod.mass", "t", "expected a number or an expression of parameters, got 't', which has no meaning here"),
