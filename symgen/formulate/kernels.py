@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -78,7 +78,7 @@ _MEASURES: dict[str, tuple[_Build, int, int, bool]] = {
 }
 
 
-@lru_cache(maxsize=None)
+@cache
 def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     """Derive the kernel of a measure.
 
