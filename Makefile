@@ -27,7 +27,7 @@ $(INSTALLED): pyproject.toml
 	@"$(BIN)/python" -m pip --version >/dev/null 2>&1 \
 	  || { echo "making $(VENV) with $$("$(PYTHON)" --version)"; "$(PYTHON)" -m venv --clear $(VENV); }
 	@echo "installing symgen and what its tests need into $(VENV), once"
-	@"$(BIN)/python" -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	@"$(BIN)/python" -m pip install -qq --disable-pip-version-check --editable '.[test]'
 	@touch $@
 
 demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and plot in out/
