@@ -221,14 +221,16 @@ class Model:
         Result
             Also of a failed or interrupted run, with status and reason.
         """
+        from symgen.auto import resolve
         from symgen.result.build import build_result
         from symgen.store.stats import seconds_in_cache
         from symgen.study.timing import repeated
 
-        chosen = changed(settings or Settings(), changes)
+        chosen, reasons = resolve(self, changed(settings or Settings(), changes))
         plan = make_plan(self, chosen)
         before = seconds_in_cache()
         compiled, start = self.ready(plan, chosen.parameters, chosen.strict)
+        start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)

@@ -1,0 +1,182 @@
+"""Automatic choice of method and integrator from facts of the model, each with its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.ir.program import COUNTERS
+from symgen.runtime.probe import call_rhs
+
+if TYPE_CHECKING:
+    from symgen.api import Model, Settings
+    from symgen.model import CompiledModel
+    from symgen.runtime.assembly import Start
+
+#: What asks for an automatic choice.
+AUTO = "auto"
+#: A mechanism counts as stiff where stability asks for this many times the steps that following its motion does.
+STIFF_RATIO = 20.0
+#: Steps of an adaptive run of high order over the time in which its state changes by its own size.
+_STEPS_A_CHANGE = 8.0
+#: From this many unknowns of a stage on, dense Newton matrices cost more than short explicit steps.
+LARGEST_IMPLICIT = 400
+
+
+@dataclass(frozen=True)
+class Facts:
+    """What the choice looks at.
+
+    Attributes
+    ----------
+    rows, rank : int
+        Constraint rows and their rank at the start.
+    coordinates : int
+        Size of q.
+    massless : bool
+        Whether a body has no mass.
+    fastest_decay, fastest_oscillation : float
+        Largest negative real part and imaginary part of the eigenvalues of the linearised motion at the start [1/s].
+    slowest_change : float
+        Rate at which the state changes by its own size [1/s].
+    """
+
+    rows: int
+    rank: int
+    coordinates: int
+    massless: bool
+    fastest_decay: float
+    fastest_oscillation: float
+    slowest_change: float
+
+    @property
+    def stiffness(self) -> float:
+        """Steps that stability asks of an explicit scheme over those that following the motion takes."""
+        return self.fastest_decay / 3.0 / max(self.slowest_change * _STEPS_A_CHANGE, 1e-300)
+
+
+def linearised(compiled: CompiledModel, start: Start) -> NDArray[np.float64]:
+    """Return the Jacobian of (q', v') with respect to (q, v) at the start, by central differences: an estimate only.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        A method whose rates are those of the state.
+    start : Start
+        Where to linearise.
+    """
+    width = len(start.y) - 1
+    result = np.zeros((width, width))
+    iw = np.zeros(len(COUNTERS), dtype=np.int64)
+    for j in range(width):
+        step = 1e-6 * max(1.0, abs(float(start.y[j])))
+        sides = []
+        for sign in (1.0, -1.0):
+            y, rate = start.y.copy(), np.zeros_like(start.y)
+            y[j] += sign * step
+            call_rhs(compiled.law_module.rhs, 0.0, y, start.p, start.w.copy(), iw, rate)
+            sides.append(rate[:width])
+        result[:, j] = (sides[0] - sides[1]) / (2.0 * step)
+    return result
+
+
+def gather(model: Model, parameters: Mapping[str, float]) -> Facts:
+    """Return the facts of a model with given parameters."""
+    from symgen.api import Settings, make_plan
+
+    plan = make_plan(model, Settings(method="lagrange", integrator="dop853"))
+    compiled, start = model.ready(plan, parameters)
+    nq, width = compiled.info.nq, len(start.y) - 1
+    jacobian = linearised(compiled, start)
+    # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
+    eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
+    rate = np.zeros_like(start.y)
+    iw = np.zeros(len(COUNTERS), dtype=np.int64)
+    call_rhs(compiled.law_module.rhs, 0.0, start.y.copy(), start.p, start.w.copy(), iw, rate)
+    speed = max(1e-12, float(np.abs(start.y[nq:width]).max(initial=0.0)))
+    acceleration = float(np.abs(rate[nq:width]).max(initial=0.0))
+    change = max(speed, np.sqrt(acceleration), 1.0 / plan.spec.until)
+    return Facts(
+        rows=compiled.info.m,
+        rank=start.rank,
+        coordinates=nq,
+        massless=bool(compiled.info.massless),
+        fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
+        fastest_oscillation=float(np.abs(eigenvalues.imag).max(initial=0.0)),
+        slowest_change=float(change),
+    )
+
+
+def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str | None, tuple[str, ...]]:
+    """Return method, integrator and the reasons, for whichever of the two is ``auto``.
+
+    The rules come from measured rows (see ``docs/methods.md``): `direct-correction` in the metric of M carried runs
+    through singular positions with the smallest errors and costs little more than `lagrange`; `radau5` is for decay that is
+    much faster than the motion.
+    """
+    reasons: list[str] = []
+    if method == AUTO:
+        method = "direct-correction"
+        if facts.rows == 0:
+            method = "lagrange"
+            reasons.append("method lagrange: there are no constraints to keep")
+        elif facts.massless:
+            reasons.append("method direct-correction with the identity as weight: a body has no mass")
+        else:
+            reasons.append(
+                "method direct-correction with weight=mass: constraints hold to rounding, and passages near singular "
+                "positions are met with the smallest errors"
+            )
+        if facts.rank < facts.rows:
+            reasons.append(
+                f"{facts.rows - facts.rank} of {facts.rows} rows depend on others: they are skipped, accelerations stay unique"
+            )
+    if integrator == AUTO:
+        unknowns = 2 * facts.coordinates + facts.rows
+        if facts.stiffness > STIFF_RATIO and unknowns <= LARGEST_IMPLICIT and method not in _EXPLICIT_ONLY:
+            integrator = "radau5"
+            reasons.append(
+                f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
+                f"{facts.stiffness:.3g} times the steps that the motion needs"
+            )
+        else:
+            integrator = "dop853"
+            reasons.append(
+                f"integrator dop853: the fastest decay, {facts.fastest_decay:.3g} 1/s, does not call for an implicit scheme"
+                if facts.stiffness <= STIFF_RATIO
+                else f"integrator dop853: stiff, but {unknowns} unknowns a stage are too many for dense Newton matrices"
+            )
+    return method, integrator, tuple(reasons)
+
+
+#: Methods without a form for implicit integrators.
+_EXPLICIT_ONLY = frozenset(
+    (
+        *("augmented-lagrangian", "index1-augmented-lagrangian", "augmented-hamiltonian"),
+        *("coordinate-partitioning", "null-space", "udwadia-kalaba"),
+    )
+)
+
+
+def resolve(model: Model, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
+    """Return settings without ``auto``, and the reasons of each choice.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    settings : Settings
+        As asked for.
+    """
+    if AUTO not in (settings.method, settings.integrator):
+        return settings, ()
+    facts = gather(model, settings.parameters)
+    method, integrator, reasons = decide(facts, settings.method, settings.integrator)
+    options = dict(settings.options)
+    if settings.method == AUTO and method == "direct-correction" and not facts.massless:
+        options.setdefault("method.weight", "mass")
+    return replace(settings, method=method, integrator=integrator, options=options), reasons
