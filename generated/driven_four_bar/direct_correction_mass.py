@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 8f8565515c2742ad
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = mass
 p[17] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies
+from .model import measure
 
-PHI = 35  # sections of w
-DRIFT = 53
-PIVOT = 62
-MASK = 17
-RIGHT = 71
-CHANGE = 80
-SAVED = 26
+MASK = 22  # sections of w
+SAVED = 31
+PIVOT = 58
+CHANGE = 67
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -78,15 +76,15 @@ def rhs(t, y, p, w, iw, ydot):
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
-    mask_0 = w[17]
-    mask_1 = w[18]
-    mask_2 = w[19]
-    mask_3 = w[20]
-    mask_4 = w[21]
-    mask_5 = w[22]
-    mask_6 = w[23]
-    mask_7 = w[24]
-    mask_8 = w[25]
+    mask_0 = w[22]
+    mask_1 = w[23]
+    mask_2 = w[24]
+    mask_3 = w[25]
+    mask_4 = w[26]
+    mask_5 = w[27]
+    mask_6 = w[28]
+    mask_7 = w[29]
+    mask_8 = w[30]
     p21 = p[21]
     p22 = p[22]
     p23 = p[23]
@@ -232,21 +230,21 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p25*(p20 + s108 + s110)
     ydot[17] = p26*(s14*s110 - (s14*s108 - s15*s109 + s15*s111))
     ydot[18] = p4*s103
-    w[8] = s105
-    w[9] = s104
-    w[10] = s102
-    w[11] = s99
-    w[12] = s109
-    w[13] = s108
-    w[14] = s111
-    w[15] = s110
-    w[16] = -s103
+    w[13] = s105
+    w[14] = s104
+    w[15] = s102
+    w[16] = s99
+    w[17] = s109
+    w[18] = s108
+    w[19] = s111
+    w[20] = s110
+    w[21] = -s103
     return int(((s112 | (s88 < 1e-06*s32)) | (s91 < 1e-06*s36)))
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 348 operations, 224587 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 388 operations, 317172 before sharing."""
     # inputs
     p3 = p[3]  # crank_start [rad]
     p4 = p[4]  # crank_speed [rad/s]
@@ -259,6 +257,13 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
+    mask_1 = w[23]
+    mask_2 = w[24]
+    mask_3 = w[25]
+    mask_4 = w[26]
+    mask_5 = w[27]
+    mask_7 = w[29]
+    mask_8 = w[30]
     p21 = p[21]
     p22 = p[22]
     p23 = p[23]
@@ -269,210 +274,229 @@ def geometry(t, y, p, w):
     s0 = math.cos(q2)
     s1 = math.sin(q2)
     s2 = -s0
-    s3 = 4.0*math.cos(q5)
-    s4 = -s3
-    s5 = 4.0*math.sin(q5)
-    s6 = 2.5*math.cos(q8)
-    s7 = 2.5*math.sin(q8)
-    s8 = s1*p22
-    s9 = s0*p22
-    s10 = s5*p24
-    s11 = s3*p24
-    s12 = s7*p26
-    s13 = s6*p26
-    s14 = s1*s8
-    s15 = p21 + s14
-    s16 = s0*s8
-    s17 = s14 - p21
-    s18 = s0*s9
-    s19 = p21 + s18
-    s20 = s5*s10
-    s21 = s3*s10
-    s22 = s20 - p23
-    s23 = s3*s11
-    s24 = s5*s11
-    s25 = s7*s12
-    s26 = s6*s12
-    s27 = p25 - s25
-    s28 = s6*s13
-    s29 = s7*s13
-    s30 = s1*s1
-    s31 = 1.0 + s30
-    s32 = s0*s1
-    s33 = -1.0 + s30
-    s34 = s0*s0
-    s35 = 1.0 + s34
-    s36 = s5*s5
-    s37 = 1.0 + s31 + s36
-    s38 = s3*s5
-    s39 = -1.0 + s36
-    s40 = s3*s3
-    s41 = 1.0 + s35 + s40
-    s42 = s7*s7
-    s43 = 1.0 + 1.0 + s36 + s42
-    s44 = s6*s7
-    s45 = 1.0 - s42
-    s46 = s6*s6
-    s47 = 1.0 + 1.0 + s40 + s46
-    s48 = 1.0 + s46
-    s49 = 1.0/(1.0 + s42)
-    s50 = s44*s49
-    s51 = s45*s49
-    s52 = s44*s50
-    s53 = s48 - s52
-    s54 = s44 + s45*s50
-    s55 = 1.0 - s46 + s52
-    s56 = 1.0*(s53 > 1e-12*s48)
-    s57 = 1.0 - s56
-    s58 = s56/(s53 + s57)
-    s59 = s54*s58
-    s60 = s43 - s45*s51 - s54*s59
-    s61 = s38 + s44 + s44*s51 + s55*s59
-    s62 = 1.0*(s60 > 1e-12*s43)
-    s63 = 1.0 - s62
-    s64 = s62/(s60 + s63)
-    s65 = s61*s64
-    s66 = s39*s64
-    s67 = s47 - s52 - s55*(s55*s58) - s61*s65
-    s68 = s39*s65 - s38
-    s69 = -1.0 + s40 - s38*s65
-    s70 = 1.0*(s67 > 1e-12*s47)
-    s71 = 1.0 - s70
-    s72 = s70/(s67 + s71)
-    s73 = s68*s72
-    s74 = 1.0/s31
-    s75 = s32*s74
-    s76 = s1*s74
-    s77 = s33*s74
-    s78 = s32*s75
-    s79 = s35 - s78
-    s80 = s1*s75 - s0
-    s81 = s33*s75 - s32
-    s82 = -1.0 + s34 - s78
-    s83 = 1.0*(s79 > 1e-12*s35)
-    s84 = 1.0 - s83
-    s85 = s83/(s79 + s84)
-    s86 = s80*s85
-    s87 = s81*s85
-    s88 = 1.0 - s1*s76 - s80*s86
-    s89 = s1 - s33*s76 - s81*s86
-    s90 = s32*s76 - s0 - s82*s86
-    s91 = 1.0*(s88 > 1e-12)
-    s92 = 1.0 - s91
-    s93 = s91/(s88 + s92)
-    s94 = s89*s93
-    s95 = s37 - s39*s66 - s68*s73 - s33*s77 - s81*s87 - s89*s94
-    s96 = s38*s66 - (s32 + s38) - s69*s73 + s32*s77 - s82*s87 - s90*s94
-    s97 = 1.0*(s95 > 1e-12*s37)
-    s98 = 1.0 - s97
-    s99 = s41 - s38*(s38*s64) - s69*(s69*s72) - s78 - s82*(s82*s85) - s90*(s90*s93) - s96*(s96*(s97/(s95 + s98)))
-    s100 = 1.0*(s99 > 1e-12*s41)
-    s101 = 1.0/(p25 + s25)
-    s102 = s26*s101
-    s103 = s27*s101
-    s104 = s29*s101
-    s105 = s26 + s27*s102
-    s106 = p25 - s28 + s29*s102
-    s107 = s56/(s57 + p25 + s28 - s26*s102)
-    s108 = s105*s107
-    s109 = s106*s107
-    s110 = s21 + s26 + s29*s103 + s106*s108
-    s111 = s62/(s63 + p25 + p23 + s20 + s25 - s27*s103 - s105*s108)
-    s112 = s110*s111
-    s113 = s22*s111
-    s114 = s24*s111
-    s115 = s22*s112 - s21
-    s116 = s23 - p23 - s24*s112
-    s117 = s70/(s71 + p25 + p23 + s23 + s28 - s29*s104 - s106*s109 - s110*s112)
-    s118 = s115*s117
-    s119 = s116*s117
-    s120 = 1.0/s15
-    s121 = s16*s120
-    s122 = -s121
-    s123 = s8*s120
-    s124 = s17*s120
-    s125 = s16*s121
-    s126 = s8*s121 - s9
-    s127 = s17*s121 - s1*s9
-    s128 = s18 - p21 - s125
-    s129 = s83/(s84 + s19 - s125)
-    s130 = s126*s129
-    s131 = s127*s129
-    s132 = s128*s129
-    s133 = s8 - s17*s123 - s127*s130
-    s134 = s16*s123 - s9 - s128*s130
-    s135 = s91/(s92 + p22 - s8*s123 - s126*s130)
-    s136 = s133*s135
-    s137 = s134*s135
-    s138 = s24*s113 - (s16 + s21) - s116*s118 + s16*s124 - s128*s131 - s134*s136
-    s139 = s97/(s98 + p23 + s15 + s20 - s22*s113 - s115*s118 - s17*s124 - s127*s131 - s133*s136)
-    s140 = s138*s139
-    s141 = 1.0 - s100 + p23 + s19 + s23 - s24*s114 - s116*s119 - s125 - s128*s132 - s134*s137 - s138*s140
+    s3 = q0 - s0
+    s4 = q1 - s1
+    s5 = 4.0*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 4.0*math.sin(q5)
+    s9 = q4 - q1 - s8 - s1
+    s10 = 2.5*math.cos(q8)
+    s11 = q6 - q3 + s10 - s5
+    s12 = 2.5*math.sin(q8)
+    s13 = q7 - q4 + s12 - s8
+    s14 = q6 - 10.0 - s10
+    s15 = q7 - s12
+    s16 = q2 - (p3 + t*p4)
+    s17 = s1*p22
+    s18 = s0*p22
+    s19 = s8*p24
+    s20 = s5*p24
+    s21 = s12*p26
+    s22 = s10*p26
+    s23 = s1*s17
+    s24 = p21 + s23
+    s25 = s0*s17
+    s26 = s23 - p21
+    s27 = s0*s18
+    s28 = p21 + s27
+    s29 = s8*s19
+    s30 = s5*s19
+    s31 = s29 - p23
+    s32 = s5*s20
+    s33 = s8*s20
+    s34 = s12*s21
+    s35 = s10*s21
+    s36 = p25 - s34
+    s37 = s10*s22
+    s38 = s12*s22
+    s39 = s1*s1
+    s40 = 1.0 + s39
+    s41 = s0*s1
+    s42 = -1.0 + s39
+    s43 = s0*s0
+    s44 = 1.0 + s43
+    s45 = s8*s8
+    s46 = 1.0 + s40 + s45
+    s47 = s5*s8
+    s48 = -1.0 + s45
+    s49 = s5*s5
+    s50 = 1.0 + s44 + s49
+    s51 = s12*s12
+    s52 = 1.0 + 1.0 + s45 + s51
+    s53 = s10*s12
+    s54 = 1.0 - s51
+    s55 = s10*s10
+    s56 = 1.0 + 1.0 + s49 + s55
+    s57 = 1.0 + s55
+    s58 = 1.0/(1.0 + s51)
+    s59 = s53*s58
+    s60 = s54*s58
+    s61 = s53*s59
+    s62 = s57 - s61
+    s63 = s53 + s54*s59
+    s64 = 1.0 - s55 + s61
+    s65 = 1.0*(s62 > 1e-12*s57)
+    s66 = 1.0 - s65
+    s67 = s65/(s62 + s66)
+    s68 = s63*s67
+    s69 = s52 - s54*s60 - s63*s68
+    s70 = s47 + s53 + s53*s60 + s64*s68
+    s71 = 1.0*(s69 > 1e-12*s52)
+    s72 = 1.0 - s71
+    s73 = s71/(s69 + s72)
+    s74 = s70*s73
+    s75 = s48*s73
+    s76 = s56 - s61 - s64*(s64*s67) - s70*s74
+    s77 = s48*s74 - s47
+    s78 = -1.0 + s49 - s47*s74
+    s79 = 1.0*(s76 > 1e-12*s56)
+    s80 = 1.0 - s79
+    s81 = s79/(s76 + s80)
+    s82 = s77*s81
+    s83 = 1.0/s40
+    s84 = s41*s83
+    s85 = s1*s83
+    s86 = s42*s83
+    s87 = s41*s84
+    s88 = s44 - s87
+    s89 = s1*s84 - s0
+    s90 = s42*s84 - s41
+    s91 = -1.0 + s43 - s87
+    s92 = 1.0*(s88 > 1e-12*s44)
+    s93 = 1.0 - s92
+    s94 = s92/(s88 + s93)
+    s95 = s89*s94
+    s96 = s90*s94
+    s97 = 1.0 - s1*s85 - s89*s95
+    s98 = s1 - s42*s85 - s90*s95
+    s99 = s41*s85 - s0 - s91*s95
+    s100 = 1.0*(s97 > 1e-12)
+    s101 = 1.0 - s100
+    s102 = s100/(s97 + s101)
+    s103 = s98*s102
+    s104 = s46 - s48*s75 - s77*s82 - s42*s86 - s90*s96 - s98*s103
+    s105 = s47*s75 - (s41 + s47) - s78*s82 + s41*s86 - s91*s96 - s99*s103
+    s106 = 1.0*(s104 > 1e-12*s46)
+    s107 = 1.0 - s106
+    s108 = s50 - s47*(s47*s73) - s78*(s78*s81) - s87 - s91*(s91*s94) - s99*(s99*s102) - s105*(s105*(s106/(s104 + s107)))
+    s109 = 1.0*(s108 > 1e-12*s50)
+    s110 = 1.0/(p25 + s34)
+    s111 = s35*s110
+    s112 = s36*s110
+    s113 = s38*s110
+    s114 = s35 + s36*s111
+    s115 = p25 - s37 + s38*s111
+    s116 = s65/(s66 + p25 + s37 - s35*s111)
+    s117 = s114*s116
+    s118 = s115*s116
+    s119 = s30 + s35 + s38*s112 + s115*s117
+    s120 = s71/(s72 + p25 + p23 + s29 + s34 - s36*s112 - s114*s117)
+    s121 = s119*s120
+    s122 = s31*s120
+    s123 = s33*s120
+    s124 = s31*s121 - s30
+    s125 = s32 - p23 - s33*s121
+    s126 = s79/(s80 + p25 + p23 + s32 + s37 - s38*s113 - s115*s118 - s119*s121)
+    s127 = s124*s126
+    s128 = s125*s126
+    s129 = 1.0/s24
+    s130 = s25*s129
+    s131 = -s130
+    s132 = s17*s129
+    s133 = s26*s129
+    s134 = s25*s130
+    s135 = s17*s130 - s18
+    s136 = s26*s130 - s1*s18
+    s137 = s27 - p21 - s134
+    s138 = s92/(s93 + s28 - s134)
+    s139 = s135*s138
+    s140 = s136*s138
+    s141 = s137*s138
+    s142 = s17 - s26*s132 - s136*s139
+    s143 = s25*s132 - s18 - s137*s139
+    s144 = s100/(s101 + p22 - s17*s132 - s135*s139)
+    s145 = s142*s144
+    s146 = s143*s144
+    s147 = s33*s122 - (s25 + s30) - s125*s127 + s25*s133 - s137*s140 - s143*s145
+    s148 = s106/(s107 + p23 + s24 + s29 - s31*s122 - s124*s127 - s26*s133 - s136*s140 - s142*s145)
+    s149 = s147*s148
+    s150 = 1.0 - s109 + p23 + s28 + s32 - s33*s123 - s125*s128 - s134 - s137*s141 - s143*s146 - s147*s149
+    s151 = s88/s44
+    s152 = s104/s46
+    s153 = s108/s50
+    s154 = s69/s52
+    s155 = s76/s56
+    s156 = min(min(min(min(min(1.0, mask_1 + s151), mask_2 + s152), mask_3 + s153), mask_4 + s154), mask_5 + s155)
+    s157 = s62/s57
     # outputs
-    w[35] = q0 - s0
-    w[36] = q1 - s1
-    w[37] = q3 - q0 - s3 - s0
-    w[38] = q4 - q1 - s5 - s1
-    w[39] = q6 - q3 + s6 - s3
-    w[40] = q7 - q4 + s7 - s5
-    w[41] = q6 - 10.0 - s6
-    w[42] = q7 - s7
-    w[43] = q2 - (p3 + t*p4)
-    w[52] = p4
-    w[98] = s1
-    w[99] = s2
-    w[100] = s1
-    w[101] = s5
-    w[102] = s2
-    w[103] = s4
-    w[104] = s5
-    w[105] = -s7
-    w[106] = s4
-    w[107] = s6
-    w[108] = s7
-    w[109] = -s6
-    w[63] = s79/s35
-    w[64] = s95/s37
-    w[65] = s99/s41
-    w[66] = s60/s43
-    w[67] = s67/s47
-    w[69] = s53/s48
-    w[70] = s88
-    w[139] = -s102
-    w[140] = s103
-    w[141] = s104
-    w[142] = s108
-    w[143] = s109
-    w[144] = -s112
-    w[145] = s113
-    w[146] = -s114
-    w[147] = s118
-    w[148] = s119
-    w[149] = s122
-    w[150] = s123
-    w[151] = s124
-    w[152] = s122
-    w[153] = s130
-    w[154] = s131
-    w[155] = s132
-    w[156] = s136
-    w[157] = s137
-    w[158] = s140
-    w[159] = s101
-    w[160] = s107
-    w[161] = s111
-    w[162] = s117
-    w[163] = s120
-    w[164] = s129
-    w[165] = s135
-    w[166] = s139
-    w[167] = s100/s141
+    w[40] = s3
+    w[41] = s4
+    w[42] = s7
+    w[43] = s9
+    w[44] = s11
+    w[45] = s13
+    w[46] = s14
+    w[47] = s15
+    w[48] = s16
+    w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15 + s16*s16)
+    w[57] = p4
+    w[85] = s1
+    w[86] = s2
+    w[87] = s1
+    w[88] = s8
+    w[89] = s2
+    w[90] = s6
+    w[91] = s8
+    w[92] = -s12
+    w[93] = s6
+    w[94] = s10
+    w[95] = s12
+    w[96] = -s10
+    w[59] = s151
+    w[60] = s152
+    w[61] = s153
+    w[62] = s154
+    w[63] = s155
+    w[65] = s157
+    w[66] = s97
+    w[5] = s100 + s65 + 1.0 + s79 + s71 + s109 + s106 + 1.0 + s92
+    w[4] = min(min(s156, mask_7 + s157), mask_8 + s97)
+    w[126] = -s111
+    w[127] = s112
+    w[128] = s113
+    w[129] = s117
+    w[130] = s118
+    w[131] = -s121
+    w[132] = s122
+    w[133] = -s123
+    w[134] = s127
+    w[135] = s128
+    w[136] = s131
+    w[137] = s132
+    w[138] = s133
+    w[139] = s131
+    w[140] = s139
+    w[141] = s140
+    w[142] = s141
+    w[143] = s145
+    w[144] = s146
+    w[145] = s149
+    w[146] = s110
+    w[147] = s116
+    w[148] = s120
+    w[149] = s126
+    w[150] = s129
+    w[151] = s138
+    w[152] = s144
+    w[153] = s148
+    w[154] = s109/s150
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 129 operations, 10073 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 129 operations, 10073 before sharing."""
     # inputs
     p21 = p[21]
     p22 = p[22]
@@ -480,71 +504,71 @@ def spread(p, w):
     p24 = p[24]
     p25 = p[25]
     p26 = p[26]
-    law_lower_0 = w[139]
-    law_lower_1 = w[140]
-    law_lower_2 = w[141]
-    law_lower_3 = w[142]
-    law_lower_4 = w[143]
-    law_lower_5 = w[144]
-    law_lower_6 = w[145]
-    law_lower_7 = w[146]
-    law_lower_8 = w[147]
-    law_lower_9 = w[148]
-    law_lower_10 = w[149]
-    law_lower_11 = w[150]
-    law_lower_12 = w[151]
-    law_lower_13 = w[152]
-    law_lower_14 = w[153]
-    law_lower_15 = w[154]
-    law_lower_16 = w[155]
-    law_lower_17 = w[156]
-    law_lower_18 = w[157]
-    law_lower_19 = w[158]
-    law_reciprocal_0 = w[159]
-    law_reciprocal_1 = w[160]
-    law_reciprocal_2 = w[161]
-    law_reciprocal_3 = w[162]
-    law_reciprocal_4 = w[163]
-    law_reciprocal_5 = w[164]
-    law_reciprocal_6 = w[165]
-    law_reciprocal_7 = w[166]
-    law_reciprocal_8 = w[167]
-    right_0 = w[71]
-    right_1 = w[72]
-    right_2 = w[73]
-    right_3 = w[74]
-    right_4 = w[75]
-    right_5 = w[76]
-    right_6 = w[77]
-    right_7 = w[78]
-    right_8 = w[79]
-    jacobian_0 = w[98]
-    jacobian_1 = w[99]
-    jacobian_2 = w[100]
-    jacobian_3 = w[101]
-    jacobian_4 = w[102]
-    jacobian_5 = w[103]
-    jacobian_6 = w[104]
-    jacobian_7 = w[105]
-    jacobian_8 = w[106]
-    jacobian_9 = w[107]
-    jacobian_10 = w[108]
-    jacobian_11 = w[109]
+    law_lower_0 = w[126]
+    law_lower_1 = w[127]
+    law_lower_2 = w[128]
+    law_lower_3 = w[129]
+    law_lower_4 = w[130]
+    law_lower_5 = w[131]
+    law_lower_6 = w[132]
+    law_lower_7 = w[133]
+    law_lower_8 = w[134]
+    law_lower_9 = w[135]
+    law_lower_10 = w[136]
+    law_lower_11 = w[137]
+    law_lower_12 = w[138]
+    law_lower_13 = w[139]
+    law_lower_14 = w[140]
+    law_lower_15 = w[141]
+    law_lower_16 = w[142]
+    law_lower_17 = w[143]
+    law_lower_18 = w[144]
+    law_lower_19 = w[145]
+    law_reciprocal_0 = w[146]
+    law_reciprocal_1 = w[147]
+    law_reciprocal_2 = w[148]
+    law_reciprocal_3 = w[149]
+    law_reciprocal_4 = w[150]
+    law_reciprocal_5 = w[151]
+    law_reciprocal_6 = w[152]
+    law_reciprocal_7 = w[153]
+    law_reciprocal_8 = w[154]
+    residual_0 = w[40]
+    residual_1 = w[41]
+    residual_2 = w[42]
+    residual_3 = w[43]
+    residual_4 = w[44]
+    residual_5 = w[45]
+    residual_6 = w[46]
+    residual_7 = w[47]
+    residual_8 = w[48]
+    jacobian_0 = w[85]
+    jacobian_1 = w[86]
+    jacobian_2 = w[87]
+    jacobian_3 = w[88]
+    jacobian_4 = w[89]
+    jacobian_5 = w[90]
+    jacobian_6 = w[91]
+    jacobian_7 = w[92]
+    jacobian_8 = w[93]
+    jacobian_9 = w[94]
+    jacobian_10 = w[95]
+    jacobian_11 = w[96]
     # intermediate terms
-    s0 = right_7 - law_lower_0*right_6
-    s1 = right_4 - law_lower_1*right_6 - law_lower_3*s0
-    s2 = right_5 - law_lower_2*right_6 - law_lower_4*s0 - law_lower_5*s1
-    s3 = right_1 - law_lower_10*right_0
-    s4 = right_8 - law_lower_11*right_0 - law_lower_14*s3
-    s5 = right_2 - law_lower_6*s1 - law_lower_8*s2 - law_lower_12*right_0 - law_lower_15*s3 - law_lower_17*s4
-    s6 = right_3 - law_lower_7*s1 - law_lower_9*s2 - law_lower_13*right_0 - law_lower_16*s3 - law_lower_18*s4
+    s0 = law_lower_0*residual_6 - residual_7
+    s1 = law_lower_1*residual_6 - residual_4 - law_lower_3*s0
+    s2 = law_lower_2*residual_6 - residual_5 - law_lower_4*s0 - law_lower_5*s1
+    s3 = law_lower_10*residual_0 - residual_1
+    s4 = law_lower_11*residual_0 - residual_8 - law_lower_14*s3
+    s5 = law_lower_12*residual_0 - (residual_2 + law_lower_6*s1 + law_lower_8*s2) - law_lower_15*s3 - law_lower_17*s4
+    s6 = law_lower_13*residual_0 - (residual_3 + law_lower_7*s1 + law_lower_9*s2) - law_lower_16*s3 - law_lower_18*s4
     s7 = law_reciprocal_8*(s6 - law_lower_19*s5)
     s8 = law_reciprocal_7*s5
     s9 = law_lower_19*s7
     s10 = s8 - s9
     s11 = law_reciprocal_6*s4 - law_lower_17*s10 - law_lower_18*s7
     s12 = law_reciprocal_5*s3 - law_lower_14*s11 - law_lower_15*s10 - law_lower_16*s7
-    s13 = law_reciprocal_4*right_0 - law_lower_10*s12 - law_lower_11*s11 - law_lower_12*s10 - law_lower_13*s7
+    s13 = law_reciprocal_4*residual_0 + law_lower_10*s12 + law_lower_11*s11 + law_lower_12*s10 + law_lower_13*s7
     s14 = law_reciprocal_3*s2 - law_lower_8*s10
     s15 = law_lower_9*s7
     s16 = s14 - s15
@@ -552,17 +576,17 @@ def spread(p, w):
     s18 = law_lower_7*s7
     s19 = s17 - s18
     s20 = law_reciprocal_1*s0 - law_lower_3*s19 - law_lower_4*s16
-    s21 = law_reciprocal_0*right_6 - law_lower_0*s20 - law_lower_1*s19 - law_lower_2*s16
+    s21 = law_reciprocal_0*residual_6 + law_lower_0*s20 + law_lower_1*s19 + law_lower_2*s16
     # outputs
-    w[80] = p21*(s13 + s9 - s8)
-    w[81] = p21*(s12 - s7)
-    w[82] = p22*(s11 + s13*jacobian_0 + s12*jacobian_1 + s10*jacobian_2 + s7*jacobian_4)
-    w[83] = p23*(s10 + s18 - s17)
-    w[84] = p23*(s7 + s15 - s14)
-    w[85] = p24*(s10*jacobian_3 + s7*jacobian_5 + s19*jacobian_6 + s16*jacobian_8)
-    w[86] = p25*(s19 + s21)
-    w[87] = p25*(s16 + s20)
-    w[88] = p26*(s19*jacobian_7 + s16*jacobian_9 + s21*jacobian_10 + s20*jacobian_11)
+    w[67] = p21*(s9 - s8 - s13)
+    w[68] = p21*(s12 - s7)
+    w[69] = p22*(s11 + s12*jacobian_1 - s13*jacobian_0 + s10*jacobian_2 + s7*jacobian_4)
+    w[70] = p23*(s10 + s18 - s17)
+    w[71] = p23*(s7 + s15 - s14)
+    w[72] = p24*(s10*jacobian_3 + s7*jacobian_5 + s19*jacobian_6 + s16*jacobian_8)
+    w[73] = p25*(s19 - s21)
+    w[74] = p25*(s16 + s20)
+    w[75] = p26*(s19*jacobian_7 + s16*jacobian_9 - s21*jacobian_10 + s20*jacobian_11)
     return 0
 
 
@@ -586,58 +610,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 9 rows."""
-    total = 0.0
-    for i in range(first, first + 9):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[17] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(9):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
         for j in range(9):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(9):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(9):
-        y[9 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(9):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

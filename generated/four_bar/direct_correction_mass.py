@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 8f8565515c2742ad
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = mass
 p[15] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies
+from .model import measure
 
-PHI = 32  # sections of w
-DRIFT = 48
-PIVOT = 56
-MASK = 16
-RIGHT = 64
-CHANGE = 72
-SAVED = 24
+MASK = 21  # sections of w
+SAVED = 29
+PIVOT = 53
+CHANGE = 61
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -75,14 +73,14 @@ def rhs(t, y, p, w, iw, ydot):
     p16 = p[16]
     p17 = p[17]
     p18 = p[18]
-    mask_0 = w[16]
-    mask_1 = w[17]
-    mask_2 = w[18]
-    mask_3 = w[19]
-    mask_4 = w[20]
-    mask_5 = w[21]
-    mask_6 = w[22]
-    mask_7 = w[23]
+    mask_0 = w[21]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_6 = w[27]
+    mask_7 = w[28]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
@@ -215,20 +213,20 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p23*(p18 + s88 + s96)
     ydot[17] = p24*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
     ydot[18] = 0.0
-    w[8] = s99
-    w[9] = s98
-    w[10] = s95
-    w[11] = s94
-    w[12] = s91
-    w[13] = s88
-    w[14] = s97
-    w[15] = s96
+    w[13] = s99
+    w[14] = s98
+    w[15] = s95
+    w[16] = s94
+    w[17] = s91
+    w[18] = s88
+    w[19] = s97
+    w[20] = s96
     return int((s100 | (s81 < 1e-06*s42)))
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 291 operations, 152853 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 326 operations, 215790 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -239,6 +237,12 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_7 = w[28]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
@@ -249,183 +253,201 @@ def geometry(t, y, p, w):
     s0 = math.cos(q2)
     s1 = math.sin(q2)
     s2 = -s0
-    s3 = 4.0*math.cos(q5)
-    s4 = -s3
-    s5 = 4.0*math.sin(q5)
-    s6 = 2.5*math.cos(q8)
-    s7 = 2.5*math.sin(q8)
-    s8 = s1*p20
-    s9 = s0*p20
-    s10 = s5*p22
-    s11 = s3*p22
-    s12 = s7*p24
-    s13 = s6*p24
-    s14 = s1*s8
-    s15 = p19 + s14
-    s16 = s0*s8
-    s17 = s14 - p19
-    s18 = s0*s9
-    s19 = p19 + s18
-    s20 = s5*s10
-    s21 = s3*s10
-    s22 = s20 - p21
-    s23 = s3*s11
-    s24 = s7*s12
-    s25 = s6*s12
-    s26 = p23 - s24
-    s27 = s6*s13
-    s28 = s7*s13
-    s29 = s1*s1
-    s30 = 1.0 + s29
-    s31 = s0*s1
-    s32 = -1.0 + s29
-    s33 = s0*s0
-    s34 = 1.0 + s33
-    s35 = s5*s5
-    s36 = 1.0 + s30 + s35
-    s37 = s3*s5
-    s38 = -1.0 + s35
-    s39 = s3*s3
-    s40 = 1.0 + s34 + s39
-    s41 = s7*s7
-    s42 = 1.0 + 1.0 + s35 + s41
-    s43 = s6*s7
-    s44 = 1.0 - s41
-    s45 = s6*s6
-    s46 = 1.0 + 1.0 + s39 + s45
-    s47 = 1.0 + s45
-    s48 = 1.0/s30
-    s49 = s31*s48
-    s50 = s32*s48
-    s51 = s31*s49
-    s52 = s34 - s51
-    s53 = s32*s49 - s31
-    s54 = -1.0 + s33 - s51
-    s55 = 1.0*(s52 > 1e-12*s34)
-    s56 = 1.0 - s55
-    s57 = s55/(s52 + s56)
-    s58 = s53*s57
-    s59 = s36 - s32*s50 - s53*s58
-    s60 = s31*s50 - (s31 + s37) - s54*s58
-    s61 = 1.0/(1.0 + s41)
-    s62 = s43*s61
-    s63 = s44*s61
-    s64 = s43*s62
-    s65 = s47 - s64
-    s66 = s43 + s44*s62
-    s67 = 1.0 - s45 + s64
-    s68 = 1.0*(s65 > 1e-12*s47)
-    s69 = 1.0 - s68
-    s70 = s68/(s65 + s69)
-    s71 = s66*s70
-    s72 = 1.0*(s59 > 1e-12*s36)
-    s73 = 1.0 - s72
-    s74 = s72/(s59 + s73)
-    s75 = s60*s74
-    s76 = s38*s74
-    s77 = s40 - s51 - s54*(s54*s57) - s60*s75
-    s78 = s37 + s38*s75
-    s79 = -1.0 + s39 + s37*s75
-    s80 = 1.0*(s77 > 1e-12*s40)
+    s3 = q0 - s0
+    s4 = q1 - s1
+    s5 = 4.0*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 4.0*math.sin(q5)
+    s9 = q4 - q1 - s8 - s1
+    s10 = 2.5*math.cos(q8)
+    s11 = q6 - q3 + s10 - s5
+    s12 = 2.5*math.sin(q8)
+    s13 = q7 - q4 + s12 - s8
+    s14 = q6 - 10.0 - s10
+    s15 = q7 - s12
+    s16 = s1*p20
+    s17 = s0*p20
+    s18 = s8*p22
+    s19 = s5*p22
+    s20 = s12*p24
+    s21 = s10*p24
+    s22 = s1*s16
+    s23 = p19 + s22
+    s24 = s0*s16
+    s25 = s22 - p19
+    s26 = s0*s17
+    s27 = p19 + s26
+    s28 = s8*s18
+    s29 = s5*s18
+    s30 = s28 - p21
+    s31 = s5*s19
+    s32 = s12*s20
+    s33 = s10*s20
+    s34 = p23 - s32
+    s35 = s10*s21
+    s36 = s12*s21
+    s37 = s1*s1
+    s38 = 1.0 + s37
+    s39 = s0*s1
+    s40 = -1.0 + s37
+    s41 = s0*s0
+    s42 = 1.0 + s41
+    s43 = s8*s8
+    s44 = 1.0 + s38 + s43
+    s45 = s5*s8
+    s46 = -1.0 + s43
+    s47 = s5*s5
+    s48 = 1.0 + s42 + s47
+    s49 = s12*s12
+    s50 = 1.0 + 1.0 + s43 + s49
+    s51 = s10*s12
+    s52 = 1.0 - s49
+    s53 = s10*s10
+    s54 = 1.0 + 1.0 + s47 + s53
+    s55 = 1.0 + s53
+    s56 = 1.0/s38
+    s57 = s39*s56
+    s58 = s40*s56
+    s59 = s39*s57
+    s60 = s42 - s59
+    s61 = s40*s57 - s39
+    s62 = -1.0 + s41 - s59
+    s63 = 1.0*(s60 > 1e-12*s42)
+    s64 = 1.0 - s63
+    s65 = s63/(s60 + s64)
+    s66 = s61*s65
+    s67 = s44 - s40*s58 - s61*s66
+    s68 = s39*s58 - (s39 + s45) - s62*s66
+    s69 = 1.0/(1.0 + s49)
+    s70 = s51*s69
+    s71 = s52*s69
+    s72 = s51*s70
+    s73 = s55 - s72
+    s74 = s51 + s52*s70
+    s75 = 1.0 - s53 + s72
+    s76 = 1.0*(s73 > 1e-12*s55)
+    s77 = 1.0 - s76
+    s78 = s76/(s73 + s77)
+    s79 = s74*s78
+    s80 = 1.0*(s67 > 1e-12*s44)
     s81 = 1.0 - s80
-    s82 = s80/(s77 + s81)
-    s83 = s78*s82
-    s84 = s42 - s44*s63 - s66*s71 - s38*s76 - s78*s83
-    s85 = s37*s76 - (s37 + s43 + s43*s63 + s67*s71) + s79*s83
-    s86 = 1.0*(s84 > 1e-12*s42)
-    s87 = 1.0 - s86
-    s88 = s46 - s64 - s67*(s67*s70) - s37*(s37*s74) - s79*(s79*s82) - s85*(s85*(s86/(s84 + s87)))
-    s89 = 1.0*(s88 > 1e-12*s46)
-    s90 = 1.0/s15
-    s91 = s16*s90
-    s92 = -s91
-    s93 = s17*s90
-    s94 = s16*s91
-    s95 = s17*s91 - s1*s9
-    s96 = s18 - p19 - s94
-    s97 = s55/(s56 + s19 - s94)
-    s98 = s95*s97
-    s99 = s96*s97
-    s100 = s16*s93 - (s16 + s21) - s96*s98
-    s101 = 1.0/(p23 + s24)
-    s102 = s25*s101
-    s103 = s26*s101
-    s104 = s28*s101
-    s105 = s25 + s26*s102
-    s106 = p23 - s27 + s28*s102
-    s107 = s68/(s69 + p23 + s27 - s25*s102)
-    s108 = s105*s107
-    s109 = s106*s107
-    s110 = s72/(s73 + p21 + s15 + s20 - s17*s93 - s95*s98)
-    s111 = s100*s110
-    s112 = s22*s110
-    s113 = s21*s110
-    s114 = s5*s11 + s22*s111
-    s115 = s23 - p21 + s21*s111
-    s116 = s80/(s81 + p21 + s19 + s23 - s94 - s96*s99 - s100*s111)
-    s117 = s114*s116
-    s118 = s115*s116
-    s119 = s21*s112 - (s21 + s25 + s28*s103 + s106*s108) + s115*s117
-    s120 = s86/(s87 + p23 + p21 + s20 + s24 - s26*s103 - s105*s108 - s22*s112 - s114*s117)
-    s121 = s119*s120
-    s122 = 1.0 - s89 + p23 + p21 + s23 + s27 - s28*s104 - s106*s109 - s21*s113 - s115*s118 - s119*s121
+    s82 = s80/(s67 + s81)
+    s83 = s68*s82
+    s84 = s46*s82
+    s85 = s48 - s59 - s62*(s62*s65) - s68*s83
+    s86 = s45 + s46*s83
+    s87 = -1.0 + s47 + s45*s83
+    s88 = 1.0*(s85 > 1e-12*s48)
+    s89 = 1.0 - s88
+    s90 = s88/(s85 + s89)
+    s91 = s86*s90
+    s92 = s50 - s52*s71 - s74*s79 - s46*s84 - s86*s91
+    s93 = s45*s84 - (s45 + s51 + s51*s71 + s75*s79) + s87*s91
+    s94 = 1.0*(s92 > 1e-12*s50)
+    s95 = 1.0 - s94
+    s96 = s54 - s72 - s75*(s75*s78) - s45*(s45*s82) - s87*(s87*s90) - s93*(s93*(s94/(s92 + s95)))
+    s97 = 1.0*(s96 > 1e-12*s54)
+    s98 = 1.0/s23
+    s99 = s24*s98
+    s100 = -s99
+    s101 = s25*s98
+    s102 = s24*s99
+    s103 = s25*s99 - s1*s17
+    s104 = s26 - p19 - s102
+    s105 = s63/(s64 + s27 - s102)
+    s106 = s103*s105
+    s107 = s104*s105
+    s108 = s24*s101 - (s24 + s29) - s104*s106
+    s109 = 1.0/(p23 + s32)
+    s110 = s33*s109
+    s111 = s34*s109
+    s112 = s36*s109
+    s113 = s33 + s34*s110
+    s114 = p23 - s35 + s36*s110
+    s115 = s76/(s77 + p23 + s35 - s33*s110)
+    s116 = s113*s115
+    s117 = s114*s115
+    s118 = s80/(s81 + p21 + s23 + s28 - s25*s101 - s103*s106)
+    s119 = s108*s118
+    s120 = s30*s118
+    s121 = s29*s118
+    s122 = s8*s19 + s30*s119
+    s123 = s31 - p21 + s29*s119
+    s124 = s88/(s89 + p21 + s27 + s31 - s102 - s104*s107 - s108*s119)
+    s125 = s122*s124
+    s126 = s123*s124
+    s127 = s29*s120 - (s29 + s33 + s36*s111 + s114*s116) + s123*s125
+    s128 = s94/(s95 + p23 + p21 + s28 + s32 - s34*s111 - s113*s116 - s30*s120 - s122*s125)
+    s129 = s127*s128
+    s130 = 1.0 - s97 + p23 + p21 + s31 + s35 - s36*s112 - s114*s117 - s29*s121 - s123*s126 - s127*s129
+    s131 = s60/s42
+    s132 = s67/s44
+    s133 = s85/s48
+    s134 = s92/s50
+    s135 = s96/s54
+    s136 = min(min(min(min(min(1.0, mask_1 + s131), mask_2 + s132), mask_3 + s133), mask_4 + s134), mask_5 + s135)
+    s137 = s73/s55
     # outputs
-    w[32] = q0 - s0
-    w[33] = q1 - s1
-    w[34] = q3 - q0 - s3 - s0
-    w[35] = q4 - q1 - s5 - s1
-    w[36] = q6 - q3 + s6 - s3
-    w[37] = q7 - q4 + s7 - s5
-    w[38] = q6 - 10.0 - s6
-    w[39] = q7 - s7
-    w[90] = s1
-    w[91] = s2
-    w[92] = s1
-    w[93] = s5
-    w[94] = s2
-    w[95] = s4
-    w[96] = s5
-    w[97] = -s7
-    w[98] = s4
-    w[99] = s6
-    w[100] = s7
-    w[101] = -s6
-    w[57] = s52/s34
-    w[58] = s59/s36
-    w[59] = s77/s40
-    w[60] = s84/s42
-    w[61] = s88/s46
-    w[63] = s65/s47
-    w[126] = s92
-    w[127] = s93
-    w[128] = s92
-    w[129] = s98
-    w[130] = s99
-    w[131] = -s102
-    w[132] = s103
-    w[133] = s104
-    w[134] = s108
-    w[135] = s109
-    w[136] = s111
-    w[137] = s112
-    w[138] = -s113
-    w[139] = -s117
-    w[140] = s118
-    w[141] = s121
-    w[142] = s90
-    w[143] = s97
-    w[144] = s101
-    w[145] = s107
-    w[146] = s110
-    w[147] = s116
-    w[148] = s120
-    w[149] = s89/s122
+    w[37] = s3
+    w[38] = s4
+    w[39] = s7
+    w[40] = s9
+    w[41] = s11
+    w[42] = s13
+    w[43] = s14
+    w[44] = s15
+    w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+    w[79] = s1
+    w[80] = s2
+    w[81] = s1
+    w[82] = s8
+    w[83] = s2
+    w[84] = s6
+    w[85] = s8
+    w[86] = -s12
+    w[87] = s6
+    w[88] = s10
+    w[89] = s12
+    w[90] = -s10
+    w[54] = s131
+    w[55] = s132
+    w[56] = s133
+    w[57] = s134
+    w[58] = s135
+    w[60] = s137
+    w[5] = s76 + 1.0 + s97 + s94 + s88 + s80 + 1.0 + s63
+    w[4] = min(s136, mask_7 + s137)
+    w[115] = s100
+    w[116] = s101
+    w[117] = s100
+    w[118] = s106
+    w[119] = s107
+    w[120] = -s110
+    w[121] = s111
+    w[122] = s112
+    w[123] = s116
+    w[124] = s117
+    w[125] = s119
+    w[126] = s120
+    w[127] = -s121
+    w[128] = -s125
+    w[129] = s126
+    w[130] = s129
+    w[131] = s98
+    w[132] = s105
+    w[133] = s109
+    w[134] = s115
+    w[135] = s118
+    w[136] = s124
+    w[137] = s128
+    w[138] = s97/s130
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 111 operations, 6990 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 111 operations, 6990 before sharing."""
     # inputs
     p19 = p[19]
     p20 = p[20]
@@ -433,57 +455,57 @@ def spread(p, w):
     p22 = p[22]
     p23 = p[23]
     p24 = p[24]
-    law_lower_0 = w[126]
-    law_lower_1 = w[127]
-    law_lower_2 = w[128]
-    law_lower_3 = w[129]
-    law_lower_4 = w[130]
-    law_lower_5 = w[131]
-    law_lower_6 = w[132]
-    law_lower_7 = w[133]
-    law_lower_8 = w[134]
-    law_lower_9 = w[135]
-    law_lower_10 = w[136]
-    law_lower_11 = w[137]
-    law_lower_12 = w[138]
-    law_lower_13 = w[139]
-    law_lower_14 = w[140]
-    law_lower_15 = w[141]
-    law_reciprocal_0 = w[142]
-    law_reciprocal_1 = w[143]
-    law_reciprocal_2 = w[144]
-    law_reciprocal_3 = w[145]
-    law_reciprocal_4 = w[146]
-    law_reciprocal_5 = w[147]
-    law_reciprocal_6 = w[148]
-    law_reciprocal_7 = w[149]
-    right_0 = w[64]
-    right_1 = w[65]
-    right_2 = w[66]
-    right_3 = w[67]
-    right_4 = w[68]
-    right_5 = w[69]
-    right_6 = w[70]
-    right_7 = w[71]
-    jacobian_0 = w[90]
-    jacobian_1 = w[91]
-    jacobian_2 = w[92]
-    jacobian_3 = w[93]
-    jacobian_4 = w[94]
-    jacobian_5 = w[95]
-    jacobian_6 = w[96]
-    jacobian_7 = w[97]
-    jacobian_8 = w[98]
-    jacobian_9 = w[99]
-    jacobian_10 = w[100]
-    jacobian_11 = w[101]
+    law_lower_0 = w[115]
+    law_lower_1 = w[116]
+    law_lower_2 = w[117]
+    law_lower_3 = w[118]
+    law_lower_4 = w[119]
+    law_lower_5 = w[120]
+    law_lower_6 = w[121]
+    law_lower_7 = w[122]
+    law_lower_8 = w[123]
+    law_lower_9 = w[124]
+    law_lower_10 = w[125]
+    law_lower_11 = w[126]
+    law_lower_12 = w[127]
+    law_lower_13 = w[128]
+    law_lower_14 = w[129]
+    law_lower_15 = w[130]
+    law_reciprocal_0 = w[131]
+    law_reciprocal_1 = w[132]
+    law_reciprocal_2 = w[133]
+    law_reciprocal_3 = w[134]
+    law_reciprocal_4 = w[135]
+    law_reciprocal_5 = w[136]
+    law_reciprocal_6 = w[137]
+    law_reciprocal_7 = w[138]
+    residual_0 = w[37]
+    residual_1 = w[38]
+    residual_2 = w[39]
+    residual_3 = w[40]
+    residual_4 = w[41]
+    residual_5 = w[42]
+    residual_6 = w[43]
+    residual_7 = w[44]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
     # intermediate terms
-    s0 = right_1 - law_lower_0*right_0
-    s1 = right_2 - law_lower_1*right_0 - law_lower_3*s0
-    s2 = right_7 - law_lower_5*right_6
-    s3 = right_3 - law_lower_2*right_0 - law_lower_4*s0 - law_lower_10*s1
-    s4 = right_4 - law_lower_6*right_6 - law_lower_8*s2 - law_lower_11*s1 - law_lower_13*s3
-    s5 = right_5 - law_lower_7*right_6 - law_lower_9*s2 - law_lower_12*s1 - law_lower_14*s3 - law_lower_15*s4
+    s0 = law_lower_0*residual_0 - residual_1
+    s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
+    s2 = law_lower_5*residual_6 - residual_7
+    s3 = law_lower_2*residual_0 - residual_3 - law_lower_4*s0 - law_lower_10*s1
+    s4 = law_lower_6*residual_6 - residual_4 - law_lower_8*s2 - law_lower_11*s1 - law_lower_13*s3
+    s5 = law_lower_7*residual_6 - residual_5 - law_lower_9*s2 - law_lower_12*s1 - law_lower_14*s3 - law_lower_15*s4
     s6 = law_reciprocal_7*s5
     s7 = law_reciprocal_6*s4
     s8 = law_lower_15*s6
@@ -495,19 +517,19 @@ def spread(p, w):
     s14 = law_lower_12*s6
     s15 = s13 - s14
     s16 = law_reciprocal_3*s2 - law_lower_8*s9 - law_lower_9*s6
-    s17 = law_reciprocal_2*right_6 - law_lower_5*s16 - law_lower_6*s9 - law_lower_7*s6
+    s17 = law_reciprocal_2*residual_6 + law_lower_5*s16 + law_lower_6*s9 + law_lower_7*s6
     s18 = law_reciprocal_1*s0 - law_lower_3*s15 - law_lower_4*s12
-    s19 = law_reciprocal_0*right_0 - law_lower_0*s18 - law_lower_1*s15 - law_lower_2*s12
+    s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
     # outputs
-    w[72] = p19*(s19 + s14 - s13)
-    w[73] = p19*(s18 + s11 - s10)
-    w[74] = p20*(s19*jacobian_0 + s18*jacobian_1 + s15*jacobian_2 + s12*jacobian_4)
-    w[75] = p21*(s15 + s8 - s7)
-    w[76] = p21*(s12 - s6)
-    w[77] = p22*(s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8)
-    w[78] = p23*(s9 + s17)
-    w[79] = p23*(s6 + s16)
-    w[80] = p24*(s9*jacobian_7 + s6*jacobian_9 + s17*jacobian_10 + s16*jacobian_11)
+    w[61] = p19*(s14 - s13 - s19)
+    w[62] = p19*(s18 + s11 - s10)
+    w[63] = p20*(s18*jacobian_1 - s19*jacobian_0 + s15*jacobian_2 + s12*jacobian_4)
+    w[64] = p21*(s15 + s8 - s7)
+    w[65] = p21*(s12 - s6)
+    w[66] = p22*(s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8)
+    w[67] = p23*(s9 - s17)
+    w[68] = p23*(s6 + s16)
+    w[69] = p24*(s9*jacobian_7 + s6*jacobian_9 - s17*jacobian_10 + s16*jacobian_11)
     return 0
 
 
@@ -531,58 +553,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 8 rows."""
-    total = 0.0
-    for i in range(first, first + 8):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[15] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(8):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
         for j in range(9):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(8):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(9):
-        y[9 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(8):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 8f8565515c2742ad
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = mass
 p[3] tolerance (default 1e-13)
 """
@@ -11,15 +12,9 @@ import math
 
 from numba import njit
 
-from .model import drift, energies
+from .model import measure
 
-PHI = 11  # sections of w
-DRIFT = 13
-PIVOT = 14
-MASK = 9
-RIGHT = 15
-CHANGE = 16
-SAVED = 10
+CHANGE = 19  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -39,14 +34,14 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers by direct-correction; 1 where a pivot of S is suspicious: 20 operations, 46 before sharing."""
+    """q', v', power and multipliers by direct-correction: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
-    mask_0 = w[9]
+    mask_0 = w[14]
     p5 = p[5]
     p6 = p[6]
     # intermediate terms
@@ -57,114 +52,73 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p5*(q0*s0)
     ydot[3] = -p5*(p4 + q1*s0)
     ydot[4] = 0.0
-    w[8] = s0
+    w[13] = s0
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 11 operations, 11 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 13 operations, 23 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
     p5 = p[5]
+    # intermediate terms
+    s0 = 0.5*(q0*q0 + q1*q1 - 1.0)
     # outputs
-    w[11] = 0.5*(q0*q0 + q1*q1 - 1.0)
-    w[20] = q0
-    w[21] = q1
-    w[23] = 1.0/(q0*(q0*p5) + q1*(q1*p5))
+    w[16] = s0
+    w[0] = math.sqrt(s0*s0)
+    w[23] = q0
+    w[24] = q1
+    w[5] = 1.0
+    w[4] = 1.0
+    w[26] = 1.0/(q0*(q0*p5) + q1*(q1*p5))
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 5 operations, 6 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 7 operations, 8 before sharing."""
     # inputs
     p5 = p[5]
-    law_reciprocal_0 = w[23]
-    right_0 = w[15]
-    jacobian_0 = w[20]
-    jacobian_1 = w[21]
+    law_reciprocal_0 = w[26]
+    residual_0 = w[16]
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
     # intermediate terms
-    s0 = law_reciprocal_0*right_0
+    s0 = law_reciprocal_0*residual_0
     # outputs
-    w[16] = p5*(s0*jacobian_0)
-    w[17] = p5*(s0*jacobian_1)
+    w[19] = -p5*(s0*jacobian_0)
+    w[20] = -p5*(s0*jacobian_1)
     return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def confirm(t, y, p, w, iw, ydot):
-    """Evaluate again with the rows that D D^T keeps, `rhs` having found a suspicious pivot of S."""
-    geometry(t, y, p, w)
-    skipped = 0
-    for i in range(1):
-        w[SAVED + i] = w[MASK + i]
-        if w[PIVOT + i] < 1e-12:
-            w[MASK + i] = math.inf
-            skipped += 1
-    rhs(t, y, p, w, iw, ydot)
-    for i in range(1):
-        w[MASK + i] = w[SAVED + i]
-    iw[1] += 1
-    if skipped == 0:
-        iw[2] += 1
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 1 rows."""
-    total = 0.0
-    for i in range(first, first + 1):
-        total += w[i] * w[i]
-    return math.sqrt(total)
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[3] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(1):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(2, 4):
+                y[j] += w[CHANGE - 2 + j]
+            break
         for j in range(2):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(1):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(2):
-        y[2 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(1):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

@@ -1,6 +1,6 @@
 """Model `pendulum`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 8f8565515c2742ad
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 045897546380cbe8
 2 coordinates, 2 velocities, 1 constraint rows, 1 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -24,7 +24,6 @@ Left out:
 
 import math
 
-import numpy as np
 from numba import njit
 
 
@@ -40,56 +39,54 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D D^T that decides rank: 6 operations, 9 before sharing."""
+    """Phi, nu, D, and the factorisation of D D^T that decides rank: 8 operations, 21 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
     # intermediate terms
     s0 = q0*q0 + q1*q1
+    s1 = 0.5*(s0 - 1.0)
     # outputs
-    w[11] = 0.5*(s0 - 1.0)
-    w[20] = q0
-    w[21] = q1
-    w[22] = 1.0/s0
+    w[16] = s1
+    w[0] = math.sqrt(s1*s1)
+    w[23] = q0
+    w[24] = q1
+    w[5] = 1.0
+    w[4] = 1.0
+    w[25] = 1.0/s0
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 3 operations, 4 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 5 operations, 6 before sharing."""
     # inputs
-    reciprocal_0 = w[22]
-    right_0 = w[15]
-    jacobian_0 = w[20]
-    jacobian_1 = w[21]
+    reciprocal_0 = w[25]
+    residual_0 = w[16]
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
     # intermediate terms
-    s0 = reciprocal_0*right_0
+    s0 = reciprocal_0*residual_0
     # outputs
-    w[16] = s0*jacobian_0
-    w[17] = s0*jacobian_1
+    w[19] = -s0*jacobian_0
+    w[20] = -s0*jacobian_1
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
-def drift(y, w):
-    """D v - nu with the D and nu that `geometry` left: 3 operations, 3 before sharing."""
-    # inputs
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    jacobian_0 = w[20]
-    jacobian_1 = w[21]
-    # outputs
-    w[13] = v0*jacobian_0 + v1*jacobian_1
-    return 0
-
-@njit(error_model="numpy", fastmath={"contract"})
-def energies(t, y, p, w):
-    """kinetic and potential energy: 6 operations, 6 before sharing."""
+def measure(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left, and the energies: 11 operations, 17 before sharing."""
     # inputs
     v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
     v1 = y[3]  # bob.vy [m/s]
     p1 = p[1]
     p2 = p[2]
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
+    # intermediate terms
+    s0 = v0*jacobian_0 + v1*jacobian_1
     # outputs
+    w[16] = s0
+    w[1] = math.sqrt(s0*s0)
     w[2] = v0*v0*p1 + v1*v1*p1
     w[3] = q1*p2
     return 0
@@ -114,6 +111,6 @@ def masses(p, w):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     # outputs
-    w[18] = p0
-    w[19] = p0
+    w[21] = p0
+    w[22] = p0
     return 0

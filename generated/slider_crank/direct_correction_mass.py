@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 8f8565515c2742ad
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = mass
 p[13] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies
+from .model import measure
 
-PHI = 32  # sections of w
-DRIFT = 48
-PIVOT = 56
-MASK = 16
-RIGHT = 64
-CHANGE = 72
-SAVED = 24
+MASK = 21  # sections of w
+SAVED = 29
+PIVOT = 53
+CHANGE = 61
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -78,13 +76,13 @@ def rhs(t, y, p, w, iw, ydot):
     p14 = p[14]
     p15 = p[15]
     p16 = p[16]
-    mask_0 = w[16]
-    mask_1 = w[17]
-    mask_2 = w[18]
-    mask_3 = w[19]
-    mask_4 = w[20]
-    mask_5 = w[21]
-    mask_6 = w[22]
+    mask_0 = w[21]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_6 = w[27]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
@@ -189,20 +187,20 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p21*(p16 + s69 - s73)
     ydot[17] = 0.0
     ydot[18] = 0.0
-    w[8] = s72
-    w[9] = s71
-    w[10] = s66
-    w[11] = s63
-    w[12] = s70
-    w[13] = s69
-    w[14] = -s73
-    w[15] = 0.0
+    w[13] = s72
+    w[14] = s71
+    w[15] = s66
+    w[16] = s63
+    w[17] = s70
+    w[18] = s69
+    w[19] = -s73
+    w[20] = 0.0
     return int(((((s40 < 1e-06*s23) | (s50 < 1e-06*s31)) | (s55 < 1e-06*s25)) | (s58 < 1e-06*s29)))
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 198 operations, 13443 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 229 operations, 19028 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -213,6 +211,10 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_5 = w[26]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
@@ -224,202 +226,213 @@ def geometry(t, y, p, w):
     # intermediate terms
     s0 = 0.075*math.cos(q2)
     s1 = -s0
-    s2 = 0.075*math.sin(q2)
-    s3 = 0.225*math.cos(q5)
-    s4 = -s3
-    s5 = 0.225*math.sin(q5)
-    s6 = s2*p18
-    s7 = s0*p18
-    s8 = s5*p20
-    s9 = s3*p20
-    s10 = s2*s6
-    s11 = p17 + s10
-    s12 = s0*s6
-    s13 = s10 - p17
-    s14 = s0*s7
-    s15 = p17 + s14
-    s16 = s5*s8
-    s17 = s3*s8
-    s18 = s16 - p19
-    s19 = s3*s9
-    s20 = s5*s9
-    s21 = s2*s2
-    s22 = 1.0 + s21
-    s23 = s0*s2
-    s24 = -1.0 + s21
-    s25 = s0*s0
-    s26 = 1.0 + s25
-    s27 = s5*s5
-    s28 = 1.0 + s22 + s27
-    s29 = s3*s5
+    s2 = q0 - s0
+    s3 = 0.075*math.sin(q2)
+    s4 = q1 - s3
+    s5 = 0.225*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 0.225*math.sin(q5)
+    s9 = q4 - q1 - s8 - s3
+    s10 = q6 - q3 - s5
+    s11 = q7 - q4 - s8
+    s12 = s3*p18
+    s13 = s0*p18
+    s14 = s8*p20
+    s15 = s5*p20
+    s16 = s3*s12
+    s17 = p17 + s16
+    s18 = s0*s12
+    s19 = s16 - p17
+    s20 = s0*s13
+    s21 = p17 + s20
+    s22 = s8*s14
+    s23 = s5*s14
+    s24 = s22 - p19
+    s25 = s5*s15
+    s26 = s8*s15
+    s27 = s3*s3
+    s28 = 1.0 + s27
+    s29 = s0*s3
     s30 = -1.0 + s27
-    s31 = s3*s3
-    s32 = 1.0 + s26 + s31
-    s33 = 1.0 + 1.0 + s31
-    s34 = 1.0/s22
-    s35 = s23*s34
-    s36 = s24*s34
-    s37 = s23*s35
-    s38 = s26 - s37
-    s39 = s24*s35 - s23
-    s40 = -1.0 + s25 - s37
-    s41 = 1.0*(s38 > 1e-12*s26)
-    s42 = 1.0 - s41
-    s43 = s41/(s38 + s42)
-    s44 = s39*s43
-    s45 = 1.0/(1.0 + 1.0 + s27)
-    s46 = s29*s45
-    s47 = s30*s45
-    s48 = s29*s46
-    s49 = s33 - 1.0 - s48
-    s50 = s30*s46 - s29
-    s51 = -1.0 + s31 - s48
-    s52 = 1.0*(s49 > 1e-12*s33)
-    s53 = 1.0 - s52
-    s54 = s52/(s49 + s53)
-    s55 = s50*s54
-    s56 = s28 - s24*s36 - s39*s44 - s30*s47 - s50*s55
-    s57 = s23*s36 - (s23 + s29) - s40*s44 + s29*s47 - s51*s55
-    s58 = 1.0*(s56 > 1e-12*s28)
+    s31 = s0*s0
+    s32 = 1.0 + s31
+    s33 = s8*s8
+    s34 = 1.0 + s28 + s33
+    s35 = s5*s8
+    s36 = -1.0 + s33
+    s37 = s5*s5
+    s38 = 1.0 + s32 + s37
+    s39 = 1.0 + 1.0 + s37
+    s40 = 1.0/s28
+    s41 = s29*s40
+    s42 = s30*s40
+    s43 = s29*s41
+    s44 = s32 - s43
+    s45 = s30*s41 - s29
+    s46 = -1.0 + s31 - s43
+    s47 = 1.0*(s44 > 1e-12*s32)
+    s48 = 1.0 - s47
+    s49 = s47/(s44 + s48)
+    s50 = s45*s49
+    s51 = 1.0/(1.0 + 1.0 + s33)
+    s52 = s35*s51
+    s53 = s36*s51
+    s54 = s35*s52
+    s55 = s39 - 1.0 - s54
+    s56 = s36*s52 - s35
+    s57 = -1.0 + s37 - s54
+    s58 = 1.0*(s55 > 1e-12*s39)
     s59 = 1.0 - s58
-    s60 = s32 - s37 - s40*(s40*s43) - s48 - s51*(s51*s54) - s57*(s57*(s58/(s56 + s59)))
-    s61 = 1.0*(s60 > 1e-12*s32)
-    s62 = 1.0/s11
-    s63 = s12*s62
-    s64 = -s63
-    s65 = s13*s62
-    s66 = s12*s63
-    s67 = s13*s63 - s2*s7
-    s68 = s14 - p17 - s66
-    s69 = s41/(s42 + s15 - s66)
-    s70 = s67*s69
-    s71 = s68*s69
-    s72 = 1.0/(p21 + p19 + s16)
-    s73 = s17*s72
-    s74 = s18*s72
-    s75 = s20*s72
-    s76 = s18*s73 - s17
-    s77 = s19 - p19 - s20*s73
-    s78 = s52/(s53 + p21 + p19 + s19 - p28 - s17*s73)
-    s79 = s76*s78
-    s80 = s77*s78
-    s81 = s12*s65 - (s12 + s17) - s68*s70 + s20*s74 - s77*s79
-    s82 = s58/(s59 + p19 + s11 + s16 - s13*s65 - s67*s70 - s18*s74 - s76*s79)
-    s83 = s81*s82
+    s60 = s58/(s55 + s59)
+    s61 = s56*s60
+    s62 = s34 - s30*s42 - s45*s50 - s36*s53 - s56*s61
+    s63 = s29*s42 - (s29 + s35) - s46*s50 + s35*s53 - s57*s61
+    s64 = 1.0*(s62 > 1e-12*s34)
+    s65 = 1.0 - s64
+    s66 = s38 - s43 - s46*(s46*s49) - s54 - s57*(s57*s60) - s63*(s63*(s64/(s62 + s65)))
+    s67 = 1.0*(s66 > 1e-12*s38)
+    s68 = 1.0/s17
+    s69 = s18*s68
+    s70 = -s69
+    s71 = s19*s68
+    s72 = s18*s69
+    s73 = s19*s69 - s3*s13
+    s74 = s20 - p17 - s72
+    s75 = s47/(s48 + s21 - s72)
+    s76 = s73*s75
+    s77 = s74*s75
+    s78 = 1.0/(p21 + p19 + s22)
+    s79 = s23*s78
+    s80 = s24*s78
+    s81 = s26*s78
+    s82 = s24*s79 - s23
+    s83 = s25 - p19 - s26*s79
+    s84 = s58/(s59 + p21 + p19 + s25 - p28 - s23*s79)
+    s85 = s82*s84
+    s86 = s83*s84
+    s87 = s18*s71 - (s18 + s23) - s74*s76 + s26*s80 - s83*s85
+    s88 = s64/(s65 + p19 + s17 + s22 - s19*s71 - s73*s76 - s24*s80 - s82*s85)
+    s89 = s87*s88
+    s90 = s44/s32
+    s91 = s62/s34
+    s92 = s66/s38
+    s93 = s55/s39
     # outputs
-    w[32] = q0 - s0
-    w[33] = q1 - s2
-    w[34] = q3 - q0 - s3 - s0
-    w[35] = q4 - q1 - s5 - s2
-    w[36] = q6 - q3 - s3
-    w[37] = q7 - q4 - s5
-    w[38] = q7
-    w[39] = q8
-    w[90] = s2
-    w[91] = s1
-    w[92] = s2
-    w[93] = s5
-    w[94] = s1
-    w[95] = s4
-    w[96] = s5
-    w[97] = s4
-    w[57] = s38/s26
-    w[58] = s56/s28
-    w[59] = s60/s32
-    w[61] = s49/s33
-    w[115] = p27
-    w[116] = s64
-    w[117] = s65
-    w[118] = s64
-    w[119] = s70
-    w[120] = s71
-    w[121] = -s73
-    w[122] = s74
-    w[123] = -s75
-    w[124] = s79
-    w[125] = s80
-    w[126] = s83
-    w[127] = p26
-    w[128] = s62
-    w[129] = s69
-    w[130] = s72
-    w[131] = s78
-    w[132] = s82
-    w[133] = s61/(1.0 - s61 + p19 + s15 + s19 - s66 - s68*s71 - s20*s75 - s77*s80 - s81*s83)
+    w[37] = s2
+    w[38] = s4
+    w[39] = s7
+    w[40] = s9
+    w[41] = s10
+    w[42] = s11
+    w[43] = q7
+    w[44] = q8
+    w[0] = math.sqrt(s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7 + q8*q8)
+    w[79] = s3
+    w[80] = s1
+    w[81] = s3
+    w[82] = s8
+    w[83] = s1
+    w[84] = s6
+    w[85] = s8
+    w[86] = s6
+    w[54] = s90
+    w[55] = s91
+    w[56] = s92
+    w[58] = s93
+    w[5] = 1.0 + 1.0 + s58 + 1.0 + s67 + s64 + 1.0 + s47
+    w[4] = min(min(min(min(1.0, mask_1 + s90), mask_2 + s91), mask_3 + s92), mask_5 + s93)
+    w[104] = p27
+    w[105] = s70
+    w[106] = s71
+    w[107] = s70
+    w[108] = s76
+    w[109] = s77
+    w[110] = -s79
+    w[111] = s80
+    w[112] = -s81
+    w[113] = s85
+    w[114] = s86
+    w[115] = s89
+    w[116] = p26
+    w[117] = s68
+    w[118] = s75
+    w[119] = s78
+    w[120] = s84
+    w[121] = s88
+    w[122] = s67/(1.0 - s67 + p19 + s21 + s25 - s72 - s74*s77 - s26*s81 - s83*s86 - s87*s89)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 85 operations, 1736 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 86 operations, 1738 before sharing."""
     # inputs
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
-    law_lower_0 = w[115]
-    law_lower_1 = w[116]
-    law_lower_2 = w[117]
-    law_lower_3 = w[118]
-    law_lower_4 = w[119]
-    law_lower_5 = w[120]
-    law_lower_6 = w[121]
-    law_lower_7 = w[122]
-    law_lower_8 = w[123]
-    law_lower_9 = w[124]
-    law_lower_10 = w[125]
-    law_lower_11 = w[126]
-    law_reciprocal_0 = w[127]
-    law_reciprocal_1 = w[128]
-    law_reciprocal_2 = w[129]
-    law_reciprocal_3 = w[130]
-    law_reciprocal_4 = w[131]
-    law_reciprocal_5 = w[132]
-    law_reciprocal_6 = w[133]
-    right_0 = w[64]
-    right_1 = w[65]
-    right_2 = w[66]
-    right_3 = w[67]
-    right_4 = w[68]
-    right_5 = w[69]
-    right_6 = w[70]
-    right_7 = w[71]
-    jacobian_0 = w[90]
-    jacobian_1 = w[91]
-    jacobian_2 = w[92]
-    jacobian_3 = w[93]
-    jacobian_4 = w[94]
-    jacobian_5 = w[95]
-    jacobian_6 = w[96]
-    jacobian_7 = w[97]
+    law_lower_0 = w[104]
+    law_lower_1 = w[105]
+    law_lower_2 = w[106]
+    law_lower_3 = w[107]
+    law_lower_4 = w[108]
+    law_lower_5 = w[109]
+    law_lower_6 = w[110]
+    law_lower_7 = w[111]
+    law_lower_8 = w[112]
+    law_lower_9 = w[113]
+    law_lower_10 = w[114]
+    law_lower_11 = w[115]
+    law_reciprocal_0 = w[116]
+    law_reciprocal_1 = w[117]
+    law_reciprocal_2 = w[118]
+    law_reciprocal_3 = w[119]
+    law_reciprocal_4 = w[120]
+    law_reciprocal_5 = w[121]
+    law_reciprocal_6 = w[122]
+    residual_0 = w[37]
+    residual_1 = w[38]
+    residual_2 = w[39]
+    residual_3 = w[40]
+    residual_4 = w[41]
+    residual_5 = w[42]
+    residual_6 = w[43]
+    residual_7 = w[44]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
     # intermediate terms
-    s0 = right_1 - law_lower_1*right_0
-    s1 = right_5 - law_lower_0*right_6 - law_lower_6*right_4
-    s2 = right_2 - law_lower_2*right_0 - law_lower_4*s0 - law_lower_7*right_4 - law_lower_9*s1
-    s3 = right_3 - law_lower_3*right_0 - law_lower_5*s0 - law_lower_8*right_4 - law_lower_10*s1 - law_lower_11*s2
-    s4 = law_reciprocal_6*s3
+    s0 = law_lower_1*residual_0 - residual_1
+    s1 = law_lower_0*residual_6 - residual_5 + law_lower_6*residual_4
+    s2 = law_lower_2*residual_0 - residual_2 - law_lower_4*s0 + law_lower_7*residual_4 - law_lower_9*s1
+    s3 = law_lower_3*residual_0 - residual_3 - law_lower_5*s0 + law_lower_8*residual_4 - law_lower_10*s1
+    s4 = law_reciprocal_6*(s3 - law_lower_11*s2)
     s5 = law_reciprocal_5*s2
     s6 = law_lower_11*s4
     s7 = s5 - s6
     s8 = law_reciprocal_4*s1 - law_lower_9*s7
     s9 = law_lower_10*s4
     s10 = s8 - s9
-    s11 = law_reciprocal_3*right_4 - law_lower_6*s10 - law_lower_7*s7
-    s12 = law_lower_8*s4
-    s13 = s11 - s12
-    s14 = law_reciprocal_2*s0 - law_lower_4*s7 - law_lower_5*s4
-    s15 = law_reciprocal_1*right_0 - law_lower_1*s14 - law_lower_2*s7 - law_lower_3*s4
+    s11 = law_reciprocal_3*residual_4 + law_lower_6*s10 + law_lower_7*s7 + law_lower_8*s4
+    s12 = law_reciprocal_2*s0 - law_lower_4*s7 - law_lower_5*s4
+    s13 = law_reciprocal_1*residual_0 + law_lower_1*s12 + law_lower_2*s7 + law_lower_3*s4
     # outputs
-    w[72] = p17*(s15 + s6 - s5)
-    w[73] = p17*(s14 - s4)
-    w[74] = p18*(s15*jacobian_0 + s14*jacobian_1 + s7*jacobian_2 + s4*jacobian_4)
-    w[75] = p19*(s7 + s12 - s11)
-    w[76] = p19*(s4 + s9 - s8)
-    w[77] = p20*(s7*jacobian_3 + s4*jacobian_5 + s13*jacobian_6 + s10*jacobian_7)
-    w[78] = p21*s13
-    w[79] = p21*(s10 + law_reciprocal_0*right_6 - law_lower_0*s10)
-    w[80] = right_7
+    w[61] = p17*(s6 - s5 - s13)
+    w[62] = p17*(s12 - s4)
+    w[63] = p18*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)
+    w[64] = p19*(s7 + s11)
+    w[65] = p19*(s4 + s9 - s8)
+    w[66] = p20*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)
+    w[67] = -p21*s11
+    w[68] = p21*(s10 - (law_reciprocal_0*residual_6 + law_lower_0*s10))
+    w[69] = -residual_7
     return 0
 
 
@@ -443,58 +456,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 8 rows."""
-    total = 0.0
-    for i in range(first, first + 8):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[13] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(8):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
         for j in range(9):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(8):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(9):
-        y[9 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(8):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

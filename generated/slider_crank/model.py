@@ -1,6 +1,6 @@
 """Model `slider-crank`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 8f8565515c2742ad
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 045897546380cbe8
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -49,7 +49,6 @@ Left out:
 
 import math
 
-import numpy as np
 from numba import njit
 
 
@@ -75,7 +74,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D D^T that decides rank: 115 operations, 13165 before sharing."""
+    """Phi, nu, D, and the factorisation of D D^T that decides rank: 146 operations, 18750 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -86,197 +85,181 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_5 = w[26]
     # intermediate terms
     s0 = 0.075*math.cos(q2)
     s1 = -s0
-    s2 = 0.075*math.sin(q2)
-    s3 = 0.225*math.cos(q5)
-    s4 = -s3
-    s5 = 0.225*math.sin(q5)
-    s6 = s2*s2
-    s7 = 1.0 + s6
-    s8 = s0*s2
-    s9 = -1.0 + s6
-    s10 = s0*s0
-    s11 = 1.0 + s10
-    s12 = s5*s5
-    s13 = 1.0 + s7 + s12
-    s14 = s3*s5
+    s2 = q0 - s0
+    s3 = 0.075*math.sin(q2)
+    s4 = q1 - s3
+    s5 = 0.225*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 0.225*math.sin(q5)
+    s9 = q4 - q1 - s8 - s3
+    s10 = q6 - q3 - s5
+    s11 = q7 - q4 - s8
+    s12 = s3*s3
+    s13 = 1.0 + s12
+    s14 = s0*s3
     s15 = -1.0 + s12
-    s16 = s3*s3
-    s17 = 1.0 + s11 + s16
-    s18 = 1.0 + 1.0 + s16
-    s19 = 1.0/s7
-    s20 = s8*s19
-    s21 = -s20
-    s22 = s9*s19
-    s23 = s8*s20
-    s24 = s11 - s23
-    s25 = s9*s20 - s8
-    s26 = -1.0 + s10 - s23
-    s27 = 1.0*(s24 > 1e-12*s11)
-    s28 = s27/(s24 + 1.0 - s27)
-    s29 = s25*s28
-    s30 = s26*s28
-    s31 = 1.0/(1.0 + 1.0 + s12)
-    s32 = s14*s31
-    s33 = -s32
-    s34 = s15*s31
-    s35 = s14*s32
-    s36 = s18 - 1.0 - s35
-    s37 = s15*s32 - s14
-    s38 = -1.0 + s16 - s35
-    s39 = 1.0*(s36 > 1e-12*s18)
-    s40 = s39/(s36 + 1.0 - s39)
-    s41 = s37*s40
-    s42 = s38*s40
-    s43 = s13 - s9*s22 - s25*s29 - s15*s34 - s37*s41
-    s44 = s8*s22 - (s8 + s14) - s26*s29 + s14*s34 - s38*s41
-    s45 = 1.0*(s43 > 1e-12*s13)
-    s46 = s45/(s43 + 1.0 - s45)
-    s47 = s44*s46
-    s48 = s17 - s23 - s26*s30 - s35 - s38*s42 - s44*s47
-    s49 = 1.0*(s48 > 1e-12*s17)
+    s16 = s0*s0
+    s17 = 1.0 + s16
+    s18 = s8*s8
+    s19 = 1.0 + s13 + s18
+    s20 = s5*s8
+    s21 = -1.0 + s18
+    s22 = s5*s5
+    s23 = 1.0 + s17 + s22
+    s24 = 1.0 + 1.0 + s22
+    s25 = 1.0/s13
+    s26 = s14*s25
+    s27 = -s26
+    s28 = s15*s25
+    s29 = s14*s26
+    s30 = s17 - s29
+    s31 = s15*s26 - s14
+    s32 = -1.0 + s16 - s29
+    s33 = 1.0*(s30 > 1e-12*s17)
+    s34 = s33/(s30 + 1.0 - s33)
+    s35 = s31*s34
+    s36 = s32*s34
+    s37 = 1.0/(1.0 + 1.0 + s18)
+    s38 = s20*s37
+    s39 = -s38
+    s40 = s21*s37
+    s41 = s20*s38
+    s42 = s24 - 1.0 - s41
+    s43 = s21*s38 - s20
+    s44 = -1.0 + s22 - s41
+    s45 = 1.0*(s42 > 1e-12*s24)
+    s46 = s45/(s42 + 1.0 - s45)
+    s47 = s43*s46
+    s48 = s44*s46
+    s49 = s19 - s15*s28 - s31*s35 - s21*s40 - s43*s47
+    s50 = s14*s28 - (s14 + s20) - s32*s35 + s20*s40 - s44*s47
+    s51 = 1.0*(s49 > 1e-12*s19)
+    s52 = s51/(s49 + 1.0 - s51)
+    s53 = s50*s52
+    s54 = s23 - s29 - s32*s36 - s41 - s44*s48 - s50*s53
+    s55 = 1.0*(s54 > 1e-12*s23)
+    s56 = s30/s17
+    s57 = s49/s19
+    s58 = s54/s23
+    s59 = s42/s24
     # outputs
-    w[32] = q0 - s0
-    w[33] = q1 - s2
-    w[34] = q3 - q0 - s3 - s0
-    w[35] = q4 - q1 - s5 - s2
-    w[36] = q6 - q3 - s3
-    w[37] = q7 - q4 - s5
-    w[38] = q7
-    w[39] = q8
-    w[90] = s2
-    w[91] = s1
-    w[92] = s2
-    w[93] = s5
-    w[94] = s1
-    w[95] = s4
-    w[96] = s5
-    w[97] = s4
-    w[57] = s24/s11
-    w[58] = s43/s13
-    w[59] = s48/s17
-    w[61] = s36/s18
-    w[98] = s21
-    w[99] = s22
-    w[100] = s21
-    w[101] = s29
-    w[102] = s30
-    w[103] = s33
-    w[104] = s34
-    w[105] = s33
-    w[106] = s41
-    w[107] = s42
-    w[108] = s47
-    w[109] = s19
-    w[110] = s28
-    w[111] = s31
-    w[112] = s40
-    w[113] = s46
-    w[114] = s49/(s48 + 1.0 - s49)
+    w[37] = s2
+    w[38] = s4
+    w[39] = s7
+    w[40] = s9
+    w[41] = s10
+    w[42] = s11
+    w[43] = q7
+    w[44] = q8
+    w[0] = math.sqrt(s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7 + q8*q8)
+    w[79] = s3
+    w[80] = s1
+    w[81] = s3
+    w[82] = s8
+    w[83] = s1
+    w[84] = s6
+    w[85] = s8
+    w[86] = s6
+    w[54] = s56
+    w[55] = s57
+    w[56] = s58
+    w[58] = s59
+    w[5] = 1.0 + 1.0 + s45 + 1.0 + s55 + s51 + 1.0 + s33
+    w[4] = min(min(min(min(1.0, mask_1 + s56), mask_2 + s57), mask_3 + s58), mask_5 + s59)
+    w[87] = s27
+    w[88] = s28
+    w[89] = s27
+    w[90] = s35
+    w[91] = s36
+    w[92] = s39
+    w[93] = s40
+    w[94] = s39
+    w[95] = s47
+    w[96] = s48
+    w[97] = s53
+    w[98] = s25
+    w[99] = s34
+    w[100] = s37
+    w[101] = s46
+    w[102] = s52
+    w[103] = s55/(s54 + 1.0 - s55)
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """change of v (or of q by N) = D^+ times the section `right`: 74 operations, 1619 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 75 operations, 1621 before sharing."""
     # inputs
-    lower_0 = w[98]
-    lower_1 = w[99]
-    lower_2 = w[100]
-    lower_3 = w[101]
-    lower_4 = w[102]
-    lower_5 = w[103]
-    lower_6 = w[104]
-    lower_7 = w[105]
-    lower_8 = w[106]
-    lower_9 = w[107]
-    lower_10 = w[108]
-    reciprocal_0 = w[109]
-    reciprocal_1 = w[110]
-    reciprocal_2 = w[111]
-    reciprocal_3 = w[112]
-    reciprocal_4 = w[113]
-    reciprocal_5 = w[114]
-    right_0 = w[64]
-    right_1 = w[65]
-    right_2 = w[66]
-    right_3 = w[67]
-    right_4 = w[68]
-    right_5 = w[69]
-    right_6 = w[70]
-    right_7 = w[71]
-    jacobian_0 = w[90]
-    jacobian_1 = w[91]
-    jacobian_2 = w[92]
-    jacobian_3 = w[93]
-    jacobian_4 = w[94]
-    jacobian_5 = w[95]
-    jacobian_6 = w[96]
-    jacobian_7 = w[97]
+    lower_0 = w[87]
+    lower_1 = w[88]
+    lower_2 = w[89]
+    lower_3 = w[90]
+    lower_4 = w[91]
+    lower_5 = w[92]
+    lower_6 = w[93]
+    lower_7 = w[94]
+    lower_8 = w[95]
+    lower_9 = w[96]
+    lower_10 = w[97]
+    reciprocal_0 = w[98]
+    reciprocal_1 = w[99]
+    reciprocal_2 = w[100]
+    reciprocal_3 = w[101]
+    reciprocal_4 = w[102]
+    reciprocal_5 = w[103]
+    residual_0 = w[37]
+    residual_1 = w[38]
+    residual_2 = w[39]
+    residual_3 = w[40]
+    residual_4 = w[41]
+    residual_5 = w[42]
+    residual_6 = w[43]
+    residual_7 = w[44]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
     # intermediate terms
-    s0 = right_1 - lower_0*right_0
-    s1 = right_5 - right_6 - lower_5*right_4
-    s2 = right_2 - lower_1*right_0 - lower_3*s0 - lower_6*right_4 - lower_8*s1
-    s3 = reciprocal_5*(right_3 - lower_2*right_0 - lower_4*s0 - lower_7*right_4 - lower_9*s1 - lower_10*s2)
-    s4 = reciprocal_4*s2
-    s5 = lower_10*s3
-    s6 = s4 - s5
-    s7 = reciprocal_3*s1 - lower_8*s6
-    s8 = lower_9*s3
-    s9 = s7 - s8
-    s10 = reciprocal_2*right_4 - lower_5*s9 - lower_6*s6
-    s11 = lower_7*s3
-    s12 = s10 - s11
-    s13 = reciprocal_1*s0 - lower_3*s6 - lower_4*s3
-    s14 = reciprocal_0*right_0 - lower_0*s13 - lower_1*s6 - lower_2*s3
+    s0 = lower_0*residual_0 - residual_1
+    s1 = residual_6 - residual_5 + lower_5*residual_4
+    s2 = lower_1*residual_0 - residual_2 - lower_3*s0 + lower_6*residual_4 - lower_8*s1
+    s3 = lower_2*residual_0 - residual_3 - lower_4*s0 + lower_7*residual_4 - lower_9*s1 - lower_10*s2
+    s4 = reciprocal_5*s3
+    s5 = reciprocal_4*s2
+    s6 = lower_10*s4
+    s7 = s5 - s6
+    s8 = reciprocal_3*s1 - lower_8*s7
+    s9 = lower_9*s4
+    s10 = s8 - s9
+    s11 = reciprocal_2*residual_4 + lower_5*s10 + lower_6*s7 + lower_7*s4
+    s12 = reciprocal_1*s0 - lower_3*s7 - lower_4*s4
+    s13 = reciprocal_0*residual_0 + lower_0*s12 + lower_1*s7 + lower_2*s4
     # outputs
-    w[72] = s14 + s5 - s4
-    w[73] = s13 - s3
-    w[74] = s14*jacobian_0 + s13*jacobian_1 + s6*jacobian_2 + s3*jacobian_4
-    w[75] = s6 + s11 - s10
-    w[76] = s3 + s8 - s7
-    w[77] = s6*jacobian_3 + s3*jacobian_5 + s12*jacobian_6 + s9*jacobian_7
-    w[78] = s12
-    w[79] = s9 + right_6 - s9
-    w[80] = right_7
+    w[61] = s6 - s5 - s13
+    w[62] = s12 - s4
+    w[63] = s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4
+    w[64] = s7 + s11
+    w[65] = s4 + s9 - s8
+    w[66] = s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7
+    w[67] = -s11
+    w[68] = s10 - (residual_6 + s10)
+    w[69] = -residual_7
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
-def drift(y, w):
-    """D v - nu with the D and nu that `geometry` left: 20 operations, 20 before sharing."""
-    # inputs
-    v0 = y[9]  # crank.vx [m/s]
-    v1 = y[10]  # crank.vy [m/s]
-    v2 = y[11]  # crank.omega [rad/s]
-    v3 = y[12]  # rod.vx [m/s]
-    v4 = y[13]  # rod.vy [m/s]
-    v5 = y[14]  # rod.omega [rad/s]
-    v6 = y[15]  # slider.vx [m/s]
-    v7 = y[16]  # slider.vy [m/s]
-    v8 = y[17]  # slider.omega [rad/s]
-    jacobian_0 = w[90]
-    jacobian_1 = w[91]
-    jacobian_2 = w[92]
-    jacobian_3 = w[93]
-    jacobian_4 = w[94]
-    jacobian_5 = w[95]
-    jacobian_6 = w[96]
-    jacobian_7 = w[97]
-    # outputs
-    w[48] = v0 + v2*jacobian_0
-    w[49] = v1 + v2*jacobian_1
-    w[50] = v3 + v2*jacobian_2 - v0 + v5*jacobian_3
-    w[51] = v4 + v2*jacobian_4 - v1 + v5*jacobian_5
-    w[52] = v6 + v5*jacobian_6 - v3
-    w[53] = v7 + v5*jacobian_7 - v4
-    w[54] = v7
-    w[55] = v8
-    return 0
-
-@njit(error_model="numpy", fastmath={"contract"})
-def energies(t, y, p, w):
-    """kinetic and potential energy: 31 operations, 31 before sharing."""
+def measure(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left, and the energies: 65 operations, 107 before sharing."""
     # inputs
     v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
@@ -298,10 +281,35 @@ def energies(t, y, p, w):
     p8 = p[8]
     p9 = p[9]
     p10 = p[10]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
     # intermediate terms
-    s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
+    s0 = v8*v8
+    s1 = v7*v7
+    s2 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*s1
+    s3 = v0 + v2*jacobian_0
+    s4 = v1 + v2*jacobian_1
+    s5 = v3 + v2*jacobian_2 - v0 + v5*jacobian_3
+    s6 = v4 + v2*jacobian_4 - v1 + v5*jacobian_5
+    s7 = v6 + v5*jacobian_6 - v3
+    s8 = v7 + v5*jacobian_7 - v4
     # outputs
-    w[2] = s0 + 0.00025*(v8*v8)
+    w[37] = s3
+    w[38] = s4
+    w[39] = s5
+    w[40] = s6
+    w[41] = s7
+    w[42] = s8
+    w[43] = v7
+    w[44] = v8
+    w[1] = math.sqrt(s0 + s1 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
+    w[2] = s2 + 0.00025*s0
     w[3] = q1*p4 + q4*p7 + q7*p10
     return 0
 
@@ -370,13 +378,13 @@ def masses(p, w):
     p11 = p[11]
     p12 = p[12]
     # outputs
-    w[81] = p0
-    w[82] = p0
-    w[83] = p11
-    w[84] = p1
-    w[85] = p1
-    w[86] = p12
-    w[87] = p2
-    w[88] = p2
-    w[89] = 0.0005
+    w[70] = p0
+    w[71] = p0
+    w[72] = p11
+    w[73] = p1
+    w[74] = p1
+    w[75] = p12
+    w[76] = p2
+    w[77] = p2
+    w[78] = 0.0005
     return 0

@@ -59,8 +59,11 @@ N_CONTROL = 10
     POTENTIAL_START,
     ENERGY_ENTRY,  # E - E0 - W where the run entered a warn zone
     MAX_ENERGY_JUMP,  # largest change of it over a passage
-) = range(15)
-N_GAUGES = 15
+    LAST_TIME,  # time, root of the smallest pivot, and how fast that root fell, at the accepted state before
+    LAST_SINE,
+    FALL,
+) = range(18)
+N_GAUGES = 18
 
 #: Columns of the table of rank events.
 EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)

@@ -15,7 +15,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.explicit import store
-from symgen.runtime.watch import begin, keep_maxima, watch
+from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 
 _F8, _I8 = types.float64, types.int64
@@ -134,7 +134,7 @@ def adams_steps(
     while t < until - tiny:
         if control[_STOP] != 0:
             return _STOPPED
-        step = min(h, h_max) if adaptive == 1 else h
+        step = approach(min(h, h_max), gauges) if adaptive == 1 else h
         following = t + step if adaptive == 1 else t0 + (index + 1) * h
         if following > until - tiny or (adaptive == 1 and t + 1.01 * step >= until):
             following = until

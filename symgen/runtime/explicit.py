@@ -16,7 +16,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.watch import begin, keep_maxima, watch
+from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 
 _F8, _I8 = types.float64, types.int64
@@ -26,6 +26,7 @@ _M = types.float64[:, ::1]
 _STOP, _STEPS, _REJECTED, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.REJECTED, abi.EVALUATIONS, abi.OUTPUTS
 _DONE, _STOPPED, _NOT_FINITE = abi.DONE, abi.STOPPED, abi.NOT_FINITE
 _CORRECTION, _TINY = abi.CORRECTION, abi.TINY_STEP
+_IN_ZONE, _FALL, _LAST_SINE = abi.IN_ZONE, abi.FALL, abi.LAST_SINE
 _STEP, _PHI, _STEP_STATUS, _PROBING = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PROBING
 _N_STATUS = abi.RANK + 1
 
@@ -316,7 +317,13 @@ def adaptive_steps(
     while t < until:
         if control[_STOP] != 0:
             return _STOPPED
-        h = min(h, h_max)
+        # inside the zone around a singular position the estimate sees noise: the zone is crossed in one step, and not so
+        # that a stage at half the step meets its middle
+        crossing = control[_IN_ZONE] == 1 and gauges[_FALL] > 0.0
+        before = h
+        h = approach(min(h, h_max), gauges)
+        if crossing:
+            h = min(h_max, 2.3 * gauges[_LAST_SINE] / gauges[_FALL])
         if t + 1.01 * h >= until:
             h = until - t
         if not h > 4e-16 * max(abs(t), abs(until)):
@@ -335,7 +342,7 @@ def adaptive_steps(
                 confirm(t + h, new, p, w, iw, last)
             control[_EVALUATIONS] += 1
         error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol)
-        if not error <= 1.0:
+        if not (error <= 1.0 or (crossing and math.isfinite(error))):
             control[_REJECTED] += 1
             h *= max(0.2, 0.9 * error**exponent) if math.isfinite(error) else 0.1
             rejected = True
@@ -402,6 +409,6 @@ def adaptive_steps(
             for i in range(n):
                 first[i] = last[i]
         grow = min(10.0, max(0.2, 0.9 * max(error, 1e-10) ** exponent))
-        h *= min(1.0, grow) if rejected else grow
+        h = before if crossing else h * (min(1.0, grow) if rejected else grow)
         rejected = False
     return _DONE

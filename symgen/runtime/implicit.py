@@ -16,7 +16,7 @@ from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.dense import eliminate, substitute
 from symgen.runtime.explicit import store
-from symgen.runtime.watch import begin, keep_maxima, watch
+from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 
 _F8, _I8 = types.float64, types.int64
@@ -184,8 +184,8 @@ def implicit_steps(
                 else:
                     start[i] = w[multipliers + i - width] if i < width + m else 0.0
             known = True
-        following = t0 + (index + 1) * h if adaptive == 0 else t + min(h, h_max)
-        step = h if adaptive == 0 else min(h, h_max)
+        step = h if adaptive == 0 else approach(min(h, h_max), gauges)
+        following = t0 + (index + 1) * h if adaptive == 0 else t + step
         if following > until - tiny or (adaptive == 1 and t + 1.01 * step >= until):
             following = until
             step = until - t

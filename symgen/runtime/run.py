@@ -238,7 +238,7 @@ def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array
     gauges[abi.LIMIT_PHI] = gauges[abi.LIMIT_DRIFT] = spec.max_violation
     gauges[abi.LIMIT_ENERGY] = spec.max_energy_error
     gauges[abi.WARN_PIVOT] = WARN
-    gauges[abi.SMALLEST_PIVOT] = 1.0
+    gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = 1.0
     control[abi.LAST_RANK] = int(np.sum(compiled.section(w, "pivot") >= 1e-12))
     return w, iw, gauges, control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)
 

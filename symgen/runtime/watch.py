@@ -17,6 +17,7 @@ _WARN, _SMALLEST, _ENTRY, _JUMP = abi.WARN_PIVOT, abi.SMALLEST_PIVOT, abi.ENERGY
 _EVENTS, _IN_ZONE, _LAST_RANK = abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK
 _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 _IN, _OUT, _EVENT_RANK, _EVENT_PIVOT = abi.EVENT_IN, abi.EVENT_OUT, abi.EVENT_RANK, abi.EVENT_PIVOT
+_LAST_TIME, _LAST_SINE, _FALL = abi.LAST_TIME, abi.LAST_SINE, abi.FALL
 _DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, abi.POSITION, abi.VELOCITY, abi.ENERGY
 
 
@@ -38,6 +39,19 @@ def keep_maxima(w: Any, work: float, gauges: Any) -> float:
     if abs(error) > gauges[_MAX_ENERGY]:
         gauges[_MAX_ENERGY] = abs(error)
     return float(error)
+
+
+@jit()
+def approach(h: float, gauges: Any) -> float:
+    """Return the step that may be taken: near a singular position not more than half the way to it.
+
+    Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as there
+    are halvings from the last regular step to the zone.
+    """
+    sine, fall = gauges[_LAST_SINE], gauges[_FALL]
+    if fall > 0.0 and sine * sine >= gauges[_WARN] and h * fall > 0.5 * sine:
+        return float(0.5 * sine / fall)
+    return h
 
 
 @jit()
@@ -70,7 +84,15 @@ def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: 
     pivot, rank = w[_PIVOT], int(w[_RANK])
     if pivot < gauges[_SMALLEST]:
         gauges[_SMALLEST] = pivot
-    near = pivot < gauges[_WARN]
+    # the root of a pivot is the sine of an angle: it falls to 0 and rises again in a straight line, so a step that would
+    # have met 0 has passed a singular position even if both its ends are far from it
+    sine = math.sqrt(max(pivot, 0.0))
+    elapsed = t - gauges[_LAST_TIME]
+    met = gauges[_FALL] > 0.0 and gauges[_LAST_SINE] - gauges[_FALL] * elapsed < math.sqrt(gauges[_WARN])
+    near = pivot < gauges[_WARN] or met
+    entered = gauges[_LAST_TIME] if met and pivot >= gauges[_WARN] else t
+    gauges[_FALL] = (gauges[_LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
+    gauges[_LAST_TIME], gauges[_LAST_SINE] = t, sine
     if near or control[_IN_ZONE] == 1 or rank != control[_LAST_RANK]:
         if near and control[_IN_ZONE] == 0:
             gauges[_ENTRY] = error
@@ -84,7 +106,7 @@ def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: 
             k += 1
             control[_EVENTS] += 1
             if k < _MAX_EVENTS:
-                events[k * _N_EVENT + _IN] = t
+                events[k * _N_EVENT + _IN] = entered
                 events[k * _N_EVENT + _EVENT_PIVOT] = pivot
                 events[k * _N_EVENT + _EVENT_RANK] = rank
         if 0 <= k < _MAX_EVENTS:

@@ -4,26 +4,25 @@ from functools import cache
 
 import numpy as np
 import pytest
+from support.kinds import CORRECTING, INTEGRATORS, METHODS
 
 from benchmarks import orders
 from symgen.api import load
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
 
 
 @cache
 def observed(model):
-    return {(o.method, o.integrator): o for o in orders.observe(model)}
+    return {(o.method, o.integrator): o for o in orders.observe(model, METHODS, INTEGRATORS)}
 
 
 @pytest.mark.parametrize("model", orders.MODELS)
-@pytest.mark.parametrize("method", METHODS.names)
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_order(model, method, integrator):
     found = observed(model)[method, integrator]
     if found.slope is None:
         # no degree of freedom is left and positions are corrected: they do not depend on the step
-        assert model == "driven-four-bar" and METHODS.get(method).position_correction
+        assert model == "driven-four-bar" and method in CORRECTING
         assert max(found.errors) <= 2e-12
     else:
         assert found.slope >= found.order - 0.2, f"floor {found.floor:.1e}, errors {found.errors}"

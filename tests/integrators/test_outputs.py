@@ -2,14 +2,10 @@
 
 import numpy as np
 import pytest
+from support.kinds import ADAPTIVE, CORRECTING, INTEGRATORS, METHODS
 from support.runs import fixed, positions, run
 
 from symgen.api import load
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
-
-ADAPTIVE = [n for n in INTEGRATORS.names if INTEGRATORS.get(n).adaptive]
-CORRECTING = [n for n, m in METHODS.items() if m.position_correction]
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +21,7 @@ def exact(four_bar):
 
 
 @pytest.mark.parametrize("integrator", ADAPTIVE)
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", METHODS)
 def test_error_follows_the_tolerance(four_bar, exact, method, integrator):
     """Largest error over dense outputs: falls with the tolerance, in proportion within a factor."""
     tolerances = 10.0 ** -np.arange(5, 11)
@@ -82,15 +78,15 @@ def test_dense_outputs_are_corrected(four_bar, method, integrator):
 TIMES = (0.0, 0.0013, 0.1, 0.10005, 0.3337, 0.5, 0.98765, 1.0)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("method", METHODS)
 def test_outputs_are_at_the_asked_times(four_bar, method, integrator):
     outcome = run(four_bar, method=method, integrator=integrator, step=1e-3, until=1.0, times=TIMES)
     assert outcome.times.tolist() == list(TIMES)
     assert len(outcome.states) == len(TIMES)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_off_grid_outputs_of_constant_steps(four_bar, integrator):
     """They have the accuracy of the scheme, and change nothing for the steps after them."""
     keys = fixed(integrator) | {"method": "direct-correction", "step": 0.01, "until": 1.0}
@@ -103,7 +99,7 @@ def test_off_grid_outputs_of_constant_steps(four_bar, integrator):
     )
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_end_that_is_no_multiple_of_the_step(four_bar, integrator):
     keys = fixed(integrator) | {"method": "lagrange", "step": 0.03, "output_step": 0.03, "max_violation": 1.0}
     outcome = run(four_bar, **keys, until=1.0)
@@ -114,7 +110,7 @@ def test_an_end_that_is_no_multiple_of_the_step(four_bar, integrator):
     np.testing.assert_allclose(positions(outcome)[-1], positions(fine)[-1], atol=1e-5)
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_many_steps_do_not_lose_time(integrator):
     """t is counted, not added up: 10^5 steps of 1e-4 end at 10."""
     outcome = run(load("pendulum"), **fixed(integrator), method="lagrange", step=1e-4, until=10.0, times=[10.0])

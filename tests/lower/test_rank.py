@@ -60,7 +60,11 @@ def random_rows(rng, m: int, n: int) -> np.ndarray:
 def corrected(system: System, values, d, b, weight=None):
     """D^+ b as the emitted code computes it: y from the factor of D W D^T, then W D^T y."""
     g = system.graph
-    factor = system.gram_factor() if weight is None else system.schur_with(system.gram_factor())
+    factor = (
+        system.gram_factor()
+        if weight is None
+        else system.factor_with(system.gram_factor(), system.gram(system.inverse_mass))
+    )
     y = node_values(g, factor.solve(g, [g.constant(float(x)) for x in b]), values)
     return (np.ones(d.shape[1]) if weight is None else weight) * (d.T @ y), np.array(y)
 

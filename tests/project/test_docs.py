@@ -175,21 +175,32 @@ def test_every_function_of_an_expression_is_named() -> None:
 @pytest.mark.parametrize("method", METHODS.names)
 def test_a_method_stands_in_its_page_with_parameters_and_defaults(method: str) -> None:
     text = page("methods")
-    assert f"`{method}`" in rows(text)
+    line = next(line for line in text.splitlines() if line.startswith(f"| `{method}` |"))
+    cells = [cell.strip() for cell in line.split("|")]
+    assert cells[4] == ", ".join(METHODS.get(method).forms)
+    assert cells[5] == f"`{METHODS.get(method).default_integrator}`"
     own = section(text, f"`{method}`")
     for parameter in METHODS.get(method).parameters:
         line = next(line for line in own.splitlines() if line.startswith(f"| `{parameter.name}`"))
-        assert f"{parameter.default:g}" in line
+        cells = [cell.strip() for cell in line.split("|")]
+        assert float(cells[2]) == parameter.default and cells[3] == parameter.unit
     for option in METHODS.get(method).options:
+        where = section(text, "What the methods share") if option.name == "solver" else own
         assert f"`{option.name}`" in own
-        assert all(f"`{value}`" in own for value in option.values)
+        assert all(f"`{value}`" in where for value in option.values)
 
 
 @pytest.mark.parametrize("integrator", INTEGRATORS.names)
 def test_an_integrator_stands_in_its_page_with_its_order(integrator: str) -> None:
     text = page("integrators")
     line = next(line for line in text.splitlines() if line.startswith(f"| `{integrator}`"))
-    assert line.split("|")[3].strip() == str(INTEGRATORS.get(integrator).order)
+    kind, cells = INTEGRATORS.get(integrator), [cell.strip() for cell in line.split("|")]
+    assert cells[3] == str(kind.order)
+    assert cells[4] == ", ".join(kind.forms)
+    assert (cells[5] == "adaptive") == kind.adaptive
+    for parameter in kind.parameters:
+        row = next(line for line in text.splitlines() if line.startswith(f"| `{integrator}` | `{parameter.name}`"))
+        assert float(row.split("|")[3]) == parameter.default
 
 
 def test_every_command_stands_in_the_readme_and_in_its_page() -> None:

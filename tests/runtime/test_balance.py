@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from support import reference
 from support.emitted import mechanism_of
+from support.kinds import METHODS
 from support.plain import Plain
 from support.runs import run
 
 from symgen.api import load
 from symgen.catalogue import raw
-from symgen.methods import METHODS
 
 TIGHT = {"integrator": "dop853", "rtol": 1e-12, "atol": 1e-12}
 
@@ -26,7 +26,7 @@ def loaded():
     return description
 
 
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", METHODS)
 def test_work_of_drivers_and_losses_is_accounted_for(method):
     """E - E0 is the work that the run integrates as a state of its own; and that is the integral of the power."""
     description = loaded()
@@ -112,7 +112,7 @@ def test_a_rolling_disc_and_a_skate_move_as_their_closed_forms_say():
         np.testing.assert_allclose(y[3:6], [*circle, 0.8 * t], atol=1e-9)
 
 
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", METHODS)
 def test_a_body_without_joints_falls(method):
     """No rows at all: every section of multipliers and residuals is empty."""
     body = {"mass": 2.0, "inertia": 0.5, "velocity": [1.0, 0.0], "angular_velocity": 2.0}

@@ -8,13 +8,14 @@ import sys
 import numpy as np
 import pytest
 from support.emitted import mechanism_of
+from support.kinds import ADAPTIVE, INTEGRATORS, METHODS
 from support.models import parallelogram
 from support.runs import run
 
 from symgen.api import Settings, load, make_plan
 from symgen.catalogue import raw
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.integrators import INTEGRATORS as SCHEMES
+from symgen.methods import METHODS as KNOWN
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
 from symgen.store.stats import cache_stats
@@ -43,11 +44,9 @@ def test_baumgarte_beyond_its_limit():
     assert load("four-bar").simulate(**keys, step=7e-3, max_violation=1.0).status == "failed"
 
 
-@pytest.mark.parametrize("integrator", [n for n in INTEGRATORS.names if INTEGRATORS.get(n).adaptive])
+@pytest.mark.parametrize("integrator", ADAPTIVE)
 def test_adaptive_steps_stay_below_the_limit(integrator):
-    limit = METHODS.get("baumgarte").largest_step(
-        {"alpha": 500, "beta": 500}, INTEGRATORS.get(integrator).real_boundary
-    )
+    limit = KNOWN.get("baumgarte").largest_step({"alpha": 500, "beta": 500}, SCHEMES.get(integrator).real_boundary)
     outcome = run(
         load("four-bar"),
         method="baumgarte",
@@ -71,8 +70,8 @@ def out_of_reach():
 STRETCHED = (0.6 - 0.5433874092913796) / 0.1
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+@pytest.mark.parametrize("method", METHODS)
 def test_a_motion_that_cannot_go_on_fails_where_it_ends(method, integrator):
     step = 1e-3 if integrator == "rk4" else None
     result = out_of_reach().simulate(method=method, integrator=integrator, step=step, until=2.0)
@@ -135,7 +134,7 @@ def test_a_wrong_branch_never_ends_well(method):
         assert load("n-four-bar:1").simulate(method=method, step=step, until=10.0).status != "ok"
 
 
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", METHODS)
 def test_a_redundant_row_changes_nothing_in_the_motion(method):
     """The parallelogram moves as its one-coordinate equation says, rank 11 of 12 all the way."""
     model = load(mechanism_of(parallelogram()))
@@ -175,7 +174,7 @@ def test_a_start_in_a_singular_position_is_left_behind():
 # -- interruption ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("integrator", INTEGRATORS.names)
+@pytest.mark.parametrize("integrator", INTEGRATORS)
 def test_an_interrupt_keeps_what_was_computed(integrator):
     """Ctrl-C while the loop runs: the flag stops it, outputs up to there are those of a whole run."""
     model = load("pendulum")
@@ -206,7 +205,7 @@ def test_an_interrupt_keeps_what_was_computed(integrator):
 # -- parameters --------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("method", METHODS.names)
+@pytest.mark.parametrize("method", METHODS)
 def test_parameters_at_run_time_are_as_good_as_compiled_ones(method):
     """Other masses without compiling again, against a mechanism in which they are written as numbers."""
     new = {"crank_mass": 3.3, "coupler_mass": 0.7, "rocker_mass": 11.0}

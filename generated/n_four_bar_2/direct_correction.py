@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 1, templates 8f8565515c2742ad
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = identity
 p[0] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies, geometry, spread
+from .model import geometry, measure, spread
 
-PHI = 50  # sections of w
-DRIFT = 78
-PIVOT = 92
-MASK = 22
-RIGHT = 106
-CHANGE = 120
-SAVED = 36
+MASK = 27  # sections of w
+SAVED = 41
+PIVOT = 83
+CHANGE = 97
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -52,20 +50,20 @@ def rhs(t, y, p, w, iw, ydot):
     v13 = y[28]  # vertical2.vy [m/s]
     q14 = y[14]  # vertical2.theta [rad]
     v14 = y[29]  # vertical2.omega [rad/s]
-    mask_0 = w[22]
-    mask_1 = w[23]
-    mask_2 = w[24]
-    mask_3 = w[25]
-    mask_4 = w[26]
-    mask_5 = w[27]
-    mask_6 = w[28]
-    mask_7 = w[29]
-    mask_8 = w[30]
-    mask_9 = w[31]
-    mask_10 = w[32]
-    mask_11 = w[33]
-    mask_12 = w[34]
-    mask_13 = w[35]
+    mask_0 = w[27]
+    mask_1 = w[28]
+    mask_2 = w[29]
+    mask_3 = w[30]
+    mask_4 = w[31]
+    mask_5 = w[32]
+    mask_6 = w[33]
+    mask_7 = w[34]
+    mask_8 = w[35]
+    mask_9 = w[36]
+    mask_10 = w[37]
+    mask_11 = w[38]
+    mask_12 = w[39]
+    mask_13 = w[40]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -298,20 +296,20 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[28] = -9.81 - (s187 + s193)
     ydot[29] = -12.0*(s31*s194 - s30*s193 - s31*s188 + s30*s187)
     ydot[30] = 0.0
-    w[8] = s196
-    w[9] = s195
-    w[10] = s192
-    w[11] = s191
-    w[12] = s184
-    w[13] = s183
-    w[14] = s182
-    w[15] = s179
-    w[16] = s176
-    w[17] = s173
-    w[18] = s194
-    w[19] = s193
-    w[20] = s188
-    w[21] = s187
+    w[13] = s196
+    w[14] = s195
+    w[15] = s192
+    w[16] = s191
+    w[17] = s184
+    w[18] = s183
+    w[19] = s182
+    w[20] = s179
+    w[21] = s176
+    w[22] = s173
+    w[23] = s194
+    w[24] = s193
+    w[25] = s188
+    w[26] = s187
     return int(((s198 | (s156 < 1e-06*s72)) | (s159 < 1e-06*s73)))
 
 
@@ -335,58 +333,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 14 rows."""
-    total = 0.0
-    for i in range(first, first + 14):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[0] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(14):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(15, 30):
+                y[j] += w[CHANGE - 15 + j]
+            break
         for j in range(15):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(14):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(15):
-        y[15 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(14):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 8f8565515c2742ad
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = identity
 p[17] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies, geometry, spread
+from .model import geometry, measure, spread
 
-PHI = 35  # sections of w
-DRIFT = 53
-PIVOT = 62
-MASK = 17
-RIGHT = 71
-CHANGE = 80
-SAVED = 26
+MASK = 22  # sections of w
+SAVED = 31
+PIVOT = 58
+CHANGE = 67
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -78,15 +76,15 @@ def rhs(t, y, p, w, iw, ydot):
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
-    mask_0 = w[17]
-    mask_1 = w[18]
-    mask_2 = w[19]
-    mask_3 = w[20]
-    mask_4 = w[21]
-    mask_5 = w[22]
-    mask_6 = w[23]
-    mask_7 = w[24]
-    mask_8 = w[25]
+    mask_0 = w[22]
+    mask_1 = w[23]
+    mask_2 = w[24]
+    mask_3 = w[25]
+    mask_4 = w[26]
+    mask_5 = w[27]
+    mask_6 = w[28]
+    mask_7 = w[29]
+    mask_8 = w[30]
     p21 = p[21]
     p22 = p[22]
     p23 = p[23]
@@ -232,15 +230,15 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p25*(p20 + s108 + s110)
     ydot[17] = p26*(s14*s110 - (s14*s108 - s15*s109 + s15*s111))
     ydot[18] = p4*s103
-    w[8] = s105
-    w[9] = s104
-    w[10] = s102
-    w[11] = s99
-    w[12] = s109
-    w[13] = s108
-    w[14] = s111
-    w[15] = s110
-    w[16] = -s103
+    w[13] = s105
+    w[14] = s104
+    w[15] = s102
+    w[16] = s99
+    w[17] = s109
+    w[18] = s108
+    w[19] = s111
+    w[20] = s110
+    w[21] = -s103
     return int(((s112 | (s88 < 1e-06*s32)) | (s91 < 1e-06*s36)))
 
 
@@ -264,58 +262,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 9 rows."""
-    total = 0.0
-    for i in range(first, first + 9):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[17] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(9):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
         for j in range(9):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(9):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(9):
-        y[9 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(9):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 8f8565515c2742ad
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = identity
 p[15] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies, geometry, spread
+from .model import geometry, measure, spread
 
-PHI = 32  # sections of w
-DRIFT = 48
-PIVOT = 56
-MASK = 16
-RIGHT = 64
-CHANGE = 72
-SAVED = 24
+MASK = 21  # sections of w
+SAVED = 29
+PIVOT = 53
+CHANGE = 61
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -75,14 +73,14 @@ def rhs(t, y, p, w, iw, ydot):
     p16 = p[16]
     p17 = p[17]
     p18 = p[18]
-    mask_0 = w[16]
-    mask_1 = w[17]
-    mask_2 = w[18]
-    mask_3 = w[19]
-    mask_4 = w[20]
-    mask_5 = w[21]
-    mask_6 = w[22]
-    mask_7 = w[23]
+    mask_0 = w[21]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_6 = w[27]
+    mask_7 = w[28]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
@@ -215,14 +213,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p23*(p18 + s88 + s96)
     ydot[17] = p24*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
     ydot[18] = 0.0
-    w[8] = s99
-    w[9] = s98
-    w[10] = s95
-    w[11] = s94
-    w[12] = s91
-    w[13] = s88
-    w[14] = s97
-    w[15] = s96
+    w[13] = s99
+    w[14] = s98
+    w[15] = s95
+    w[16] = s94
+    w[17] = s91
+    w[18] = s88
+    w[19] = s97
+    w[20] = s96
     return int((s100 | (s81 < 1e-06*s42)))
 
 
@@ -246,58 +244,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 8 rows."""
-    total = 0.0
-    for i in range(first, first + 8):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[15] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(8):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
         for j in range(9):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(8):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(9):
-        y[9 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(8):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

@@ -2,7 +2,8 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 1, templates 8f8565515c2742ad
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 1, templates 045897546380cbe8
+option solver = elimination
 option weight = identity
 p[4] tolerance (default 1e-13)
 """
@@ -11,15 +12,12 @@ import math
 
 from numba import njit
 
-from .model import drift, energies, geometry, spread
+from .model import geometry, measure, spread
 
-PHI = 68  # sections of w
-DRIFT = 108
-PIVOT = 128
-MASK = 28
-RIGHT = 148
-CHANGE = 168
-SAVED = 48
+MASK = 33  # sections of w
+SAVED = 53
+PIVOT = 113
+CHANGE = 133
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -73,26 +71,26 @@ def rhs(t, y, p, w, iw, ydot):
     v20 = y[41]  # K7.omega [rad/s]
     p5 = p[5]
     p6 = p[6]
-    mask_0 = w[28]
-    mask_1 = w[29]
-    mask_2 = w[30]
-    mask_3 = w[31]
-    mask_4 = w[32]
-    mask_5 = w[33]
-    mask_6 = w[34]
-    mask_7 = w[35]
-    mask_8 = w[36]
-    mask_9 = w[37]
-    mask_10 = w[38]
-    mask_11 = w[39]
-    mask_12 = w[40]
-    mask_13 = w[41]
-    mask_14 = w[42]
-    mask_15 = w[43]
-    mask_16 = w[44]
-    mask_17 = w[45]
-    mask_18 = w[46]
-    mask_19 = w[47]
+    mask_0 = w[33]
+    mask_1 = w[34]
+    mask_2 = w[35]
+    mask_3 = w[36]
+    mask_4 = w[37]
+    mask_5 = w[38]
+    mask_6 = w[39]
+    mask_7 = w[40]
+    mask_8 = w[41]
+    mask_9 = w[42]
+    mask_10 = w[43]
+    mask_11 = w[44]
+    mask_12 = w[45]
+    mask_13 = w[46]
+    mask_14 = w[47]
+    mask_15 = w[48]
+    mask_16 = w[49]
+    mask_17 = w[50]
+    mask_18 = w[51]
+    mask_19 = w[52]
     p7 = p[7]
     # intermediate terms
     s0 = math.cos(q2)
@@ -486,26 +484,26 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[40] = -18.188432157148053*(s328 + s334)
     ydot[41] = 52301.25523012552*(s81*s334 - (s67*s329 + s72*s328 + s78*s335))
     ydot[42] = p0*v2
-    w[8] = s341
-    w[9] = s340
-    w[10] = s325
-    w[11] = s324
-    w[12] = s321
-    w[13] = s318
-    w[14] = s315
-    w[15] = s312
-    w[16] = s309
-    w[17] = s306
-    w[18] = s339
-    w[19] = s338
-    w[20] = -s333
-    w[21] = s332
-    w[22] = s329
-    w[23] = s328
-    w[24] = s337
-    w[25] = s336
-    w[26] = s335
-    w[27] = s334
+    w[13] = s341
+    w[14] = s340
+    w[15] = s325
+    w[16] = s324
+    w[17] = s321
+    w[18] = s318
+    w[19] = s315
+    w[20] = s312
+    w[21] = s309
+    w[22] = s306
+    w[23] = s339
+    w[24] = s338
+    w[25] = -s333
+    w[26] = s332
+    w[27] = s329
+    w[28] = s328
+    w[29] = s337
+    w[30] = s336
+    w[31] = s335
+    w[32] = s334
     return int(s346)
 
 
@@ -529,58 +527,31 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def norm(w, first):
-    """Euclidean norm of a section of 20 rows."""
-    total = 0.0
-    for i in range(first, first + 20):
-        total += w[i] * w[i]
-    return math.sqrt(total)
-
-
-@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    bits = 0
-    geometry(t, y, p, w)
-    violation = norm(w, PHI)
+    # each helper is called at one place only: the compiler copies it to every place it is called from
     tolerance = p[4] * w[6]
     last = math.inf
-    for _ in range(12):
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
         # at the floor of rounding another iteration gains nothing
-        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
-            break
-        last = violation
-        for i in range(20):
-            w[RIGHT + i] = -w[PHI + i]
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
+        if closed:
+            for j in range(21, 42):
+                y[j] += w[CHANGE - 21 + j]
+            break
         for j in range(21):
             y[j] += w[CHANGE + j]
+        last = violation
         iw[3] += 1
-        bits |= 2
-        geometry(t, y, p, w)
-        violation = norm(w, PHI)
     if not violation <= 1e4 * tolerance:
         iw[4] += 1
         bits |= 1
-    drift(y, w)
-    for i in range(20):
-        w[RIGHT + i] = -w[DRIFT + i]
-    spread(p, w)
-    for j in range(21):
-        y[21 + j] += w[CHANGE + j]
-    drift(y, w)
-    bits |= 2
-    energies(t, y, p, w)
-    smallest = 1.0
-    rank = 0
-    for i in range(20):
-        pivot = w[PIVOT + i]
-        if pivot >= 1e-12:
-            rank += 1
-        if w[MASK + i] == 0.0 and pivot < smallest:
-            smallest = pivot
-    w[0] = violation
-    w[1] = norm(w, DRIFT)
-    w[4] = smallest
-    w[5] = rank
+    measure(t, y, p, w)
     return bits

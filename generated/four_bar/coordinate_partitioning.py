@@ -1,0 +1,707 @@
+"""Method `coordinate-partitioning` for model `four-bar`. Emitted by symgen; do not edit.
+
+independent coordinates are integrated, dependent ones follow from the constraints
+Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+option solver = elimination
+p[15] tolerance (default 1e-13)
+"""
+
+import math
+
+from numba import njit
+
+from .model import measure
+
+MASK = 21  # sections of w
+SAVED = 29
+PIVOT = 53
+CHANGE = 61
+DEPENDENT = 115
+DENSE = 124
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 17 operations, 32 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    # intermediate terms
+    s0 = 9.81*p0
+    s1 = 9.81*p1
+    s2 = 9.81*p2
+    s3 = 1.0/p0
+    s4 = 1.0/p1
+    s5 = 1.0/p2
+    s6 = s0*s3
+    s7 = s1*s4
+    s8 = s2*s5
+    # outputs
+    p[16] = s0
+    p[17] = s1
+    p[18] = s2
+    p[19] = s3
+    p[20] = 1.0/(0.3333333333333333*p0)
+    p[21] = s4
+    p[22] = 1.0/(5.333333333333333*p1)
+    p[23] = s5
+    p[24] = 1.0/(2.083333333333333*p2)
+    p[25] = s6
+    p[26] = s8
+    p[27] = s6 - s7
+    p[28] = s7 - s8
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accelerate(t, y, p, w, iw, ydot):
+    """q', v', power and multipliers by coordinate-partitioning; 1 where a pivot of S is suspicious: 288 operations, 1442826 before sharing."""
+    # inputs
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p16 = p[16]
+    p17 = p[17]
+    p18 = p[18]
+    mask_0 = w[21]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_6 = w[27]
+    mask_7 = w[28]
+    p19 = p[19]
+    p20 = p[20]
+    p21 = p[21]
+    p22 = p[22]
+    p23 = p[23]
+    p24 = p[24]
+    p25 = p[25]
+    p26 = p[26]
+    p27 = p[27]
+    p28 = p[28]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = s1*p20
+    s20 = s0*p20
+    s21 = s8*p22
+    s22 = s7*p22
+    s23 = s15*p24
+    s24 = s14*p24
+    s25 = s1*s19
+    s26 = p19 + s25
+    s27 = s0*s19
+    s28 = s25 - p19
+    s29 = s0*s20
+    s30 = p19 + s29
+    s31 = s8*s21
+    s32 = p21 + s26 + s31
+    s33 = s7*s21
+    s34 = s31 - p21
+    s35 = s7*s22
+    s36 = p21 + s30 + s35
+    s37 = s15*s23
+    s38 = p23 + p21 + s31 + s37
+    s39 = s14*s23
+    s40 = p23 - s37
+    s41 = s14*s24
+    s42 = p23 + p21 + s35 + s41
+    s43 = s15*s24
+    s44 = p23 + s41
+    s45 = 1.0/(mask_0 + s26)
+    s46 = s27*s45
+    s47 = s28*s45
+    s48 = s27*s46
+    s49 = s28*s46 - s1*s20
+    s50 = s29 - p19 - s48
+    s51 = mask_1 + s30 - s48
+    s52 = 1.0/s51
+    s53 = s49*s52
+    s54 = s50*s52
+    s55 = s27*s47 - (s27 + s33) - s50*s53
+    s56 = 1.0/(mask_6 + p23 + s37)
+    s57 = s39*s56
+    s58 = s40*s56
+    s59 = s43*s56
+    s60 = s39 + s40*s57
+    s61 = p23 - s41 + s43*s57
+    s62 = mask_7 + s44 - s39*s57
+    s63 = 1.0/s62
+    s64 = s60*s63
+    s65 = s61*s63
+    s66 = mask_2 + s32 - s28*s47 - s49*s53
+    s67 = 1.0/s66
+    s68 = s55*s67
+    s69 = s34*s67
+    s70 = s33*s67
+    s71 = s8*s22 + s34*s68
+    s72 = s35 - p21 + s33*s68
+    s73 = mask_3 + s36 - s48 - s50*s54 - s55*s68
+    s74 = 1.0/s73
+    s75 = s71*s74
+    s76 = s72*s74
+    s77 = s33*s69 - (s33 + s39 + s43*s58 + s61*s64) + s72*s75
+    s78 = mask_4 + s38 - s40*s58 - s60*s64 - s34*s69 - s71*s75
+    s79 = 1.0/s78
+    s80 = s77*s79
+    s81 = mask_5 + s42 - s43*s59 - s61*s65 - s33*s70 - s72*s76 - s77*s80
+    s82 = s3*s46
+    s83 = s4 - p25 + s82
+    s84 = s3 + s10 - s3*s47 - s53*s83
+    s85 = s18 - p26 + s17*s57
+    s86 = s4 + s11 + p27 + s82 - s54*s83 - s68*s84
+    s87 = s10 - s17 - s17*s58 - s64*s85 - s69*s84 + s75*s86
+    s88 = 1.0/s81*(p28 - (s18 - s11) - s17*s59 - s65*s85 + s70*s84 - s76*s86 - s80*s87)
+    s89 = s79*s87
+    s90 = s80*s88
+    s91 = s89 - s90
+    s92 = s74*s86 + s75*s91
+    s93 = s76*s88
+    s94 = s92 - s93
+    s95 = s67*s84 - s68*s94 - s69*s91 + s70*s88
+    s96 = s63*s85 - s64*s91 - s65*s88
+    s97 = s17*s56 + s57*s96 - s58*s91 - s59*s88
+    s98 = s52*s83 - s53*s95 - s54*s94
+    s99 = s3*s45 + s46*s98 - s47*s95 + s46*s94
+    s100 = (((((s51 < 1e-06*s30) | (s62 < 1e-06*s44)) | (s66 < 1e-06*s32)) | (s73 < 1e-06*s36)) | (s78 < 1e-06*s38))
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    ydot[2] = v2
+    ydot[3] = v3
+    ydot[4] = v4
+    ydot[5] = v5
+    ydot[6] = v6
+    ydot[7] = v7
+    ydot[8] = v8
+    ydot[9] = p19*(s95 - s99)
+    ydot[10] = -p19*(p16 + s98 + s93 - s92)
+    ydot[11] = p20*(s0*s94 - (s1*s99 - s0*s98 + s1*s95))
+    ydot[12] = -p21*(s95 + s90 - s89)
+    ydot[13] = -p21*(p17 + s94 - s88)
+    ydot[14] = p22*(s7*s88 - (s8*s95 - s7*s94 + s8*s91))
+    ydot[15] = -p23*(s91 + s97)
+    ydot[16] = -p23*(p18 + s88 + s96)
+    ydot[17] = p24*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
+    ydot[18] = 0.0
+    w[13] = s99
+    w[14] = s98
+    w[15] = s95
+    w[16] = s94
+    w[17] = s91
+    w[18] = s88
+    w[19] = s97
+    w[20] = s96
+    return int((s100 | (s81 < 1e-06*s42)))
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def expand(p, w):
+    """D as a dense matrix: 0 operations, 0 before sharing."""
+    # inputs
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    # outputs
+    w[124] = 1.0
+    w[126] = jacobian_0
+    w[134] = 1.0
+    w[135] = jacobian_1
+    w[142] = -1.0
+    w[144] = jacobian_2
+    w[145] = 1.0
+    w[147] = jacobian_3
+    w[152] = -1.0
+    w[153] = jacobian_4
+    w[155] = 1.0
+    w[156] = jacobian_5
+    w[163] = -1.0
+    w[165] = jacobian_6
+    w[166] = 1.0
+    w[168] = jacobian_7
+    w[173] = -1.0
+    w[174] = jacobian_8
+    w[176] = 1.0
+    w[177] = jacobian_9
+    w[184] = 1.0
+    w[186] = jacobian_10
+    w[194] = 1.0
+    w[195] = jacobian_11
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D P D^T: 360 operations, 279655 before sharing."""
+    # inputs
+    q0 = y[0]  # crank.x [m]
+    q1 = y[1]  # crank.y [m]
+    q2 = y[2]  # crank.theta [rad]
+    q3 = y[3]  # coupler.x [m]
+    q4 = y[4]  # coupler.y [m]
+    q5 = y[5]  # coupler.theta [rad]
+    q6 = y[6]  # rocker.x [m]
+    q7 = y[7]  # rocker.y [m]
+    q8 = y[8]  # rocker.theta [rad]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_7 = w[28]
+    dependent_0 = w[115]
+    dependent_1 = w[116]
+    dependent_2 = w[117]
+    dependent_3 = w[118]
+    dependent_4 = w[119]
+    dependent_5 = w[120]
+    dependent_6 = w[121]
+    dependent_7 = w[122]
+    dependent_8 = w[123]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = -s0
+    s3 = q0 - s0
+    s4 = q1 - s1
+    s5 = 4.0*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 4.0*math.sin(q5)
+    s9 = q4 - q1 - s8 - s1
+    s10 = 2.5*math.cos(q8)
+    s11 = q6 - q3 + s10 - s5
+    s12 = 2.5*math.sin(q8)
+    s13 = q7 - q4 + s12 - s8
+    s14 = q6 - 10.0 - s10
+    s15 = q7 - s12
+    s16 = s1*s1
+    s17 = 1.0 + s16
+    s18 = s0*s1
+    s19 = -1.0 + s16
+    s20 = s0*s0
+    s21 = 1.0 + s20
+    s22 = s8*s8
+    s23 = 1.0 + s17 + s22
+    s24 = s5*s8
+    s25 = -1.0 + s22
+    s26 = s5*s5
+    s27 = 1.0 + s21 + s26
+    s28 = s12*s12
+    s29 = 1.0 + 1.0 + s22 + s28
+    s30 = s10*s12
+    s31 = 1.0 - s28
+    s32 = s10*s10
+    s33 = 1.0 + 1.0 + s26 + s32
+    s34 = 1.0 + s28
+    s35 = 1.0 + s32
+    s36 = 1.0/s17
+    s37 = s18*s36
+    s38 = s19*s36
+    s39 = s18*s37
+    s40 = s21 - s39
+    s41 = s19*s37 - s18
+    s42 = -1.0 + s20 - s39
+    s43 = 1e-12*s21
+    s44 = 1.0*(s40 > s43)
+    s45 = 1.0 - s44
+    s46 = s44/(s40 + s45)
+    s47 = s41*s46
+    s48 = s23 - s19*s38 - s41*s47
+    s49 = s18*s38 - (s18 + s24) - s42*s47
+    s50 = 1.0/s34
+    s51 = s30*s50
+    s52 = s31*s50
+    s53 = s30*s51
+    s54 = s35 - s53
+    s55 = s30 + s31*s51
+    s56 = 1.0 - s32 + s53
+    s57 = 1e-12*s35
+    s58 = 1.0*(s54 > s57)
+    s59 = 1.0 - s58
+    s60 = s58/(s54 + s59)
+    s61 = s55*s60
+    s62 = 1e-12*s23
+    s63 = 1.0*(s48 > s62)
+    s64 = 1.0 - s63
+    s65 = s63/(s48 + s64)
+    s66 = s49*s65
+    s67 = s25*s65
+    s68 = s27 - s39 - s42*(s42*s46) - s49*s66
+    s69 = s24 + s25*s66
+    s70 = -1.0 + s26 + s24*s66
+    s71 = 1e-12*s27
+    s72 = 1.0*(s68 > s71)
+    s73 = 1.0 - s72
+    s74 = s72/(s68 + s73)
+    s75 = s69*s74
+    s76 = s29 - s31*s52 - s55*s61 - s25*s67 - s69*s75
+    s77 = s24*s67 - (s24 + s30 + s30*s52 + s56*s61) + s70*s75
+    s78 = 1e-12*s29
+    s79 = 1.0*(s76 > s78)
+    s80 = 1.0 - s79
+    s81 = s33 - s53 - s56*(s56*s60) - s24*(s24*s65) - s70*(s70*s74) - s77*(s77*(s79/(s76 + s80)))
+    s82 = 1e-12*s33
+    s83 = 1.0*(s81 > s82)
+    s84 = s1*dependent_2
+    s85 = s0*dependent_2
+    s86 = s8*dependent_5
+    s87 = s5*dependent_5
+    s88 = s12*dependent_8
+    s89 = s10*dependent_8
+    s90 = s1*s84
+    s91 = dependent_0 + s90
+    s92 = s0*s84
+    s93 = s90 - dependent_0
+    s94 = s0*s85
+    s95 = dependent_1 + s94
+    s96 = s8*s86
+    s97 = s5*s86
+    s98 = s96 - dependent_3
+    s99 = s5*s87
+    s100 = s12*s88
+    s101 = s10*s88
+    s102 = dependent_6 - s100
+    s103 = s10*s89
+    s104 = s12*s89
+    s105 = dependent_6 + s100
+    s106 = 1.0/s91
+    s107 = s92*s106
+    s108 = -s107
+    s109 = s93*s106
+    s110 = s92*s107
+    s111 = s95 - s110
+    s112 = s93*s107 - s1*s85
+    s113 = s94 - dependent_1 - s110
+    s114 = s44/(s45 + s111)
+    s115 = s112*s114
+    s116 = s113*s114
+    s117 = dependent_3 + s91 + s96 - s93*s109 - s112*s115
+    s118 = s92*s109 - (s92 + s97) - s113*s115
+    s119 = 1.0/s105
+    s120 = s101*s119
+    s121 = s102*s119
+    s122 = s104*s119
+    s123 = dependent_7 + s103 - s101*s120
+    s124 = s101 + s102*s120
+    s125 = dependent_7 - s103 + s104*s120
+    s126 = s58/(s59 + s123)
+    s127 = s124*s126
+    s128 = s125*s126
+    s129 = s63/(s64 + s117)
+    s130 = s118*s129
+    s131 = s98*s129
+    s132 = s97*s129
+    s133 = dependent_4 + s95 + s99 - s110 - s113*s116 - s118*s130
+    s134 = s8*s87 + s98*s130
+    s135 = s99 - dependent_4 + s97*s130
+    s136 = s72/(s73 + s133)
+    s137 = s134*s136
+    s138 = s135*s136
+    s139 = dependent_6 + dependent_3 + s96 + s100 - s102*s121 - s124*s127 - s98*s131 - s134*s137
+    s140 = s97*s131 - (s97 + s101 + s104*s121 + s125*s127) + s135*s137
+    s141 = s79/(s80 + s139)
+    s142 = s140*s141
+    s143 = dependent_7 + dependent_4 + s99 + s103 - s104*s122 - s125*s128 - s97*s132 - s135*s138 - s140*s142
+    s144 = min(min(min(1.0, s91/s17 + 1.0*(1e-12*s17 > s17)), s111/s21 + 1.0*(s43 > s40)), s105/s34 + 1.0*(1e-12*s34 > s34))
+    s145 = min(min(min(s144, s123/s35 + 1.0*(s57 > s54)), s117/s23 + 1.0*(s62 > s48)), s133/s27 + 1.0*(s71 > s68))
+    s146 = s40/s21
+    s147 = s48/s23
+    s148 = s68/s27
+    s149 = s76/s29
+    s150 = s81/s33
+    s151 = min(min(min(min(min(1.0, mask_1 + s146), mask_2 + s147), mask_3 + s148), mask_4 + s149), mask_5 + s150)
+    s152 = s54/s35
+    # outputs
+    w[37] = s3
+    w[38] = s4
+    w[39] = s7
+    w[40] = s9
+    w[41] = s11
+    w[42] = s13
+    w[43] = s14
+    w[44] = s15
+    w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+    w[79] = s1
+    w[80] = s2
+    w[81] = s1
+    w[82] = s8
+    w[83] = s2
+    w[84] = s6
+    w[85] = s8
+    w[86] = -s12
+    w[87] = s6
+    w[88] = s10
+    w[89] = s12
+    w[90] = -s10
+    w[54] = s146
+    w[55] = s147
+    w[56] = s148
+    w[57] = s149
+    w[58] = s150
+    w[60] = s152
+    w[5] = s58 + 1.0 + s83 + s79 + s72 + s63 + 1.0 + s44
+    w[4] = min(s151, mask_7 + s152)
+    w[10] = min(min(s145, s139/s29 + 1.0*(s78 > s76)), s143/s33 + 1.0*(s82 > s81))
+    w[196] = s108
+    w[197] = s109
+    w[198] = s108
+    w[199] = s115
+    w[200] = s116
+    w[201] = -s120
+    w[202] = s121
+    w[203] = s122
+    w[204] = s127
+    w[205] = s128
+    w[206] = s130
+    w[207] = s131
+    w[208] = -s132
+    w[209] = -s137
+    w[210] = s138
+    w[211] = s142
+    w[212] = s106
+    w[213] = s114
+    w[214] = s119
+    w[215] = s126
+    w[216] = s129
+    w[217] = s136
+    w[218] = s141
+    w[219] = s83/(1.0 - s83 + s143)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 111 operations, 6990 before sharing."""
+    # inputs
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    dependent_0 = w[115]
+    dependent_1 = w[116]
+    dependent_2 = w[117]
+    dependent_3 = w[118]
+    dependent_4 = w[119]
+    dependent_5 = w[120]
+    dependent_6 = w[121]
+    dependent_7 = w[122]
+    dependent_8 = w[123]
+    law_lower_0 = w[196]
+    law_lower_1 = w[197]
+    law_lower_2 = w[198]
+    law_lower_3 = w[199]
+    law_lower_4 = w[200]
+    law_lower_5 = w[201]
+    law_lower_6 = w[202]
+    law_lower_7 = w[203]
+    law_lower_8 = w[204]
+    law_lower_9 = w[205]
+    law_lower_10 = w[206]
+    law_lower_11 = w[207]
+    law_lower_12 = w[208]
+    law_lower_13 = w[209]
+    law_lower_14 = w[210]
+    law_lower_15 = w[211]
+    law_reciprocal_0 = w[212]
+    law_reciprocal_1 = w[213]
+    law_reciprocal_2 = w[214]
+    law_reciprocal_3 = w[215]
+    law_reciprocal_4 = w[216]
+    law_reciprocal_5 = w[217]
+    law_reciprocal_6 = w[218]
+    law_reciprocal_7 = w[219]
+    residual_0 = w[37]
+    residual_1 = w[38]
+    residual_2 = w[39]
+    residual_3 = w[40]
+    residual_4 = w[41]
+    residual_5 = w[42]
+    residual_6 = w[43]
+    residual_7 = w[44]
+    # intermediate terms
+    s0 = law_lower_0*residual_0 - residual_1
+    s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
+    s2 = law_lower_5*residual_6 - residual_7
+    s3 = law_lower_2*residual_0 - residual_3 - law_lower_4*s0 - law_lower_10*s1
+    s4 = law_lower_6*residual_6 - residual_4 - law_lower_8*s2 - law_lower_11*s1 - law_lower_13*s3
+    s5 = law_lower_7*residual_6 - residual_5 - law_lower_9*s2 - law_lower_12*s1 - law_lower_14*s3 - law_lower_15*s4
+    s6 = law_reciprocal_7*s5
+    s7 = law_reciprocal_6*s4
+    s8 = law_lower_15*s6
+    s9 = s7 - s8
+    s10 = law_reciprocal_5*s3 - law_lower_13*s9
+    s11 = law_lower_14*s6
+    s12 = s10 - s11
+    s13 = law_reciprocal_4*s1 - law_lower_10*s12 - law_lower_11*s9
+    s14 = law_lower_12*s6
+    s15 = s13 - s14
+    s16 = law_reciprocal_3*s2 - law_lower_8*s9 - law_lower_9*s6
+    s17 = law_reciprocal_2*residual_6 + law_lower_5*s16 + law_lower_6*s9 + law_lower_7*s6
+    s18 = law_reciprocal_1*s0 - law_lower_3*s15 - law_lower_4*s12
+    s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
+    # outputs
+    w[61] = dependent_0*(s14 - s13 - s19)
+    w[62] = dependent_1*(s18 + s11 - s10)
+    w[63] = dependent_2*(jacobian_1*s18 - jacobian_0*s19 + jacobian_2*s15 + jacobian_4*s12)
+    w[64] = dependent_3*(s15 + s8 - s7)
+    w[65] = dependent_4*(s12 - s6)
+    w[66] = dependent_5*(jacobian_3*s15 + jacobian_5*s12 + jacobian_6*s9 + jacobian_8*s6)
+    w[67] = dependent_6*(s9 - s17)
+    w[68] = dependent_7*(s6 + s16)
+    w[69] = dependent_8*(jacobian_7*s9 + jacobian_9*s6 - jacobian_10*s17 + jacobian_11*s16)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def choose(p, w, iw):
+    """Choose the dependent columns of D by elimination with complete pivoting."""
+    for k in range(72):
+        w[DENSE + k] = 0.0
+    expand(p, w)
+    for j in range(9):
+        w[DEPENDENT + j] = 0.0
+    for i in range(8):  # rows of unequal size must not decide
+        total = 0.0
+        for j in range(9):
+            total += w[DENSE + 9 * i + j] ** 2
+        for j in range(9):
+            w[DENSE + 9 * i + j] /= math.sqrt(total)
+    for step in range(8):
+        largest, row, column = 0.0, -1, -1
+        for i in range(step, 8):
+            for j in range(9):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 9 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 9 * i + j]), i, j
+        if largest < 1e-6:  # the square root of the threshold at which D D^T skips a row
+            break
+        w[DEPENDENT + column] = 1.0
+        for j in range(9):
+            a, b = DENSE + 9 * step + j, DENSE + 9 * row + j
+            w[a], w[b] = w[b], w[a]
+        for i in range(step + 1, 8):
+            factor = w[DENSE + 9 * i + column] / w[DENSE + 9 * step + column]
+            if factor != 0.0:
+                for j in range(9):
+                    w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
+    iw[7] += 1
+    return 0
+
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def close(t, y, p, w, iw):
+    """Dependent coordinates from Phi = 0 and dependent velocities from D v = nu, the independent ones kept."""
+    # each helper is called at one place only: the compiler copies it to every place it is called from
+    tolerance = p[15] * w[6]
+    last = math.inf
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
+        # at the floor of rounding another iteration gains nothing
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+        spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
+        for j in range(9):
+            y[j] += w[CHANGE + j]
+        last = violation
+        iw[3] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[4] += 1
+        bits |= 1
+    return bits
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """Rates of the state, whose dependent part is closed first."""
+    close(t, y, p, w, iw)
+    return accelerate(t, y, p, w, iw, ydot)
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def confirm(t, y, p, w, iw, ydot):
+    """Evaluate again with the rows that D D^T keeps, `rhs` having found a suspicious pivot of S."""
+    geometry(t, y, p, w)
+    skipped = 0
+    for i in range(8):
+        w[SAVED + i] = w[MASK + i]
+        if w[PIVOT + i] < 1e-12:
+            w[MASK + i] = math.inf
+            skipped += 1
+    rhs(t, y, p, w, iw, ydot)
+    for i in range(8):
+        w[MASK + i] = w[SAVED + i]
+    iw[1] += 1
+    if skipped == 0:
+        iw[2] += 1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Close an accepted state, choose another partition where this one has become poor, and measure."""
+    if iw[5] == 0:
+        geometry(t, y, p, w)
+        current = w[10]
+        if iw[7] == 0 or current < 0.1 * w[11]:
+            choose(p, w, iw)
+            geometry(t, y, p, w)
+            w[11] = w[10]
+    bits = close(t, y, p, w, iw)
+    measure(t, y, p, w)
+    return bits

@@ -1,0 +1,911 @@
+"""Method `mass-orthogonal-projection` for model `four-bar`. Emitted by symgen; do not edit.
+
+positions and velocities projected in the metric of M by iterations with M + a D^T D
+Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+option solver = elimination
+p[15] penalty (default 10000000.0)
+p[16] tolerance (default 1e-13)
+"""
+
+import math
+
+from numba import njit
+
+from .model import measure
+
+MASK = 21  # sections of w
+SAVED = 29
+PIVOT = 53
+CHANGE = 61
+MOVED = 141
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 33 operations, 73 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p15 = p[15]
+    # intermediate terms
+    s0 = 0.3333333333333333*p0
+    s1 = 9.81*p0
+    s2 = 5.333333333333333*p1
+    s3 = 9.81*p1
+    s4 = 2.083333333333333*p2
+    s5 = 9.81*p2
+    s6 = 1.0/p0
+    s7 = 1.0/p1
+    s8 = 1.0/p2
+    s9 = s1*s6
+    s10 = s3*s7
+    s11 = s5*s8
+    s12 = 1.0/(p15 + p0 + p15)
+    s13 = p15*s12
+    s14 = 1.0/(p15 + p2 + p15)
+    s15 = p15*s14
+    # outputs
+    p[17] = s1
+    p[18] = s3
+    p[19] = s5
+    p[20] = s6
+    p[21] = 1.0/s0
+    p[22] = s7
+    p[23] = 1.0/s2
+    p[24] = s8
+    p[25] = 1.0/s4
+    p[26] = s9
+    p[27] = s11
+    p[28] = s9 - s10
+    p[29] = s10 - s11
+    p[30] = s0
+    p[31] = s2
+    p[32] = s4
+    p[33] = s12
+    p[34] = s13
+    p[35] = -s13
+    p[36] = s14
+    p[37] = s15
+    p[38] = -s15
+    p[39] = p15 + p1 + p15 - p15*s13 - p15*s15
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """q', v', power and multipliers by mass-orthogonal-projection; 1 where a pivot of S is suspicious: 288 operations, 1442826 before sharing."""
+    # inputs
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p17 = p[17]
+    p18 = p[18]
+    p19 = p[19]
+    mask_0 = w[21]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_6 = w[27]
+    mask_7 = w[28]
+    p20 = p[20]
+    p21 = p[21]
+    p22 = p[22]
+    p23 = p[23]
+    p24 = p[24]
+    p25 = p[25]
+    p26 = p[26]
+    p27 = p[27]
+    p28 = p[28]
+    p29 = p[29]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = s1*p21
+    s20 = s0*p21
+    s21 = s8*p23
+    s22 = s7*p23
+    s23 = s15*p25
+    s24 = s14*p25
+    s25 = s1*s19
+    s26 = p20 + s25
+    s27 = s0*s19
+    s28 = s25 - p20
+    s29 = s0*s20
+    s30 = p20 + s29
+    s31 = s8*s21
+    s32 = p22 + s26 + s31
+    s33 = s7*s21
+    s34 = s31 - p22
+    s35 = s7*s22
+    s36 = p22 + s30 + s35
+    s37 = s15*s23
+    s38 = p24 + p22 + s31 + s37
+    s39 = s14*s23
+    s40 = p24 - s37
+    s41 = s14*s24
+    s42 = p24 + p22 + s35 + s41
+    s43 = s15*s24
+    s44 = p24 + s41
+    s45 = 1.0/(mask_0 + s26)
+    s46 = s27*s45
+    s47 = s28*s45
+    s48 = s27*s46
+    s49 = s28*s46 - s1*s20
+    s50 = s29 - p20 - s48
+    s51 = mask_1 + s30 - s48
+    s52 = 1.0/s51
+    s53 = s49*s52
+    s54 = s50*s52
+    s55 = s27*s47 - (s27 + s33) - s50*s53
+    s56 = 1.0/(mask_6 + p24 + s37)
+    s57 = s39*s56
+    s58 = s40*s56
+    s59 = s43*s56
+    s60 = s39 + s40*s57
+    s61 = p24 - s41 + s43*s57
+    s62 = mask_7 + s44 - s39*s57
+    s63 = 1.0/s62
+    s64 = s60*s63
+    s65 = s61*s63
+    s66 = mask_2 + s32 - s28*s47 - s49*s53
+    s67 = 1.0/s66
+    s68 = s55*s67
+    s69 = s34*s67
+    s70 = s33*s67
+    s71 = s8*s22 + s34*s68
+    s72 = s35 - p22 + s33*s68
+    s73 = mask_3 + s36 - s48 - s50*s54 - s55*s68
+    s74 = 1.0/s73
+    s75 = s71*s74
+    s76 = s72*s74
+    s77 = s33*s69 - (s33 + s39 + s43*s58 + s61*s64) + s72*s75
+    s78 = mask_4 + s38 - s40*s58 - s60*s64 - s34*s69 - s71*s75
+    s79 = 1.0/s78
+    s80 = s77*s79
+    s81 = mask_5 + s42 - s43*s59 - s61*s65 - s33*s70 - s72*s76 - s77*s80
+    s82 = s3*s46
+    s83 = s4 - p26 + s82
+    s84 = s3 + s10 - s3*s47 - s53*s83
+    s85 = s18 - p27 + s17*s57
+    s86 = s4 + s11 + p28 + s82 - s54*s83 - s68*s84
+    s87 = s10 - s17 - s17*s58 - s64*s85 - s69*s84 + s75*s86
+    s88 = 1.0/s81*(p29 - (s18 - s11) - s17*s59 - s65*s85 + s70*s84 - s76*s86 - s80*s87)
+    s89 = s79*s87
+    s90 = s80*s88
+    s91 = s89 - s90
+    s92 = s74*s86 + s75*s91
+    s93 = s76*s88
+    s94 = s92 - s93
+    s95 = s67*s84 - s68*s94 - s69*s91 + s70*s88
+    s96 = s63*s85 - s64*s91 - s65*s88
+    s97 = s17*s56 + s57*s96 - s58*s91 - s59*s88
+    s98 = s52*s83 - s53*s95 - s54*s94
+    s99 = s3*s45 + s46*s98 - s47*s95 + s46*s94
+    s100 = (((((s51 < 1e-06*s30) | (s62 < 1e-06*s44)) | (s66 < 1e-06*s32)) | (s73 < 1e-06*s36)) | (s78 < 1e-06*s38))
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    ydot[2] = v2
+    ydot[3] = v3
+    ydot[4] = v4
+    ydot[5] = v5
+    ydot[6] = v6
+    ydot[7] = v7
+    ydot[8] = v8
+    ydot[9] = p20*(s95 - s99)
+    ydot[10] = -p20*(p17 + s98 + s93 - s92)
+    ydot[11] = p21*(s0*s94 - (s1*s99 - s0*s98 + s1*s95))
+    ydot[12] = -p22*(s95 + s90 - s89)
+    ydot[13] = -p22*(p18 + s94 - s88)
+    ydot[14] = p23*(s7*s88 - (s8*s95 - s7*s94 + s8*s91))
+    ydot[15] = -p24*(s91 + s97)
+    ydot[16] = -p24*(p19 + s88 + s96)
+    ydot[17] = p25*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
+    ydot[18] = 0.0
+    w[13] = s99
+    w[14] = s98
+    w[15] = s95
+    w[16] = s94
+    w[17] = s91
+    w[18] = s88
+    w[19] = s97
+    w[20] = s96
+    return int((s100 | (s81 < 1e-06*s42)))
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 296 operations, 97235 before sharing."""
+    # inputs
+    q0 = y[0]  # crank.x [m]
+    q1 = y[1]  # crank.y [m]
+    q2 = y[2]  # crank.theta [rad]
+    q3 = y[3]  # coupler.x [m]
+    q4 = y[4]  # coupler.y [m]
+    q5 = y[5]  # coupler.theta [rad]
+    q6 = y[6]  # rocker.x [m]
+    q7 = y[7]  # rocker.y [m]
+    q8 = y[8]  # rocker.theta [rad]
+    p30 = p[30]
+    p31 = p[31]
+    p32 = p[32]
+    p15 = p[15]
+    mask_1 = w[22]
+    mask_2 = w[23]
+    mask_3 = w[24]
+    mask_4 = w[25]
+    mask_5 = w[26]
+    mask_7 = w[28]
+    p33 = p[33]
+    p34 = p[34]
+    p35 = p[35]
+    p36 = p[36]
+    p37 = p[37]
+    p38 = p[38]
+    p39 = p[39]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = -s0
+    s3 = q0 - s0
+    s4 = q1 - s1
+    s5 = 4.0*math.cos(q5)
+    s6 = -s5
+    s7 = q3 - q0 - s5 - s0
+    s8 = 4.0*math.sin(q5)
+    s9 = q4 - q1 - s8 - s1
+    s10 = 2.5*math.cos(q8)
+    s11 = q6 - q3 + s10 - s5
+    s12 = 2.5*math.sin(q8)
+    s13 = q7 - q4 + s12 - s8
+    s14 = q6 - 10.0 - s10
+    s15 = q7 - s12
+    s16 = s1*s1
+    s17 = 1.0 + s16
+    s18 = s0*s1
+    s19 = -1.0 + s16
+    s20 = s0*s0
+    s21 = 1.0 + s20
+    s22 = s8*s8
+    s23 = 1.0 + s17 + s22
+    s24 = s5*s8
+    s25 = -1.0 + s22
+    s26 = s5*s5
+    s27 = 1.0 + s21 + s26
+    s28 = s12*s12
+    s29 = 1.0 + 1.0 + s22 + s28
+    s30 = s10*s12
+    s31 = 1.0 - s28
+    s32 = s10*s10
+    s33 = 1.0 + 1.0 + s26 + s32
+    s34 = 1.0 + s32
+    s35 = 1.0/s17
+    s36 = s18*s35
+    s37 = s19*s35
+    s38 = s18*s36
+    s39 = s21 - s38
+    s40 = s19*s36 - s18
+    s41 = -1.0 + s20 - s38
+    s42 = 1.0*(s39 > 1e-12*s21)
+    s43 = s42/(s39 + 1.0 - s42)
+    s44 = s40*s43
+    s45 = s23 - s19*s37 - s40*s44
+    s46 = s18*s37 - (s18 + s24) - s41*s44
+    s47 = 1.0/(1.0 + s28)
+    s48 = s30*s47
+    s49 = s31*s47
+    s50 = s30*s48
+    s51 = s34 - s50
+    s52 = s30 + s31*s48
+    s53 = 1.0 - s32 + s50
+    s54 = 1.0*(s51 > 1e-12*s34)
+    s55 = s54/(s51 + 1.0 - s54)
+    s56 = s52*s55
+    s57 = 1.0*(s45 > 1e-12*s23)
+    s58 = s57/(s45 + 1.0 - s57)
+    s59 = s46*s58
+    s60 = s25*s58
+    s61 = s27 - s38 - s41*(s41*s43) - s46*s59
+    s62 = s24 + s25*s59
+    s63 = -1.0 + s26 + s24*s59
+    s64 = 1.0*(s61 > 1e-12*s27)
+    s65 = s64/(s61 + 1.0 - s64)
+    s66 = s62*s65
+    s67 = s29 - s31*s49 - s52*s56 - s25*s60 - s62*s66
+    s68 = s24*s60 - (s24 + s30 + s30*s49 + s53*s56) + s63*s66
+    s69 = 1.0*(s67 > 1e-12*s29)
+    s70 = s33 - s50 - s53*(s53*s55) - s24*(s24*s58) - s63*(s63*s65) - s68*(s68*(s69/(s67 + 1.0 - s69)))
+    s71 = s1*p15
+    s72 = s1*s71
+    s73 = s0*p15
+    s74 = s0*s73
+    s75 = s8*p15
+    s76 = s8*s75
+    s77 = s5*p15
+    s78 = s8*s71 + s5*s73
+    s79 = s5*s77
+    s80 = s12*p15
+    s81 = s12*s80
+    s82 = s10*p15
+    s83 = s12*s75 + s10*s77
+    s84 = s10*s82
+    s85 = s75*p33
+    s86 = s77*p33
+    s87 = s75*p36
+    s88 = s77*p36
+    s89 = 1.0/(s74 + s72 + p30 + s72 + s74)
+    s90 = s71*s89
+    s91 = s73*s89
+    s92 = s78*s89
+    s93 = 1.0/(s84 + s81 + p32 + s81 + s84)
+    s94 = s80*s93
+    s95 = s82*s93
+    s96 = s83*s93
+    s97 = s73*s90 + s82*s94
+    s98 = s75*p37 - s75*p34 - s78*s90 + s83*s94
+    s99 = 1.0/(p39 - s71*s90 - s80*s94)
+    s100 = s97*s99
+    s101 = s98*s99
+    s102 = s77*p34 - s77*p37 + s78*s91 - s83*s95 - s98*s100
+    s103 = s79 + s76 + p31 + s76 + s79 - s75*s85 - s77*s86 - s75*s87 - s77*s88 - s78*s92 - s83*s96 - s98*s101
+    s104 = 1.0/(p39 - s73*s91 - s82*s95 - s97*s100)
+    s105 = s102*s104
+    s106 = s39/s21
+    s107 = s45/s23
+    s108 = s61/s27
+    s109 = s67/s29
+    s110 = s70/s33
+    s111 = min(min(min(min(min(1.0, mask_1 + s106), mask_2 + s107), mask_3 + s108), mask_4 + s109), mask_5 + s110)
+    s112 = s51/s34
+    # outputs
+    w[37] = s3
+    w[38] = s4
+    w[39] = s7
+    w[40] = s9
+    w[41] = s11
+    w[42] = s13
+    w[43] = s14
+    w[44] = s15
+    w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+    w[79] = s1
+    w[80] = s2
+    w[81] = s1
+    w[82] = s8
+    w[83] = s2
+    w[84] = s6
+    w[85] = s8
+    w[86] = -s12
+    w[87] = s6
+    w[88] = s10
+    w[89] = s12
+    w[90] = -s10
+    w[54] = s106
+    w[55] = s107
+    w[56] = s108
+    w[57] = s109
+    w[58] = s110
+    w[60] = s112
+    w[5] = s54 + 1.0 + 1.0*(s70 > 1e-12*s33) + s69 + s64 + s57 + 1.0 + s42
+    w[4] = min(s111, mask_7 + s112)
+    w[115] = p35
+    w[116] = -s85
+    w[117] = p35
+    w[118] = s86
+    w[119] = p38
+    w[120] = s87
+    w[121] = p38
+    w[122] = -s88
+    w[123] = s90
+    w[124] = -s91
+    w[125] = s92
+    w[126] = s94
+    w[127] = -s95
+    w[128] = -s96
+    w[129] = s100
+    w[130] = s101
+    w[131] = s105
+    w[132] = p33
+    w[133] = p33
+    w[134] = p36
+    w[135] = p36
+    w[136] = s89
+    w[137] = s93
+    w[138] = s99
+    w[139] = s104
+    w[140] = 1.0/(s103 - s102*s105)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """one iteration of the mass-orthogonal projection: 153 operations, 16151 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p30 = p[30]
+    p31 = p[31]
+    p32 = p[32]
+    p15 = p[15]
+    residual_0 = w[37]
+    residual_1 = w[38]
+    residual_2 = w[39]
+    residual_3 = w[40]
+    residual_4 = w[41]
+    residual_5 = w[42]
+    residual_6 = w[43]
+    residual_7 = w[44]
+    moved_0 = w[141]
+    moved_1 = w[142]
+    moved_2 = w[143]
+    moved_3 = w[144]
+    moved_4 = w[145]
+    moved_5 = w[146]
+    moved_6 = w[147]
+    moved_7 = w[148]
+    moved_8 = w[149]
+    force_of_constraints_0 = w[150]
+    force_of_constraints_1 = w[151]
+    force_of_constraints_2 = w[152]
+    force_of_constraints_3 = w[153]
+    force_of_constraints_4 = w[154]
+    force_of_constraints_5 = w[155]
+    force_of_constraints_6 = w[156]
+    force_of_constraints_7 = w[157]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    law_lower_0 = w[115]
+    law_lower_1 = w[116]
+    law_lower_2 = w[117]
+    law_lower_3 = w[118]
+    law_lower_4 = w[119]
+    law_lower_5 = w[120]
+    law_lower_6 = w[121]
+    law_lower_7 = w[122]
+    law_lower_8 = w[123]
+    law_lower_9 = w[124]
+    law_lower_10 = w[125]
+    law_lower_11 = w[126]
+    law_lower_12 = w[127]
+    law_lower_13 = w[128]
+    law_lower_14 = w[129]
+    law_lower_15 = w[130]
+    law_lower_16 = w[131]
+    law_reciprocal_0 = w[132]
+    law_reciprocal_1 = w[133]
+    law_reciprocal_2 = w[134]
+    law_reciprocal_3 = w[135]
+    law_reciprocal_4 = w[136]
+    law_reciprocal_5 = w[137]
+    law_reciprocal_6 = w[138]
+    law_reciprocal_7 = w[139]
+    law_reciprocal_8 = w[140]
+    # intermediate terms
+    s0 = force_of_constraints_0 + p15*residual_0
+    s1 = force_of_constraints_1 + p15*residual_1
+    s2 = force_of_constraints_2 + p15*residual_2
+    s3 = force_of_constraints_3 + p15*residual_3
+    s4 = force_of_constraints_4 + p15*residual_4
+    s5 = force_of_constraints_5 + p15*residual_5
+    s6 = force_of_constraints_6 + p15*residual_6
+    s7 = force_of_constraints_7 + p15*residual_7
+    s8 = p0*moved_0 + s0 - s2
+    s9 = p0*moved_1 + s1 - s3
+    s10 = p30*moved_2 + s0*jacobian_0 + s1*jacobian_1 + s2*jacobian_2 + s3*jacobian_4
+    s11 = p2*moved_6 + s4 + s6
+    s12 = p2*moved_7 + s5 + s7
+    s13 = p32*moved_8 + s4*jacobian_7 + s5*jacobian_9 + s6*jacobian_10 + s7*jacobian_11
+    s14 = s8*law_lower_1 - (p31*moved_5 + s2*jacobian_3 + s3*jacobian_5 + s4*jacobian_6 + s5*jacobian_8)
+    s15 = s8*law_lower_0 - (p1*moved_3 + s2 - s4) + s11*law_lower_4 + s10*law_lower_8 + s13*law_lower_11
+    s16 = s9*law_lower_2 - (p1*moved_4 + s3 - s5) + s12*law_lower_6 + s10*law_lower_9 + s13*law_lower_12
+    s17 = s14 + s9*law_lower_3 + s11*law_lower_5 + s12*law_lower_7 + s10*law_lower_10 + s13*law_lower_13
+    s18 = s16 - law_lower_14*s15
+    s19 = law_reciprocal_8*(s17 - law_lower_15*s15 - law_lower_16*s18)
+    s20 = law_reciprocal_7*s18 - law_lower_16*s19
+    s21 = law_reciprocal_6*s15 - law_lower_14*s20 - law_lower_15*s19
+    s22 = s13*law_reciprocal_5 + law_lower_11*s21 + law_lower_12*s20 + law_lower_13*s19
+    s23 = s10*law_reciprocal_4 + law_lower_8*s21 + law_lower_9*s20 + law_lower_10*s19
+    s24 = s12*law_reciprocal_3 + law_lower_6*s20 + law_lower_7*s19
+    s25 = s11*law_reciprocal_2 + law_lower_4*s21 + law_lower_5*s19
+    s26 = s9*law_reciprocal_1 + law_lower_2*s20 + law_lower_3*s19
+    s27 = s8*law_reciprocal_0 + law_lower_0*s21 + law_lower_1*s19
+    # outputs
+    w[61] = -s27
+    w[62] = -s26
+    w[63] = -s23
+    w[64] = s21
+    w[65] = s20
+    w[66] = s19
+    w[67] = -s25
+    w[68] = -s24
+    w[69] = -s22
+    w[141] = moved_0 - s27
+    w[142] = moved_1 - s26
+    w[143] = moved_2 - s23
+    w[144] = moved_3 + s21
+    w[145] = moved_4 + s20
+    w[146] = moved_5 + s19
+    w[147] = moved_6 - s25
+    w[148] = moved_7 - s24
+    w[149] = moved_8 - s22
+    w[150] = s0
+    w[151] = s1
+    w[152] = s2
+    w[153] = s3
+    w[154] = s4
+    w[155] = s5
+    w[156] = s6
+    w[157] = s7
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def residual(t, y, k, p, w, r):
+    """F(t, y, k) of the descriptor form, and the power: 112 operations, 181 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p30 = p[30]
+    p17 = p[17]
+    p31 = p[31]
+    p18 = p[18]
+    p32 = p[32]
+    p19 = p[19]
+    k0 = k[0]
+    k1 = k[1]
+    k2 = k[2]
+    k3 = k[3]
+    k4 = k[4]
+    k5 = k[5]
+    k6 = k[6]
+    k7 = k[7]
+    k8 = k[8]
+    k9 = k[9]
+    k10 = k[10]
+    k11 = k[11]
+    k12 = k[12]
+    k13 = k[13]
+    k14 = k[14]
+    k15 = k[15]
+    k16 = k[16]
+    k17 = k[17]
+    k18 = k[18]
+    k19 = k[19]
+    k20 = k[20]
+    k21 = k[21]
+    k22 = k[22]
+    k23 = k[23]
+    k24 = k[24]
+    k25 = k[25]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = s1*k11
+    s20 = s0*k11
+    s21 = s8*k14
+    s22 = s7*k14
+    s23 = s15*k17
+    s24 = s14*k17
+    # outputs
+    r[0] = k0 - v0
+    r[1] = k1 - v1
+    r[2] = k2 - v2
+    r[3] = k3 - v3
+    r[4] = k4 - v4
+    r[5] = k5 - v5
+    r[6] = k6 - v6
+    r[7] = k7 - v7
+    r[8] = k8 - v8
+    r[9] = p0*k9 + k18 - k20
+    r[10] = p17 + p0*k10 + k19 - k21
+    r[11] = p30*k11 + s1*k18 - s0*k19 + s1*k20 - s0*k21
+    r[12] = p1*k12 + k20 - k22
+    r[13] = p18 + p1*k13 + k21 - k23
+    r[14] = p31*k14 + s8*k20 - s7*k21 + s8*k22 - s7*k23
+    r[15] = p2*k15 + k22 + k24
+    r[16] = p19 + p2*k16 + k23 + k25
+    r[17] = p32*k17 + s14*k23 - s15*k22 + s15*k24 - s14*k25
+    r[18] = s3 + k9 + s19
+    r[19] = s4 + k10 - s20
+    r[20] = s3 + s10 + k12 + s19 - k9 + s21
+    r[21] = s4 + s11 + k13 - (k10 + s20) - s22
+    r[22] = k15 + s21 - k12 - s23 - (s17 - s10)
+    r[23] = k16 - (k13 + s22) + s24 - (s18 - s11)
+    r[24] = s17 + k15 + s23
+    r[25] = s18 + k16 - s24
+    w[12] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def tangent(t, y, k, p, w, j):
+    """dF/dk, then dF/dy, of the descriptor form: 73 operations, 228 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p30 = p[30]
+    p31 = p[31]
+    p32 = p[32]
+    k11 = k[11]
+    k14 = k[14]
+    k17 = k[17]
+    k18 = k[18]
+    k19 = k[19]
+    k20 = k[20]
+    k21 = k[21]
+    k22 = k[22]
+    k23 = k[23]
+    k24 = k[24]
+    k25 = k[25]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = -s0
+    s4 = math.cos(q5)
+    s5 = math.sin(q5)
+    s6 = 4.0*s4
+    s7 = -s6
+    s8 = 4.0*s5
+    s9 = 4.0*(v5*v5)
+    s10 = math.cos(q8)
+    s11 = math.sin(q8)
+    s12 = 2.5*s10
+    s13 = 2.5*s11
+    s14 = -s13
+    s15 = 2.5*(v8*v8)
+    s16 = s11*s15
+    s17 = -s12
+    s18 = s12*k17
+    s19 = v2 + v2
+    s20 = s0*s19
+    s21 = s1*s19
+    s22 = 4.0*(v5 + v5)
+    s23 = s4*s22
+    s24 = s5*s22
+    s25 = 2.5*(v8 + v8)
+    s26 = s10*s25
+    s27 = s11*s25
+    s28 = s0*k11 - s1*s2
+    s29 = s0*s2 + s1*k11
+    s30 = s6*k14 - s5*s9
+    s31 = s4*s9 + s8*k14
+    s32 = s10*s15 + s13*k17
+    # outputs
+    j[0] = 1.0
+    j[685] = -1.0
+    j[27] = 1.0
+    j[704] = -1.0
+    j[54] = 1.0
+    j[723] = -1.0
+    j[81] = 1.0
+    j[742] = -1.0
+    j[108] = 1.0
+    j[761] = -1.0
+    j[135] = 1.0
+    j[780] = -1.0
+    j[162] = 1.0
+    j[799] = -1.0
+    j[189] = 1.0
+    j[818] = -1.0
+    j[216] = 1.0
+    j[837] = -1.0
+    j[243] = p0
+    j[252] = 1.0
+    j[254] = -1.0
+    j[270] = p0
+    j[279] = 1.0
+    j[281] = -1.0
+    j[297] = p30
+    j[304] = s1
+    j[305] = s3
+    j[306] = s1
+    j[307] = s3
+    j[876] = s0*k18 + s1*k19 + s0*k20 + s1*k21
+    j[324] = p1
+    j[332] = 1.0
+    j[334] = -1.0
+    j[351] = p1
+    j[359] = 1.0
+    j[361] = -1.0
+    j[378] = p31
+    j[384] = s8
+    j[385] = s7
+    j[386] = s8
+    j[387] = s7
+    j[933] = s6*k20 + s8*k21 + s6*k22 + s8*k23
+    j[405] = p2
+    j[412] = 1.0
+    j[414] = 1.0
+    j[432] = p2
+    j[439] = 1.0
+    j[441] = 1.0
+    j[459] = p32
+    j[464] = s14
+    j[465] = s12
+    j[466] = s13
+    j[467] = s17
+    j[990] = s12*k24 - (s12*k22 + s13*k23) + s13*k25
+    j[477] = 1.0
+    j[479] = s1
+    j[1002] = s28
+    j[1011] = s20
+    j[504] = 1.0
+    j[505] = s3
+    j[1020] = s29
+    j[1029] = s21
+    j[529] = -1.0
+    j[531] = s1
+    j[532] = 1.0
+    j[534] = s8
+    j[1038] = s28
+    j[1041] = s30
+    j[1047] = s20
+    j[1050] = s23
+    j[556] = -1.0
+    j[557] = s3
+    j[559] = 1.0
+    j[560] = s7
+    j[1056] = s29
+    j[1059] = s31
+    j[1065] = s21
+    j[1068] = s24
+    j[584] = -1.0
+    j[586] = s8
+    j[587] = 1.0
+    j[589] = s14
+    j[1077] = s30
+    j[1080] = s16 - s18
+    j[1086] = s23
+    j[1089] = -s26
+    j[611] = -1.0
+    j[612] = s7
+    j[614] = 1.0
+    j[615] = s12
+    j[1095] = s31
+    j[1098] = -s32
+    j[1104] = s24
+    j[1107] = -s27
+    j[639] = 1.0
+    j[641] = s13
+    j[1116] = s18 - s16
+    j[1125] = s26
+    j[666] = 1.0
+    j[667] = s17
+    j[1134] = s32
+    j[1143] = s27
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def confirm(t, y, p, w, iw, ydot):
+    """Evaluate again with the rows that D D^T keeps, `rhs` having found a suspicious pivot of S."""
+    geometry(t, y, p, w)
+    skipped = 0
+    for i in range(8):
+        w[SAVED + i] = w[MASK + i]
+        if w[PIVOT + i] < 1e-12:
+            w[MASK + i] = math.inf
+            skipped += 1
+    rhs(t, y, p, w, iw, ydot)
+    for i in range(8):
+        w[MASK + i] = w[SAVED + i]
+    iw[1] += 1
+    if skipped == 0:
+        iw[2] += 1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Correct an accepted state by mass-orthogonal projections and measure it; bits as for other corrections."""
+    bits = 2
+    tolerance = p[16] * w[6]
+    last = math.inf
+    for i in range(17):
+        w[MOVED + i] = 0.0  # and the constraint forces behind it
+    for round in range(20):
+        geometry(t, y, p, w)
+        violation = w[0]
+        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
+            break
+        last = violation
+        spread(p, w)
+        for j in range(9):
+            y[j] += w[CHANGE + j]
+        iw[3] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[4] += 1
+        bits |= 1
+    tolerance = p[16] * w[7]
+    last = math.inf
+    for i in range(17):
+        w[MOVED + i] = 0.0
+    for round in range(20):
+        measure(t, y, p, w)
+        violation = w[1]
+        if violation <= tolerance or violation > 0.5 * last:
+            break
+        last = violation
+        spread(p, w)
+        for j in range(9):
+            y[9 + j] += w[CHANGE + j]
+        iw[3] += 1
+    return bits

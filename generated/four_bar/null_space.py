@@ -1,0 +1,461 @@
+"""Method `null-space` for model `four-bar`. Emitted by symgen; do not edit.
+
+accelerations in a tangent basis that is carried on from step to step
+Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+p[15] tolerance (default 1e-13)
+"""
+
+import math
+
+from numba import njit
+
+from .model import geometry, measure, spread
+
+CHANGE = 61  # sections of w
+DEPENDENT = 115
+DENSE = 124
+BASIS = 196
+TRIAL = 259
+SMALL = 322
+REDUCED = 371
+FORCE = 378
+WEIGHED = 387
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 9 operations, 12 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    # intermediate terms
+    s0 = 9.81*p0
+    s1 = 9.81*p1
+    s2 = 9.81*p2
+    # outputs
+    p[16] = -s0
+    p[17] = -s1
+    p[18] = -s2
+    p[19] = 0.3333333333333333*p0
+    p[20] = 5.333333333333333*p1
+    p[21] = 2.083333333333333*p2
+    p[22] = s0
+    p[23] = s1
+    p[24] = s2
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def expand(p, w):
+    """D as a dense matrix: 0 operations, 0 before sharing."""
+    # inputs
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    # outputs
+    w[124] = 1.0
+    w[126] = jacobian_0
+    w[134] = 1.0
+    w[135] = jacobian_1
+    w[142] = -1.0
+    w[144] = jacobian_2
+    w[145] = 1.0
+    w[147] = jacobian_3
+    w[152] = -1.0
+    w[153] = jacobian_4
+    w[155] = 1.0
+    w[156] = jacobian_5
+    w[163] = -1.0
+    w[165] = jacobian_6
+    w[166] = 1.0
+    w[168] = jacobian_7
+    w[173] = -1.0
+    w[174] = jacobian_8
+    w[176] = 1.0
+    w[177] = jacobian_9
+    w[184] = 1.0
+    w[186] = jacobian_10
+    w[194] = 1.0
+    w[195] = jacobian_11
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def aim(t, y, p, w):
+    """the section `residual` = -gamma, the section `force` = f: 21 operations, 48 before sharing."""
+    # inputs
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p16 = p[16]
+    p17 = p[17]
+    p18 = p[18]
+    # intermediate terms
+    s0 = v2*v2
+    s1 = math.cos(q2)*s0
+    s2 = math.sin(q2)*s0
+    s3 = 4.0*(v5*v5)
+    s4 = math.cos(q5)*s3
+    s5 = math.sin(q5)*s3
+    s6 = 2.5*(v8*v8)
+    s7 = math.cos(q8)*s6
+    s8 = math.sin(q8)*s6
+    # outputs
+    w[37] = s1
+    w[38] = s2
+    w[39] = s1 + s4
+    w[40] = s2 + s5
+    w[41] = s4 - s7
+    w[42] = s5 - s8
+    w[43] = s7
+    w[44] = s8
+    w[378] = 0.0
+    w[379] = p16
+    w[380] = 0.0
+    w[381] = 0.0
+    w[382] = p17
+    w[383] = 0.0
+    w[384] = 0.0
+    w[385] = p18
+    w[386] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def strike(w):
+    """the section `residual` = D times `change`: 28 operations, 28 before sharing."""
+    # inputs
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    change_0 = w[61]
+    change_1 = w[62]
+    change_2 = w[63]
+    change_3 = w[64]
+    change_4 = w[65]
+    change_5 = w[66]
+    change_6 = w[67]
+    change_7 = w[68]
+    change_8 = w[69]
+    # outputs
+    w[37] = change_0 + jacobian_0*change_2
+    w[38] = change_1 + jacobian_1*change_2
+    w[39] = change_3 + jacobian_2*change_2 - change_0 + jacobian_3*change_5
+    w[40] = change_4 + jacobian_4*change_2 - change_1 + jacobian_5*change_5
+    w[41] = change_6 + jacobian_6*change_5 - change_3 + jacobian_7*change_8
+    w[42] = change_7 + jacobian_8*change_5 - change_4 + jacobian_9*change_8
+    w[43] = change_6 + jacobian_10*change_8
+    w[44] = change_7 + jacobian_11*change_8
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def weigh(p, w):
+    """the section `weighed` = M times `change`: 9 operations, 9 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p19 = p[19]
+    p20 = p[20]
+    p21 = p[21]
+    change_0 = w[61]
+    change_1 = w[62]
+    change_2 = w[63]
+    change_3 = w[64]
+    change_4 = w[65]
+    change_5 = w[66]
+    change_6 = w[67]
+    change_7 = w[68]
+    change_8 = w[69]
+    # outputs
+    w[387] = p0*change_0
+    w[388] = p0*change_1
+    w[389] = p19*change_2
+    w[390] = p1*change_3
+    w[391] = p1*change_4
+    w[392] = p20*change_5
+    w[393] = p2*change_6
+    w[394] = p2*change_7
+    w[395] = p21*change_8
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def finish(t, y, p, w, ydot):
+    """q', power and multipliers: 114 operations, 10556 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
+    v2 = y[11]  # crank.omega [rad/s]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
+    v5 = y[14]  # coupler.omega [rad/s]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p19 = p[19]
+    p22 = p[22]
+    p20 = p[20]
+    p23 = p[23]
+    p21 = p[21]
+    p24 = p[24]
+    jacobian_0 = w[79]
+    jacobian_1 = w[80]
+    jacobian_2 = w[81]
+    jacobian_3 = w[82]
+    jacobian_4 = w[83]
+    jacobian_5 = w[84]
+    jacobian_6 = w[85]
+    jacobian_7 = w[86]
+    jacobian_8 = w[87]
+    jacobian_9 = w[88]
+    jacobian_10 = w[89]
+    jacobian_11 = w[90]
+    lower_0 = w[91]
+    lower_1 = w[92]
+    lower_2 = w[93]
+    lower_3 = w[94]
+    lower_4 = w[95]
+    lower_5 = w[96]
+    lower_6 = w[97]
+    lower_7 = w[98]
+    lower_8 = w[99]
+    lower_9 = w[100]
+    lower_10 = w[101]
+    lower_11 = w[102]
+    lower_12 = w[103]
+    lower_13 = w[104]
+    lower_14 = w[105]
+    lower_15 = w[106]
+    reciprocal_0 = w[107]
+    reciprocal_1 = w[108]
+    reciprocal_2 = w[109]
+    reciprocal_3 = w[110]
+    reciprocal_4 = w[111]
+    reciprocal_5 = w[112]
+    reciprocal_6 = w[113]
+    reciprocal_7 = w[114]
+    ydot_9 = ydot[9]
+    ydot_10 = ydot[10]
+    ydot_11 = ydot[11]
+    ydot_12 = ydot[12]
+    ydot_13 = ydot[13]
+    ydot_14 = ydot[14]
+    ydot_15 = ydot[15]
+    ydot_16 = ydot[16]
+    ydot_17 = ydot[17]
+    # intermediate terms
+    s0 = p0*ydot_9
+    s1 = p19*ydot_11
+    s2 = p1*ydot_12
+    s3 = p20*ydot_14
+    s4 = p2*ydot_15
+    s5 = p21*ydot_17
+    s6 = p22 + p0*ydot_10
+    s7 = p23 + p1*ydot_13
+    s8 = p24 + p2*ydot_16
+    s9 = s0 + jacobian_0*s1
+    s10 = s4 + jacobian_10*s5
+    s11 = lower_0*s9 - (s6 + jacobian_1*s1)
+    s12 = s0 - jacobian_2*s1 - s2 - jacobian_3*s3 + lower_1*s9 - lower_3*s11
+    s13 = lower_5*s10 - (s8 + jacobian_11*s5)
+    s14 = s6 - jacobian_4*s1 - s7 - jacobian_5*s3 + lower_2*s9 - lower_4*s11 - lower_10*s12
+    s15 = s2 - jacobian_6*s3 - s4 - jacobian_7*s5 + lower_6*s10 - lower_8*s13 - lower_11*s12 - lower_13*s14
+    s16 = s7 - jacobian_8*s3 - s8 - jacobian_9*s5 + lower_7*s10 - lower_9*s13 - lower_12*s12 - lower_14*s14
+    s17 = reciprocal_7*(s16 - lower_15*s15)
+    s18 = reciprocal_6*s15 - lower_15*s17
+    s19 = reciprocal_5*s14 - lower_13*s18 - lower_14*s17
+    s20 = reciprocal_4*s12 - lower_10*s19 - lower_11*s18 - lower_12*s17
+    s21 = reciprocal_3*s13 - lower_8*s18 - lower_9*s17
+    s22 = reciprocal_1*s11 - lower_3*s20 - lower_4*s19
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    ydot[2] = v2
+    ydot[3] = v3
+    ydot[4] = v4
+    ydot[5] = v5
+    ydot[6] = v6
+    ydot[7] = v7
+    ydot[8] = v8
+    w[13] = -(reciprocal_0*s9 + lower_0*s22 + lower_1*s20 + lower_2*s19)
+    w[14] = s22
+    w[15] = s20
+    w[16] = s19
+    w[17] = s18
+    w[18] = s17
+    w[19] = -(reciprocal_2*s10 + lower_5*s21 + lower_6*s18 + lower_7*s17)
+    w[20] = s21
+    ydot[18] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def choose(p, w, iw):
+    """Choose the dependent columns of D by elimination with complete pivoting."""
+    for k in range(72):
+        w[DENSE + k] = 0.0
+    expand(p, w)
+    for j in range(9):
+        w[DEPENDENT + j] = 0.0
+    for i in range(8):  # rows of unequal size must not decide
+        total = 0.0
+        for j in range(9):
+            total += w[DENSE + 9 * i + j] ** 2
+        for j in range(9):
+            w[DENSE + 9 * i + j] /= math.sqrt(total)
+    for step in range(8):
+        largest, row, column = 0.0, -1, -1
+        for i in range(step, 8):
+            for j in range(9):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 9 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 9 * i + j]), i, j
+        if largest < 1e-6:  # the square root of the threshold at which D D^T skips a row
+            break
+        w[DEPENDENT + column] = 1.0
+        for j in range(9):
+            a, b = DENSE + 9 * step + j, DENSE + 9 * row + j
+            w[a], w[b] = w[b], w[a]
+        for i in range(step + 1, 8):
+            factor = w[DENSE + 9 * i + column] / w[DENSE + 9 * step + column]
+            if factor != 0.0:
+                for j in range(9):
+                    w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
+    iw[7] += 1
+    return 0
+
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def project(p, w, iw):
+    """Basis of the tangent space at the D that `geometry` left: trial = (1 - D^+ D) basis, column by column."""
+    for c in range(iw[8]):
+        for j in range(9):
+            w[CHANGE + j] = w[BASIS + 9 * c + j]
+        strike(w)
+        spread(p, w)
+        for j in range(9):
+            w[TRIAL + 9 * c + j] = w[BASIS + 9 * c + j] + w[CHANGE + j]
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """Rates of the state: v' = b + R z' with D R = 0, D b = gamma and R^T M R z' = R^T (f - M b)."""
+    geometry(t, y, p, w)
+    aim(t, y, p, w)
+    spread(p, w)
+    weigh(p, w)
+    for j in range(9):
+        ydot[9 + j] = w[CHANGE + j]
+        w[FORCE + j] -= w[WEIGHED + j]
+    degrees = iw[8]
+    project(p, w, iw)
+    for c in range(degrees):  # lower triangle of R^T M R, and the right-hand side behind it
+        for j in range(9):
+            w[CHANGE + j] = w[TRIAL + 9 * c + j]
+        weigh(p, w)
+        for r in range(c, degrees):
+            total = 0.0
+            for j in range(9):
+                total += w[TRIAL + 9 * r + j] * w[WEIGHED + j]
+            w[SMALL + 7 * r + c] = total
+        total = 0.0
+        for j in range(9):
+            total += w[TRIAL + 9 * c + j] * w[FORCE + j]
+        w[REDUCED + c] = total
+    for c in range(degrees):  # L D L^T in place
+        for r in range(c + 1, degrees):
+            factor = w[SMALL + 7 * r + c] / w[SMALL + 7 * c + c]
+            for k in range(r, degrees):
+                w[SMALL + 7 * k + r] -= factor * w[SMALL + 7 * k + c]
+            w[REDUCED + r] -= factor * w[REDUCED + c]
+    for c in range(degrees - 1, -1, -1):
+        total = w[REDUCED + c]
+        for r in range(c + 1, degrees):
+            total -= w[SMALL + 7 * r + c] * w[REDUCED + r]
+        w[REDUCED + c] = total / w[SMALL + 7 * c + c]
+        for j in range(9):
+            ydot[9 + j] += w[REDUCED + c] * w[TRIAL + 9 * c + j]
+    finish(t, y, p, w, ydot)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Correct and measure an accepted state, and carry the tangent basis on to it."""
+    # each helper is called at one place only: the compiler copies it to every place it is called from
+    tolerance = p[15] * w[6]
+    last = math.inf
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
+        # at the floor of rounding another iteration gains nothing
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+        spread(p, w)
+        if closed:
+            for j in range(9, 18):
+                y[j] += w[CHANGE - 9 + j]
+            break
+        for j in range(9):
+            y[j] += w[CHANGE + j]
+        last = violation
+        iw[3] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[4] += 1
+        bits |= 1
+    if iw[5] == 0:
+        if iw[7] == 0:  # the first basis: unit vectors of independent coordinates
+            choose(p, w, iw)
+            degrees = 0
+            for j in range(9):
+                if w[DEPENDENT + j] == 0.0 and degrees < 7:
+                    for k in range(9):
+                        w[BASIS + 9 * degrees + k] = 1.0 if k == j else 0.0
+                    degrees += 1
+            iw[8] = degrees
+        project(p, w, iw)
+        for c in range(iw[8]):
+            for r in range(c + 1):  # orthogonal to the columns before it, then of length 1
+                total = 0.0
+                for j in range(9):
+                    total += w[TRIAL + 9 * c + j] * w[(BASIS if r < c else TRIAL) + 9 * r + j]
+                if r == c:
+                    for j in range(9):
+                        w[BASIS + 9 * c + j] = w[TRIAL + 9 * c + j] / math.sqrt(total)
+                else:
+                    for j in range(9):
+                        w[TRIAL + 9 * c + j] -= total * w[BASIS + 9 * r + j]
+    measure(t, y, p, w)
+    return bits

@@ -1,0 +1,574 @@
+"""Method `penalty` for model `four-bar`. Emitted by symgen; do not edit.
+
+constraints as stiff elements; the error falls like 1 / penalty
+Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 045897546380cbe8
+p[15] penalty (default 10000000.0)
+p[16] omega (default 10.0)
+p[17] mu (default 1.0)
+"""
+
+import math
+
+from numba import njit
+
+from .model import geometry, measure
+
+CHANGE = 61  # sections of w
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 27 operations, 45 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p15 = p[15]
+    p16 = p[16]
+    p17 = p[17]
+    # intermediate terms
+    s0 = 2.0*(p16*p17)
+    s1 = p16*p16
+    s2 = 1.0/(p15 + p0 + p15)
+    s3 = p15*s2
+    s4 = 1.0/(p15 + p2 + p15)
+    s5 = p15*s4
+    s6 = 1.0/p15
+    # outputs
+    p[18] = 0.3333333333333333*p0
+    p[19] = 9.81*p0
+    p[20] = 5.333333333333333*p1
+    p[21] = 9.81*p1
+    p[22] = 2.083333333333333*p2
+    p[23] = 9.81*p2
+    p[24] = s0
+    p[25] = s1
+    p[26] = s2
+    p[27] = s3
+    p[28] = s4
+    p[29] = s5
+    p[30] = p15 + p1 + p15 - p15*s3 - p15*s5
+    p[31] = s6
+    p[32] = -s0
+    p[33] = -s1
+    p[34] = -s6
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """q', v', power and multipliers by penalty: 345 operations, 429969 before sharing."""
+    # inputs
+    q0 = y[0]  # crank.x [m]
+    v0 = y[9]  # crank.vx [m/s]
+    q1 = y[1]  # crank.y [m]
+    v1 = y[10]  # crank.vy [m/s]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    q3 = y[3]  # coupler.x [m]
+    v3 = y[12]  # coupler.vx [m/s]
+    q4 = y[4]  # coupler.y [m]
+    v4 = y[13]  # coupler.vy [m/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    q6 = y[6]  # rocker.x [m]
+    v6 = y[15]  # rocker.vx [m/s]
+    q7 = y[7]  # rocker.y [m]
+    v7 = y[16]  # rocker.vy [m/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p18 = p[18]
+    p19 = p[19]
+    p20 = p[20]
+    p21 = p[21]
+    p22 = p[22]
+    p23 = p[23]
+    p15 = p[15]
+    p24 = p[24]
+    p25 = p[25]
+    p26 = p[26]
+    p27 = p[27]
+    p28 = p[28]
+    p29 = p[29]
+    p30 = p[30]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = v2*s1
+    s20 = v2*s0
+    s21 = v5*s8
+    s22 = v5*s7
+    s23 = v8*s15
+    s24 = v8*s14
+    s25 = s3 + (v0 + s19)*p24 + (q0 - s0)*p25
+    s26 = s4 + (v1 - s20)*p24 + (q1 - s1)*p25
+    s27 = s3 + s10 + (v3 + s19 - v0 + s21)*p24 + (q3 - q0 - s7 - s0)*p25
+    s28 = s4 + s11 + (v4 - (v1 + s20) - s22)*p24 + (q4 - q1 - s8 - s1)*p25
+    s29 = s17 - s10 - (v6 + s21 - v3 - s23)*p24 - (q6 - q3 + s14 - s7)*p25
+    s30 = s18 - s11 - (v7 - (v4 + s22) + s24)*p24 - (q7 - q4 + s15 - s8)*p25
+    s31 = s17 + (v6 + s23)*p24 + (q6 - 10.0 - s14)*p25
+    s32 = s18 + (v7 - s24)*p24 + (q7 - s15)*p25
+    s33 = p15*s25
+    s34 = p15*s26
+    s35 = p15*s27
+    s36 = p15*s28
+    s37 = p15*s29
+    s38 = p15*s30
+    s39 = p15*s31
+    s40 = p15*s32
+    s41 = s35 - s33
+    s42 = s0*s34 - s1*s33 - s1*s35 + s0*s36
+    s43 = s37 - s39
+    s44 = s14*s38 - s15*s37 - s15*s39 + s14*s40
+    s45 = s36 - s34 - p19
+    s46 = s38 - s40 - p23
+    s47 = s1*p15
+    s48 = s1*s47
+    s49 = s0*p15
+    s50 = s0*s49
+    s51 = s8*p15
+    s52 = s8*s51
+    s53 = s7*p15
+    s54 = s8*s47 + s7*s49
+    s55 = s7*s53
+    s56 = s15*p15
+    s57 = s15*s56
+    s58 = s14*p15
+    s59 = s15*s51 + s14*s53
+    s60 = s14*s58
+    s61 = s51*p26
+    s62 = s53*p26
+    s63 = s51*p28
+    s64 = s53*p28
+    s65 = 1.0/(s50 + s48 + p18 + s48 + s50)
+    s66 = s47*s65
+    s67 = s49*s65
+    s68 = s54*s65
+    s69 = 1.0/(s60 + s57 + p22 + s57 + s60)
+    s70 = s56*s69
+    s71 = s58*s69
+    s72 = s59*s69
+    s73 = s49*s66 + s58*s70
+    s74 = s51*p29 - s51*p27 - s54*s66 + s59*s70
+    s75 = 1.0/(p30 - s47*s66 - s56*s70)
+    s76 = s73*s75
+    s77 = s74*s75
+    s78 = s53*p27 - s53*p29 + s54*s67 - s59*s71 - s74*s76
+    s79 = s55 + s52 + p20 + s52 + s55 - s51*s61 - s53*s62 - s51*s63 - s53*s64 - s54*s68 - s59*s72 - s74*s77
+    s80 = 1.0/(p30 - s49*s67 - s58*s71 - s73*s76)
+    s81 = s78*s80
+    s82 = s41*p27 - (s35 + s37) + s43*p29 - s42*s66 - s44*s70
+    s83 = s7*s36 - s8*s35 + s8*s37 - s7*s38 + s41*s61 - s45*s62 - s43*s63 + s46*s64 - s42*s68 + s44*s72
+    s84 = s45*p27 - (p21 + s36 + s38) + s46*p29 + s42*s67 + s44*s71 - s76*s82
+    s85 = 1.0/(s79 - s78*s81)*(s83 - s77*s82 - s81*s84)
+    s86 = s80*s84
+    s87 = s81*s85
+    s88 = s86 - s87
+    s89 = s75*s82 - s76*s88
+    s90 = s77*s85
+    s91 = s89 - s90
+    s92 = s44*s69 - s70*s91 + s71*s88 + s72*s85
+    s93 = s42*s65 - s66*s91 + s67*s88 - s68*s85
+    s94 = s46*p28 + p29*s88 + s64*s85
+    s95 = s43*p28 + p29*s91 - s63*s85
+    s96 = s45*p26 + p27*s88
+    s97 = s62*s85
+    s98 = s96 - s97
+    s99 = s41*p26 + p27*s91 + s61*s85
+    s100 = s1*s93
+    s101 = s0*s93
+    s102 = s8*s85
+    s103 = s7*s85
+    s104 = s15*s92
+    s105 = s14*s92
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    ydot[2] = v2
+    ydot[3] = v3
+    ydot[4] = v4
+    ydot[5] = v5
+    ydot[6] = v6
+    ydot[7] = v7
+    ydot[8] = v8
+    ydot[9] = s99
+    ydot[10] = s98
+    ydot[11] = s93
+    ydot[12] = s91
+    ydot[13] = s88
+    ydot[14] = s85
+    ydot[15] = s95
+    ydot[16] = s94
+    ydot[17] = s92
+    ydot[18] = 0.0
+    w[13] = p15*(s25 + s99 + s100)
+    w[14] = p15*(s26 + s98 - s101)
+    w[15] = p15*(s27 + s91 + s100 - s99 + s102)
+    w[16] = p15*(s28 + s88 + s97 - s96 - s101 - s103)
+    w[17] = p15*(s95 + s102 + s90 - s89 - s104 - s29)
+    w[18] = p15*(s94 + s87 - s86 - s103 + s105 - s30)
+    w[19] = p15*(s31 + s95 + s104)
+    w[20] = p15*(s32 + s94 - s105)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def residual(t, y, k, p, w, r):
+    """F(t, y, k) of the descriptor form, and the power: 199 operations, 314 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    q0 = y[0]  # crank.x [m]
+    v0 = y[9]  # crank.vx [m/s]
+    q1 = y[1]  # crank.y [m]
+    v1 = y[10]  # crank.vy [m/s]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    q3 = y[3]  # coupler.x [m]
+    v3 = y[12]  # coupler.vx [m/s]
+    q4 = y[4]  # coupler.y [m]
+    v4 = y[13]  # coupler.vy [m/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    q6 = y[6]  # rocker.x [m]
+    v6 = y[15]  # rocker.vx [m/s]
+    q7 = y[7]  # rocker.y [m]
+    v7 = y[16]  # rocker.vy [m/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p18 = p[18]
+    p19 = p[19]
+    p20 = p[20]
+    p21 = p[21]
+    p22 = p[22]
+    p23 = p[23]
+    p24 = p[24]
+    p25 = p[25]
+    p31 = p[31]
+    k0 = k[0]
+    k1 = k[1]
+    k2 = k[2]
+    k3 = k[3]
+    k4 = k[4]
+    k5 = k[5]
+    k6 = k[6]
+    k7 = k[7]
+    k8 = k[8]
+    k9 = k[9]
+    k10 = k[10]
+    k11 = k[11]
+    k12 = k[12]
+    k13 = k[13]
+    k14 = k[14]
+    k15 = k[15]
+    k16 = k[16]
+    k17 = k[17]
+    k18 = k[18]
+    k19 = k[19]
+    k20 = k[20]
+    k21 = k[21]
+    k22 = k[22]
+    k23 = k[23]
+    k24 = k[24]
+    k25 = k[25]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = v2*s1
+    s20 = v2*s0
+    s21 = v5*s8
+    s22 = v5*s7
+    s23 = v8*s15
+    s24 = v8*s14
+    s25 = s1*k11
+    s26 = s0*k11
+    s27 = s8*k14
+    s28 = s7*k14
+    s29 = s15*k17
+    s30 = s14*k17
+    s31 = k16 - (k13 + s28) + s30 - (s18 - s11 - (v7 - (v4 + s22) + s24)*p24 - (q7 - q4 + s15 - s8)*p25)
+    s32 = s3 + s10 + (v3 + s19 - v0 + s21)*p24 + (q3 - q0 - s7 - s0)*p25 + k12 + s25 - k9 + s27 - p31*k20
+    s33 = s4 + s11 + (v4 - (v1 + s20) - s22)*p24 + (q4 - q1 - s8 - s1)*p25 + k13 - (k10 + s26) - s28 - p31*k21
+    s34 = k15 + s27 - k12 - s29 - (s17 - s10 - (v6 + s21 - v3 - s23)*p24 - (q6 - q3 + s14 - s7)*p25) - p31*k22
+    # outputs
+    r[0] = k0 - v0
+    r[1] = k1 - v1
+    r[2] = k2 - v2
+    r[3] = k3 - v3
+    r[4] = k4 - v4
+    r[5] = k5 - v5
+    r[6] = k6 - v6
+    r[7] = k7 - v7
+    r[8] = k8 - v8
+    r[9] = p0*k9 + k18 - k20
+    r[10] = p19 + p0*k10 + k19 - k21
+    r[11] = p18*k11 + s1*k18 - s0*k19 + s1*k20 - s0*k21
+    r[12] = p1*k12 + k20 - k22
+    r[13] = p21 + p1*k13 + k21 - k23
+    r[14] = p20*k14 + s8*k20 - s7*k21 + s8*k22 - s7*k23
+    r[15] = p2*k15 + k22 + k24
+    r[16] = p23 + p2*k16 + k23 + k25
+    r[17] = p22*k17 + s14*k23 - s15*k22 + s15*k24 - s14*k25
+    r[18] = s3 + (v0 + s19)*p24 + (q0 - s0)*p25 + k9 + s25 - p31*k18
+    r[19] = s4 + (v1 - s20)*p24 + (q1 - s1)*p25 + k10 - s26 - p31*k19
+    r[20] = s32
+    r[21] = s33
+    r[22] = s34
+    r[23] = s31 - p31*k23
+    r[24] = s17 + (v6 + s23)*p24 + (q6 - 10.0 - s14)*p25 + k15 + s29 - p31*k24
+    r[25] = s18 + (v7 - s24)*p24 + (q7 - s15)*p25 + k16 - s30 - p31*k25
+    w[12] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def tangent(t, y, k, p, w, j):
+    """dF/dk, then dF/dy, of the descriptor form: 119 operations, 371 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    q2 = y[2]  # crank.theta [rad]
+    v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
+    v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
+    v8 = y[17]  # rocker.omega [rad/s]
+    p18 = p[18]
+    p20 = p[20]
+    p22 = p[22]
+    p24 = p[24]
+    p25 = p[25]
+    k11 = k[11]
+    k14 = k[14]
+    k17 = k[17]
+    k18 = k[18]
+    k19 = k[19]
+    k20 = k[20]
+    k21 = k[21]
+    k22 = k[22]
+    k23 = k[23]
+    k24 = k[24]
+    k25 = k[25]
+    p32 = p[32]
+    p33 = p[33]
+    p34 = p[34]
+    # intermediate terms
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = -s0
+    s4 = math.cos(q5)
+    s5 = math.sin(q5)
+    s6 = 4.0*s4
+    s7 = -s6
+    s8 = 4.0*s5
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = math.cos(q8)
+    s12 = math.sin(q8)
+    s13 = 2.5*s11
+    s14 = 2.5*s12
+    s15 = -s14
+    s16 = 2.5*(v8*v8)
+    s17 = -s13
+    s18 = s6*k14
+    s19 = s14*k17
+    s20 = v2 + v2
+    s21 = 4.0*(v5 + v5)
+    s22 = 2.5*(v8 + v8)
+    s23 = s12*s22
+    s24 = v5*s6*p24
+    s25 = s13*p24
+    s26 = s0*s20 + s1*p24
+    s27 = s1*s20 - s0*p24
+    s28 = s4*s21 + s8*p24
+    s29 = s5*s21 - s6*p24
+    s30 = s11*s22 + s14*p24
+    s31 = s11*s16 + v8*s14*p24
+    s32 = s8*p25
+    s33 = s13*p25
+    s34 = s0*k11 + v2*s0*p24 - s1*s2 + s1*p25
+    s35 = s1*k11 + s0*s2 + v2*s1*p24 - s0*p25
+    s36 = s8*k14 + s4*s9 + v5*s8*p24 - s6*p25
+    s37 = s13*k17 + v8*s13*p24 - s12*s16 + s14*p25
+    # outputs
+    j[0] = 1.0
+    j[685] = -1.0
+    j[27] = 1.0
+    j[704] = -1.0
+    j[54] = 1.0
+    j[723] = -1.0
+    j[81] = 1.0
+    j[742] = -1.0
+    j[108] = 1.0
+    j[761] = -1.0
+    j[135] = 1.0
+    j[780] = -1.0
+    j[162] = 1.0
+    j[799] = -1.0
+    j[189] = 1.0
+    j[818] = -1.0
+    j[216] = 1.0
+    j[837] = -1.0
+    j[243] = p0
+    j[252] = 1.0
+    j[254] = -1.0
+    j[270] = p0
+    j[279] = 1.0
+    j[281] = -1.0
+    j[297] = p18
+    j[304] = s1
+    j[305] = s3
+    j[306] = s1
+    j[307] = s3
+    j[876] = s0*k18 + s1*k19 + s0*k20 + s1*k21
+    j[324] = p1
+    j[332] = 1.0
+    j[334] = -1.0
+    j[351] = p1
+    j[359] = 1.0
+    j[361] = -1.0
+    j[378] = p20
+    j[384] = s8
+    j[385] = s7
+    j[386] = s8
+    j[387] = s7
+    j[933] = s6*k20 + s8*k21 + s6*k22 + s8*k23
+    j[405] = p2
+    j[412] = 1.0
+    j[414] = 1.0
+    j[432] = p2
+    j[439] = 1.0
+    j[441] = 1.0
+    j[459] = p22
+    j[464] = s15
+    j[465] = s13
+    j[466] = s14
+    j[467] = s17
+    j[990] = s13*k24 - (s13*k22 + s14*k23) + s14*k25
+    j[477] = 1.0
+    j[479] = s1
+    j[486] = p34
+    j[1000] = p25
+    j[1002] = s34
+    j[1009] = p24
+    j[1011] = s26
+    j[504] = 1.0
+    j[505] = s3
+    j[513] = p34
+    j[1019] = p25
+    j[1020] = s35
+    j[1028] = p24
+    j[1029] = s27
+    j[529] = -1.0
+    j[531] = s1
+    j[532] = 1.0
+    j[534] = s8
+    j[540] = p34
+    j[1036] = p33
+    j[1038] = s34
+    j[1039] = p25
+    j[1041] = s18 + s24 - s10 + s32
+    j[1045] = p32
+    j[1047] = s26
+    j[1048] = p24
+    j[1050] = s28
+    j[556] = -1.0
+    j[557] = s3
+    j[559] = 1.0
+    j[560] = s7
+    j[567] = p34
+    j[1055] = p33
+    j[1056] = s35
+    j[1058] = p25
+    j[1059] = s36
+    j[1064] = p32
+    j[1065] = s27
+    j[1067] = p24
+    j[1068] = s29
+    j[584] = -1.0
+    j[586] = s8
+    j[587] = 1.0
+    j[589] = s15
+    j[594] = p34
+    j[1075] = p33
+    j[1077] = s18 + s32 - (s10 - s24)
+    j[1078] = p25
+    j[1080] = -s37
+    j[1084] = p32
+    j[1086] = s28
+    j[1087] = p24
+    j[1089] = -s30
+    j[611] = -1.0
+    j[612] = s7
+    j[614] = 1.0
+    j[615] = s13
+    j[621] = p34
+    j[1094] = p33
+    j[1095] = s36
+    j[1097] = p25
+    j[1098] = s33 - s31 - s19
+    j[1103] = p32
+    j[1104] = s29
+    j[1106] = p24
+    j[1107] = s25 - s23
+    j[639] = 1.0
+    j[641] = s14
+    j[648] = p34
+    j[1114] = p25
+    j[1116] = s37
+    j[1123] = p24
+    j[1125] = s30
+    j[666] = 1.0
+    j[667] = s17
+    j[675] = p34
+    j[1133] = p25
+    j[1134] = s19 + s31 - s33
+    j[1142] = p24
+    j[1143] = s23 - s25
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Measure an accepted state; nothing is corrected."""
+    geometry(t, y, p, w)
+    measure(t, y, p, w)
+    return 0

@@ -1,0 +1,222 @@
+"""Method `index1-augmented-lagrangian` for model `pendulum`. Emitted by symgen; do not edit.
+
+iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities
+Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 045897546380cbe8
+p[3] penalty (default 10000000.0)
+p[4] iteration_tolerance (default 1e-13)
+p[5] tolerance (default 1e-13)
+"""
+
+import math
+
+from numba import njit
+
+from .model import measure
+
+CHANGE = 19  # sections of w
+MOVED = 38
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 5 operations, 6 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    # intermediate terms
+    s0 = 9.81*p0
+    # outputs
+    p[6] = -s0
+    p[7] = -s0*(1.0/p0)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def begin(t, y, p, w):
+    """matrices and start of the iteration: 16 operations, 30 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    q0 = y[0]  # bob.x [m]
+    v0 = y[2]  # bob.vx [m/s]
+    q1 = y[1]  # bob.y [m]
+    v1 = y[3]  # bob.vy [m/s]
+    p6 = p[6]
+    p3 = p[3]
+    p7 = p[7]
+    # intermediate terms
+    s0 = q0*p3
+    s1 = q1*s0
+    s2 = 1.0/(p0 + q0*s0)
+    s3 = s1*s2
+    # outputs
+    w[26] = s3
+    w[27] = s2
+    w[28] = 1.0/(p0 + q1*(q1*p3) - s1*s3)
+    w[29] = q0
+    w[30] = q1
+    w[31] = p6
+    w[32] = -(v0*v0 + v1*v1)
+    w[33] = 0.0
+    w[34] = p7
+    w[13] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def iterate(p, w):
+    """one iteration of index1-augmented-lagrangian: 36 operations, 359 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    p3 = p[3]
+    kept_factor_0 = w[26]
+    kept_factor_1 = w[27]
+    kept_factor_2 = w[28]
+    kept_jacobian_0 = w[29]
+    kept_jacobian_1 = w[30]
+    kept_force_0 = w[31]
+    kept_target_0 = w[32]
+    kept_acceleration_0 = w[33]
+    kept_acceleration_1 = w[34]
+    multipliers_0 = w[13]
+    # intermediate terms
+    s0 = p3*(kept_jacobian_0*kept_acceleration_0 + kept_jacobian_1*kept_acceleration_1 - kept_target_0)
+    s1 = multipliers_0 + s0
+    s2 = p0*kept_acceleration_0 + kept_jacobian_0*s1
+    s3 = kept_factor_2*(kept_force_0 - p0*kept_acceleration_1 - kept_jacobian_1*s1 + kept_factor_0*s2)
+    s4 = kept_factor_1*s2 + kept_factor_0*s3
+    s5 = kept_acceleration_0 - s4
+    s6 = kept_acceleration_1 + s3
+    # outputs
+    w[33] = s5
+    w[34] = s6
+    w[13] = multipliers_0 + p3*(kept_jacobian_0*s5 + kept_jacobian_1*s6 - kept_target_0)
+    w[9] = math.sqrt((s4*s4 + s3*s3)/(1.0 + s5*s5 + s6*s6))
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def finish(t, y, p, w, ydot):
+    """rates of the state, and power: 0 operations, 0 before sharing."""
+    # inputs
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    kept_acceleration_0 = w[33]
+    kept_acceleration_1 = w[34]
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    ydot[2] = kept_acceleration_0
+    ydot[3] = kept_acceleration_1
+    ydot[4] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 19 operations, 43 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    q0 = y[0]  # bob.x [m]
+    q1 = y[1]  # bob.y [m]
+    p3 = p[3]
+    # intermediate terms
+    s0 = 0.5*(q0*q0 + q1*q1 - 1.0)
+    s1 = q0*p3
+    s2 = q1*s1
+    s3 = 1.0/(p0 + q0*s1)
+    s4 = s2*s3
+    # outputs
+    w[16] = s0
+    w[0] = math.sqrt(s0*s0)
+    w[23] = q0
+    w[24] = q1
+    w[5] = 1.0
+    w[4] = 1.0
+    w[35] = s4
+    w[36] = s3
+    w[37] = 1.0/(p0 + q1*(q1*p3) - s2*s4)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """one iteration of the mass-orthogonal projection: 17 operations, 73 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    p3 = p[3]
+    residual_0 = w[16]
+    moved_0 = w[38]
+    moved_1 = w[39]
+    force_of_constraints_0 = w[40]
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
+    law_lower_0 = w[35]
+    law_reciprocal_0 = w[36]
+    law_reciprocal_1 = w[37]
+    # intermediate terms
+    s0 = force_of_constraints_0 + p3*residual_0
+    s1 = p0*moved_0 + s0*jacobian_0
+    s2 = law_reciprocal_1*(s1*law_lower_0 - (p0*moved_1 + s0*jacobian_1))
+    s3 = s1*law_reciprocal_0 + law_lower_0*s2
+    # outputs
+    w[19] = -s3
+    w[20] = s2
+    w[38] = moved_0 - s3
+    w[39] = moved_1 + s2
+    w[40] = s0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """Rates of the state by iteration until v' changes no more, at most 30 times."""
+    begin(t, y, p, w)
+    last = math.inf
+    for _ in range(30):
+        iterate(p, w)
+        iw[6] += 1
+        increment = w[9]
+        # at the floor of rounding another iteration gains nothing
+        if increment <= p[4] or (increment > 0.5 * last and increment < 1e-6):
+            break
+        last = increment
+    finish(t, y, p, w, ydot)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Correct an accepted state by mass-orthogonal projections and measure it; bits as for other corrections."""
+    bits = 2
+    tolerance = p[5] * w[6]
+    last = math.inf
+    for i in range(3):
+        w[MOVED + i] = 0.0  # and the constraint forces behind it
+    for round in range(20):
+        geometry(t, y, p, w)
+        violation = w[0]
+        if violation <= tolerance or (violation > 0.5 * last and violation <= 1e4 * tolerance):
+            break
+        last = violation
+        spread(p, w)
+        for j in range(2):
+            y[j] += w[CHANGE + j]
+        iw[3] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[4] += 1
+        bits |= 1
+    tolerance = p[5] * w[7]
+    last = math.inf
+    for i in range(3):
+        w[MOVED + i] = 0.0
+    for round in range(20):
+        measure(t, y, p, w)
+        violation = w[1]
+        if violation <= tolerance or violation > 0.5 * last:
+            break
+        last = violation
+        spread(p, w)
+        for j in range(2):
+            y[2 + j] += w[CHANGE + j]
+        iw[3] += 1
+    return bits

@@ -1,0 +1,253 @@
+"""Method `null-space` for model `pendulum`. Emitted by symgen; do not edit.
+
+accelerations in a tangent basis that is carried on from step to step
+Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 045897546380cbe8
+p[3] tolerance (default 1e-13)
+"""
+
+import math
+
+from numba import njit
+
+from .model import geometry, measure, spread
+
+CHANGE = 19  # sections of w
+DEPENDENT = 26
+DENSE = 28
+BASIS = 30
+TRIAL = 34
+SMALL = 38
+REDUCED = 42
+FORCE = 44
+WEIGHED = 46
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 2 operations, 3 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    # intermediate terms
+    s0 = 9.81*p0
+    # outputs
+    p[4] = -s0
+    p[5] = s0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def expand(p, w):
+    """D as a dense matrix: 0 operations, 0 before sharing."""
+    # inputs
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
+    # outputs
+    w[28] = jacobian_0
+    w[29] = jacobian_1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def aim(t, y, p, w):
+    """the section `residual` = -gamma, the section `force` = f: 3 operations, 3 before sharing."""
+    # inputs
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    p4 = p[4]
+    # outputs
+    w[16] = v0*v0 + v1*v1
+    w[44] = 0.0
+    w[45] = p4
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def strike(w):
+    """the section `residual` = D times `change`: 3 operations, 3 before sharing."""
+    # inputs
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
+    change_0 = w[19]
+    change_1 = w[20]
+    # outputs
+    w[16] = jacobian_0*change_0 + jacobian_1*change_1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def weigh(p, w):
+    """the section `weighed` = M times `change`: 2 operations, 2 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    change_0 = w[19]
+    change_1 = w[20]
+    # outputs
+    w[46] = p0*change_0
+    w[47] = p0*change_1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def finish(t, y, p, w, ydot):
+    """q', power and multipliers: 8 operations, 8 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    p5 = p[5]
+    jacobian_0 = w[23]
+    jacobian_1 = w[24]
+    reciprocal_0 = w[25]
+    ydot_2 = ydot[2]
+    ydot_3 = ydot[3]
+    # outputs
+    ydot[0] = v0
+    ydot[1] = v1
+    w[13] = -reciprocal_0*(jacobian_0*(p0*ydot_2) + jacobian_1*(p5 + p0*ydot_3))
+    ydot[4] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def choose(p, w, iw):
+    """Choose the dependent columns of D by elimination with complete pivoting."""
+    for k in range(2):
+        w[DENSE + k] = 0.0
+    expand(p, w)
+    for j in range(2):
+        w[DEPENDENT + j] = 0.0
+    for i in range(1):  # rows of unequal size must not decide
+        total = 0.0
+        for j in range(2):
+            total += w[DENSE + 2 * i + j] ** 2
+        for j in range(2):
+            w[DENSE + 2 * i + j] /= math.sqrt(total)
+    for step in range(1):
+        largest, row, column = 0.0, -1, -1
+        for i in range(step, 1):
+            for j in range(2):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 2 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 2 * i + j]), i, j
+        if largest < 1e-6:  # the square root of the threshold at which D D^T skips a row
+            break
+        w[DEPENDENT + column] = 1.0
+        for j in range(2):
+            a, b = DENSE + 2 * step + j, DENSE + 2 * row + j
+            w[a], w[b] = w[b], w[a]
+        for i in range(step + 1, 1):
+            factor = w[DENSE + 2 * i + column] / w[DENSE + 2 * step + column]
+            if factor != 0.0:
+                for j in range(2):
+                    w[DENSE + 2 * i + j] -= factor * w[DENSE + 2 * step + j]
+    iw[7] += 1
+    return 0
+
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def project(p, w, iw):
+    """Basis of the tangent space at the D that `geometry` left: trial = (1 - D^+ D) basis, column by column."""
+    for c in range(iw[8]):
+        for j in range(2):
+            w[CHANGE + j] = w[BASIS + 2 * c + j]
+        strike(w)
+        spread(p, w)
+        for j in range(2):
+            w[TRIAL + 2 * c + j] = w[BASIS + 2 * c + j] + w[CHANGE + j]
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """Rates of the state: v' = b + R z' with D R = 0, D b = gamma and R^T M R z' = R^T (f - M b)."""
+    geometry(t, y, p, w)
+    aim(t, y, p, w)
+    spread(p, w)
+    weigh(p, w)
+    for j in range(2):
+        ydot[2 + j] = w[CHANGE + j]
+        w[FORCE + j] -= w[WEIGHED + j]
+    degrees = iw[8]
+    project(p, w, iw)
+    for c in range(degrees):  # lower triangle of R^T M R, and the right-hand side behind it
+        for j in range(2):
+            w[CHANGE + j] = w[TRIAL + 2 * c + j]
+        weigh(p, w)
+        for r in range(c, degrees):
+            total = 0.0
+            for j in range(2):
+                total += w[TRIAL + 2 * r + j] * w[WEIGHED + j]
+            w[SMALL + 2 * r + c] = total
+        total = 0.0
+        for j in range(2):
+            total += w[TRIAL + 2 * c + j] * w[FORCE + j]
+        w[REDUCED + c] = total
+    for c in range(degrees):  # L D L^T in place
+        for r in range(c + 1, degrees):
+            factor = w[SMALL + 2 * r + c] / w[SMALL + 2 * c + c]
+            for k in range(r, degrees):
+                w[SMALL + 2 * k + r] -= factor * w[SMALL + 2 * k + c]
+            w[REDUCED + r] -= factor * w[REDUCED + c]
+    for c in range(degrees - 1, -1, -1):
+        total = w[REDUCED + c]
+        for r in range(c + 1, degrees):
+            total -= w[SMALL + 2 * r + c] * w[REDUCED + r]
+        w[REDUCED + c] = total / w[SMALL + 2 * c + c]
+        for j in range(2):
+            ydot[2 + j] += w[REDUCED + c] * w[TRIAL + 2 * c + j]
+    finish(t, y, p, w, ydot)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, y, p, w, iw):
+    """Correct and measure an accepted state, and carry the tangent basis on to it."""
+    # each helper is called at one place only: the compiler copies it to every place it is called from
+    tolerance = p[3] * w[6]
+    last = math.inf
+    bits = 2
+    for round in range(15):
+        geometry(t, y, p, w)
+        violation = w[0]
+        # at the floor of rounding another iteration gains nothing
+        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
+        closed = violation <= tolerance or stalled or round == 14
+        if closed:
+            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
+        spread(p, w)
+        if closed:
+            for j in range(2, 4):
+                y[j] += w[CHANGE - 2 + j]
+            break
+        for j in range(2):
+            y[j] += w[CHANGE + j]
+        last = violation
+        iw[3] += 1
+    if not violation <= 1e4 * tolerance:
+        iw[4] += 1
+        bits |= 1
+    if iw[5] == 0:
+        if iw[7] == 0:  # the first basis: unit vectors of independent coordinates
+            choose(p, w, iw)
+            degrees = 0
+            for j in range(2):
+                if w[DEPENDENT + j] == 0.0 and degrees < 2:
+                    for k in range(2):
+                        w[BASIS + 2 * degrees + k] = 1.0 if k == j else 0.0
+                    degrees += 1
+            iw[8] = degrees
+        project(p, w, iw)
+        for c in range(iw[8]):
+            for r in range(c + 1):  # orthogonal to the columns before it, then of length 1
+                total = 0.0
+                for j in range(2):
+                    total += w[TRIAL + 2 * c + j] * w[(BASIS if r < c else TRIAL) + 2 * r + j]
+                if r == c:
+                    for j in range(2):
+                        w[BASIS + 2 * c + j] = w[TRIAL + 2 * c + j] / math.sqrt(total)
+                else:
+                    for j in range(2):
+                        w[TRIAL + 2 * c + j] -= total * w[BASIS + 2 * r + j]
+    measure(t, y, p, w)
+    return bits
