@@ -1,8 +1,8 @@
 """Time to the first result of a planar four-bar that was never seen before: whole processes, from start to exit.
 
 Three situations: nothing compiled on this machine; the runtime's loops compiled but the model new; everything warm.
-Each is repeated in fresh processes; cold ones each get an empty cache folder, and every new model has numbers of its own, so
-that its digest is new.
+Each is repeated in fresh processes; cold ones each get an empty cache folder, and every new model has numbers of its
+own, so that its digest is new.
 
     python -m benchmarks.first_result [--repeat 5]
 """

@@ -35,7 +35,7 @@ def command(
     context: click.Context,
     model: str,
     method: str,
-    integrator: str,
+    integrator: str | None,
     step: float | None,
     rtol: float | None,
     atol: float | None,
@@ -80,7 +80,7 @@ def command(
         verify=verify,
         repeat=repeat,
     )
-    with Bar(f"{loaded.name}, {method}, {integrator}", until or loaded.mechanism.defaults.until) as bar:
+    with Bar(f"{loaded.name}, {method}" + (f", {integrator}" if integrator else ""), until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
     for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
         click.echo(f"symgen: {sentence}", err=True)

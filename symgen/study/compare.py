@@ -40,6 +40,16 @@ REPEAT = 3
 #: Called with what is being done, how far it is, and how much there is in all.
 Progress = Callable[[str, float, float], None]
 
+#: What `compare` runs unless methods are named: the six of Marques, Souto and Flores (2017).
+DEFAULT_METHODS = (
+    *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
+    *("coordinate-partitioning", "direct-correction"),
+)
+#: And with which integrators; a method that none of them suits gets its own.
+DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
+#: Stands for every method or integrator.
+ALL = "all"
+
 
 @dataclass(frozen=True)
 class Row:
@@ -186,7 +196,8 @@ def compare(
     model : str, path, Mechanism or Model
         What to run.
     methods, integrators : sequence of str
-        Names; all that there are unless given.
+        Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not suit each
+        other are left out.
     steps : sequence of float
         Constant steps [s] of integrators without error estimate; multiples of the mechanism's own unless given.
     rtols : sequence of float
@@ -316,8 +327,8 @@ def _combinations(
     from dataclasses import replace
 
     own = model.mechanism.defaults.step
-    for method in dict.fromkeys(methods or METHODS.names):
-        for integrator in dict.fromkeys(integrators or INTEGRATORS.names):
+    for method in _named(methods, DEFAULT_METHODS, METHODS.names):
+        for integrator in _suitable(method, integrators):
             common = replace(base, method=method, integrator=integrator, until=end, times=times)
             common = replace(common, options=_options_for(base.options, method, methods, integrator, integrators))
             if INTEGRATORS.get(integrator, "--integrators").adaptive:
@@ -326,6 +337,29 @@ def _combinations(
             else:
                 for step in steps or [own * factor for factor in STEP_FACTORS]:
                     yield replace(common, step=step)
+
+
+def _named(given: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
+    """Return the names asked for, each once; ``all`` stands for everything there is."""
+    wanted = [name for g in given or default for name in (everything if g == ALL else (g,))]
+    return tuple(dict.fromkeys(wanted))
+
+
+def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+    """Return those of the integrators that solve a form of the method.
+
+    Raises
+    ------
+    InputError
+        If integrators were named and none of them does.
+    """
+    chosen = METHODS.get(method, "--methods")
+    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
+    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
+    if fit or not integrators:
+        return fit or (chosen.default_integrator,)
+    forms = ", ".join(chosen.forms)
+    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
 
 
 def _options_for(

@@ -110,7 +110,7 @@ def test_generate_writes_modules_that_stand_alone(cli, tmp_path):
     folder = tmp_path / "out"
     code, out, err = cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)
     assert code == 0 and err == ""
-    names = {"model", "lagrange", "direct_correction_identity"}
+    names = {"model", "lagrange", "direct_correction"}
     assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")}
     assert len(out.splitlines()) == 6
     first = {p.name: p.read_bytes() for p in folder.iterdir()}

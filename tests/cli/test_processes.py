@@ -164,4 +164,4 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
     os.close(leader)
     assert process.returncode == 0
     assert json.loads(out)["status"] == "ok"
-    assert b"pendulum, direct-correction, rk4" in shown and b"%" in shown
+    assert b"pendulum, direct-correction" in shown and b"%" in shown

@@ -61,8 +61,8 @@ SOURCES = {
 def test_every_kind_is_tried_by_a_test(registry: Registry[object]) -> None:
     """By its name, or by a test over the whole registry."""
     variable = {JOINTS: "JOINTS", FORCES: "FORCES", METHODS: "METHODS", INTEGRATORS: "INTEGRATORS"}[registry]
-    over_all = [p for p, text in SOURCES.items() if re.search(rf"{variable}(\.names|\.items\(\))?\b", text)]
+    over_all = any(re.search(rf"\b{variable}\.(names|items\(\))", text) for text in SOURCES.values())
     for kind in registry.names:
         pattern = re.compile(rf"""["'`]{re.escape(kind)}["'`]""")
         by_name = [p for p, text in SOURCES.items() if pattern.search(text)]
-        assert by_name, f"{registry.what} '{kind}' stands in no test; tests over all kinds: {over_all}"
+        assert by_name or over_all, f"{registry.what} '{kind}' is tried by no test"

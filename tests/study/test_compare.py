@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import symgen
+import symgen.methods
 from symgen.errors import InputError
 from symgen.study import compare as module
 
@@ -17,7 +18,9 @@ ROW_KEYS = {
 
 @pytest.fixture(scope="module")
 def study():
-    return symgen.compare("four-bar", integrators=["rk4", "dop853"], steps=[8e-3, 4e-3], until=1.0, repeat=1)
+    return symgen.compare(
+        "four-bar", ["baumgarte", "direct-correction", "lagrange"], ["rk4", "dop853"], [8e-3, 4e-3], until=1.0, repeat=1
+    )
 
 
 def test_rows_come_in_order(study):
@@ -139,3 +142,24 @@ def test_the_whole_catalogue_can_be_compared(name):
     best = min(row.error for row in study.rows if row.error is not None)
     assert best < 1e-6
     assert study.estimated_error < 1e-8
+
+
+def test_pairs_that_do_not_suit_are_left_out():
+    study = symgen.compare("four-bar", ["lagrange", "ggl"], ["rk4", "radau5"], [1e-2], [1e-6], until=0.2, repeat=1)
+    assert [(r.method, r.integrator) for r in study.rows] == [
+        ("lagrange", "rk4"),
+        ("lagrange", "radau5"),
+        ("ggl", "radau5"),
+    ]
+    with pytest.raises(InputError, match=r"one that solves a form of ggl \(index-2\)"):
+        symgen.compare("four-bar", ["ggl"], ["rk4"], until=0.2)
+
+
+def test_a_method_gets_its_own_integrator_where_the_usual_ones_do_not_suit():
+    study = symgen.compare("four-bar", ["generalized-alpha"], steps=[1e-2], until=0.1, repeat=1)
+    assert [r.integrator for r in study.rows] == ["generalized-alpha"]
+
+
+def test_without_methods_the_six_of_the_source_are_compared():
+    assert module._named((), module.DEFAULT_METHODS, ()) == module.DEFAULT_METHODS
+    assert len(module._named(("all",), (), symgen.methods.METHODS.names)) == len(symgen.methods.METHODS.names) > 15
