@@ -1,7 +1,7 @@
 """One right-hand-side evaluation: the emitted module against the same equations as C, compiled with gcc.
 
-Both sides get the same straight-line program, the same calling convention (a call through a pointer for each evaluation)
-and the same liberty, contraction to fused multiply-add. The two are timed in turns, several times.
+Both sides get the same straight-line program, the same calling convention (a call through a pointer for each
+evaluation) and the same liberty, contraction to fused multiply-add. The two are timed in turns, several times.
 
     python -m benchmarks.against_gcc [MODEL ...]
 """
@@ -40,7 +40,7 @@ REPEATS = 15
 _A, _I = types.float64[::1], types.int64[::1]
 
 
-@numba.njit(types.float64(abi.RHS, _A, _A, _A, _I, _A, types.int64), error_model="numpy")
+@numba.njit(types.float64(abi.RHS, _A, _A, _A, _I, _A, types.int64), error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
 def _repeat_emitted(rhs: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count: int) -> float:
     for _ in range(count):
         rhs(0.0, y, p, w, iw, ydot)

@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from symgen.api import Model, Settings, load
+    from symgen.api import Model, load
     from symgen.api import simulate as simulate
     from symgen.describe.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
     from symgen.errors import AssemblyError, InputError, SimulationError, SymgenError
+    from symgen.plan import Settings
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.study.compare import Study, compare
@@ -34,7 +35,7 @@ _WHERE = {
     "MechanismBuilder": "symgen.describe.builder",
     "Model": "symgen.api",
     "Result": "symgen.result.result",
-    "Settings": "symgen.api",
+    "Settings": "symgen.plan",
     "SimulationError": "symgen.errors",
     "Study": "symgen.study.compare",
     "SymgenError": "symgen.errors",

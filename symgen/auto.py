@@ -13,8 +13,9 @@ from symgen.ir.program import COUNTERS
 from symgen.runtime.probe import call_rhs
 
 if TYPE_CHECKING:
-    from symgen.api import Model, Settings
+    from symgen.api import Model
     from symgen.model import CompiledModel
+    from symgen.plan import Settings
     from symgen.runtime.assembly import Start
 
 #: What asks for an automatic choice.
@@ -86,7 +87,7 @@ def linearised(compiled: CompiledModel, start: Start) -> NDArray[np.float64]:
 
 def gather(model: Model, parameters: Mapping[str, float]) -> Facts:
     """Return the facts of a model with given parameters."""
-    from symgen.api import Settings, make_plan
+    from symgen.plan import Settings, make_plan
 
     plan = make_plan(model, Settings(method="lagrange", integrator="dop853"))
     compiled, start = model.ready(plan, parameters)
@@ -115,8 +116,8 @@ def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str 
     """Return method, integrator and the reasons, for whichever of the two is ``auto``.
 
     The rules come from measured rows (see ``docs/methods.md``): `direct-correction` in the metric of M carried runs
-    through singular positions with the smallest errors and costs little more than `lagrange`; `radau5` is for decay that is
-    much faster than the motion.
+    through singular positions with the smallest errors and costs little more than `lagrange`; `radau5` is for decay
+    that is much faster than the motion.
     """
     reasons: list[str] = []
     if method == AUTO:
@@ -133,7 +134,8 @@ def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str 
             )
         if facts.rank < facts.rows:
             reasons.append(
-                f"{facts.rows - facts.rank} of {facts.rows} rows depend on others: they are skipped, accelerations stay unique"
+                f"{facts.rows - facts.rank} of {facts.rows} rows depend on others: they are skipped, "
+                "accelerations stay unique"
             )
     if integrator == AUTO:
         unknowns = 2 * facts.coordinates + facts.rows
@@ -146,7 +148,7 @@ def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str 
         else:
             integrator = "dop853"
             reasons.append(
-                f"integrator dop853: the fastest decay, {facts.fastest_decay:.3g} 1/s, does not call for an implicit scheme"
+                f"integrator dop853: the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
                 if facts.stiffness <= STIFF_RATIO
                 else f"integrator dop853: stiff, but {unknowns} unknowns a stage are too many for dense Newton matrices"
             )

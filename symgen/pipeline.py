@@ -2,8 +2,8 @@
 
     mechanism --formulate--> equations --lower--> program --emit--> source --load--> compiled model
 
-`generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and loads
-it. SymPy and Jinja2 are imported only when something has to be generated.
+`generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and
+loads it. SymPy and Jinja2 are imported only when something has to be generated.
 """
 
 from __future__ import annotations

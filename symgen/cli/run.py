@@ -62,8 +62,9 @@ def command(
     save_path = output_file("--save", save, "data")
     plot_path = output_file("--plot", plot, "plot")
 
-    from symgen.api import Settings, load
+    from symgen.api import load
     from symgen.cli._progress import Bar
+    from symgen.plan import Settings
 
     loaded = load(model)
     settings = Settings(
@@ -80,7 +81,9 @@ def command(
         verify=verify,
         repeat=repeat,
     )
-    with Bar(f"{loaded.name}, {method}" + (f", {integrator}" if integrator else ""), until or loaded.mechanism.defaults.until) as bar:
+    with Bar(
+        f"{loaded.name}, {method}" + (f", {integrator}" if integrator else ""), until or loaded.mechanism.defaults.until
+    ) as bar:
         result = loaded.simulate(settings, progress=bar)
     for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
         click.echo(f"symgen: {sentence}", err=True)

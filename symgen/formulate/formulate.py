@@ -1,6 +1,7 @@
 """From a mechanism to its equations: the only stage that uses SymPy.
 
-Derivation goes joint by joint and force by force; nothing is ever expanded, simplified or inverted over the whole system.
+Derivation goes joint by joint and force by force; nothing is ever expanded, simplified or inverted over the whole
+system.
 """
 
 from __future__ import annotations

@@ -36,7 +36,7 @@ _RELATIONS = {
 class Translator:
     """Translates SymPy expressions over known symbols into nodes of one graph.
 
-    Common subexpressions over all outputs are taken out by SymPy first (``order="canonical"``), which finds shared parts
+    Common subexpressions over all outputs are taken out by SymPy first (``order="canonical"``), which finds parts
     of sums and products that hash-consing of binary operations alone would miss.
     """
 

@@ -40,8 +40,8 @@ class State:
 class LoopCall:
     """A loop and what it is called with.
 
-    Outputs and what the run watches stand between the two tuples: ``loop(*before, times, states, status, gauges, control,
-    events, *after)``.
+    Outputs and what the run watches stand between the two tuples: ``loop(*before, times, states, status, gauges,
+    control, events, *after)``.
     """
 
     loop: Any

@@ -7,7 +7,7 @@ from symgen.integrators._adams import Adams
 KIND = Adams(
     name="abm4",
     order=4,
-    reference="Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., Springer 1993, section III.1",
+    reference="Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, Springer 1993, section III.1",
     adaptive=False,
     real_boundary=1.28,
 )

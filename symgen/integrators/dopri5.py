@@ -32,7 +32,9 @@ _DENSE = np.array(
 KIND = Tableau(
     name="dopri5",
     order=5,
-    reference="Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; dense output: Shampine, Math. Comp. 46 (1986) 135-150",
+    reference=(
+        "Dormand, Prince, J. Comput. Appl. Math. 6 (1980) 19-26; dense output: Shampine, Math. Comp. 46 (1986) 135-150"
+    ),
     a=_A,
     b=_B,
     c=np.array([0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1.0]),

@@ -1,4 +1,4 @@
-"""The singly diagonally implicit scheme of order 4 with five stages of Hairer and Wanner: L-stable, stiffly accurate."""
+"""The singly diagonally implicit scheme of order 4 of Hairer and Wanner: L-stable and stiffly accurate."""
 
 from __future__ import annotations
 

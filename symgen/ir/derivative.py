@@ -1,8 +1,8 @@
 """Exact partial derivatives on the graph: every operation's own rule, applied in evaluation order.
 
-The Jacobians of the implicit integrators (stiffness, damping and what constraints and multipliers add to them) are derivatives
-of blocks that SymPy has derived, taken here operation by operation: no differences, and nothing is expanded. Before any
-solve each output depends on the coordinates of a few bodies, so derivatives are kept sparse.
+The Jacobians of the implicit integrators (stiffness, damping and what constraints and multipliers add to them) are
+derivatives of blocks that SymPy has derived, taken here operation by operation: no differences, and nothing is
+expanded. Before any solve each output depends on the coordinates of a few bodies, so derivatives are kept sparse.
 """
 
 from __future__ import annotations
@@ -26,10 +26,8 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     inputs : iterable of (space, index)
         What to differentiate with respect to; structurally zero derivatives are absent.
 
-    Notes
-    -----
-    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope is that of its
-    piece.
+    Notes ----- At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope
+    is that of its piece.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}

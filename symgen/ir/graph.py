@@ -1,9 +1,9 @@
 """The expression graph: what is computed, apart from how it is laid out.
 
-A `Graph` holds operations on scalars, each stored once (hash-consing), so common subexpressions over everything that is
-built in one graph are shared without a separate pass. Structural zeros and ones vanish while building. Nodes are integers;
-a node's arguments always have smaller numbers, so increasing order is an evaluation order, and it depends on nothing but
-the order of construction: the same mechanism gives the same numbers in every process.
+A `Graph` holds operations on scalars, each stored once (hash-consing), so common subexpressions over everything that
+is built in one graph are shared without a separate pass. Structural zeros and ones vanish while building. Nodes are
+integers; a node's arguments always have smaller numbers, so increasing order is an evaluation order, and it depends
+on nothing but the order of construction: the same mechanism gives the same numbers in every process.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ _BITS = {"t": TIME, "q": POSITION, "v": VELOCITY, "p": PARAMETER}
 
 #: Operations that are not arithmetic; ``step(a, b)`` is 1.0 where a > b and 0.0 elsewhere, without a branch.
 FUNCTIONS = frozenset(
-    "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh abs min max sign lt le gt ge and or not where step".split()
+    (
+        "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh "
+        "abs min max sign lt le gt ge and or not where step"
+    ).split()
 )
 
 _FOLD: dict[str, Callable[[float], float]] = {

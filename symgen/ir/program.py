@@ -1,7 +1,7 @@
 """The program: everything that the emitter needs, and nothing about how it is printed.
 
-A block is a named piece of computation with declared outputs. Where its elements live (``y``, ``ydot``, ``p`` or a section
-of the scratch array ``w``) is said by symbolic targets; the emitter's layout turns them into element access.
+A block is a named piece of computation with declared outputs. Where its elements live (``y``, ``ydot``, ``p`` or a
+section of the scratch array ``w``) is said by symbolic targets; the emitter's layout turns them into element access.
 """
 
 from __future__ import annotations
@@ -157,8 +157,8 @@ class Correction:
     velocity : bool
         Whether velocities are corrected.
     metric : {"identity", "mass", "independent", "augmented"}
-        Norm in which the correction is smallest; ``independent`` keeps the independent coordinates, ``augmented`` is the
-        metric of M reached by iterations with M + a D^T D.
+        Norm in which the correction is smallest; ``independent`` keeps the independent coordinates, ``augmented`` is
+        the metric of M reached by iterations with M + a D^T D.
     """
 
     position: str = "none"

@@ -1,17 +1,16 @@
-"""Block algebra on the graph: vectors, the constraint matrix, solves. Method formulas are written against it."""
+"""The equations as a method sees them: named blocks, products and solves. Method formulas are written against it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import overload
 
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.graph import Graph
 from symgen.ir.program import STATUS, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
+from symgen.lower.vectors import Scalar, Sparse, Vector
 
 #: A pivot of S below this fraction of its diagonal entry is suspicious: rank is then decided on D D^T (design.md, 1).
 SUSPICIOUS = 1e-6
@@ -19,111 +18,6 @@ SUSPICIOUS = 1e-6
 SKIP = 1e-12
 #: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.
 WARN = 1e-4
-
-
-@dataclass(frozen=True)
-class Vector:
-    """A vector of nodes with elementwise arithmetic."""
-
-    graph: Graph
-    nodes: tuple[int, ...]
-
-    def __add__(self, other: Vector) -> Vector:
-        g = self.graph
-        return Vector(g, tuple(g.add(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
-
-    def __sub__(self, other: Vector) -> Vector:
-        g = self.graph
-        return Vector(g, tuple(g.sub(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
-
-    def times(self, other: Vector) -> Vector:
-        """Return the elementwise product."""
-        g = self.graph
-        return Vector(g, tuple(g.mul(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
-
-    def dot(self, other: Vector) -> Scalar:
-        """Return the inner product."""
-        return Scalar(self.graph, self.graph.dot(self.nodes, other.nodes))
-
-    def __iter__(self) -> Iterator[int]:
-        return iter(self.nodes)
-
-
-@dataclass(frozen=True)
-class Scalar:
-    """A scalar node with arithmetic, so that a method's formula reads like the textbook's."""
-
-    graph: Graph
-    node: int
-
-    def __add__(self, other: Scalar) -> Scalar:
-        return Scalar(self.graph, self.graph.add(self.node, other.node))
-
-    def __sub__(self, other: Scalar) -> Scalar:
-        return Scalar(self.graph, self.graph.sub(self.node, other.node))
-
-    @overload
-    def __mul__(self, other: Scalar) -> Scalar: ...
-    @overload
-    def __mul__(self, other: Vector) -> Vector: ...
-    def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
-        g = self.graph
-        if isinstance(other, Vector):
-            return Vector(g, tuple(g.mul(self.node, a) for a in other.nodes))
-        return Scalar(g, g.mul(self.node, other.node))
-
-    def __rmul__(self, factor: float) -> Scalar:
-        return Scalar(self.graph, self.graph.mul(self.graph.constant(factor), self.node))
-
-    def smaller(self, other: Scalar) -> Scalar:
-        """Return the smaller of two scalars."""
-        return Scalar(self.graph, self.graph.call("min", self.node, other.node))
-
-    def __pow__(self, exponent: int) -> Scalar:
-        return Scalar(self.graph, self.graph.power(self.node, self.graph.constant(float(exponent))))
-
-
-@dataclass(frozen=True)
-class Sparse:
-    """The constraint matrix D: for each row its (column, node) entries in increasing order of column."""
-
-    graph: Graph
-    rows: tuple[tuple[tuple[int, int], ...], ...]
-    columns: int
-
-    def __matmul__(self, x: Vector) -> Vector:
-        g = self.graph
-        return Vector(g, tuple(g.total(g.mul(e, x.nodes[j]) for j, e in row) for row in self.rows))
-
-    def scaled_columns(self, factors: Vector) -> Sparse:
-        """Return D with column j multiplied by factor j."""
-        g = self.graph
-        rows = tuple(tuple((j, g.mul(e, factors.nodes[j])) for j, e in row) for row in self.rows)
-        return Sparse(g, rows, self.columns)
-
-    def transposed(self, y: Vector) -> Vector:
-        """Return D^T y."""
-        g = self.graph
-        result = [g.zero] * self.columns
-        for row, factor in zip(self.rows, y.nodes, strict=True):
-            for j, e in row:
-                result[j] = g.add(result[j], g.mul(e, factor))
-        return Vector(g, tuple(result))
-
-    def neighbours(self, coupled: Sequence[frozenset[int]] | None = None) -> list[frozenset[int]]:
-        """Return, for each row, the other rows with which D W D^T has an entry.
-
-        `coupled` gives for each column those that W couples it with; None: W is diagonal.
-        """
-        by_column: dict[int, set[int]] = {}
-        for i, row in enumerate(self.rows):
-            for j, _ in row:
-                for k in (j,) if coupled is None else coupled[j]:
-                    by_column.setdefault(k, set()).add(i)
-        own = [{j for j, _ in row} for row in self.rows]
-        return [
-            frozenset(n for j in sorted(own[i]) for n in by_column.get(j, ()) if n != i) for i in range(len(self.rows))
-        ]
 
 
 @dataclass
@@ -193,7 +87,8 @@ class System:
         for block in self.equations.mass:
             if len(block.columns) == 1:
                 j = block.columns[0]
-                # two literals are divided while code is generated, so that a weight over its mass is g to the last digit
+                # two literals are divided while code is generated, so that a weight over its mass is g to the last
+                # digit
                 literal = g.value(x.nodes[j]) is not None and g.value(block.entries[0][0]) is not None
                 mass = block.entries[0][0]
                 result[j] = g.div(x.nodes[j], mass) if literal else g.mul(self.inverse_mass[j][j], x.nodes[j])
@@ -215,7 +110,7 @@ class System:
 
     @property
     def heavy_penalty(self) -> Scalar:
-        """Return 1e5 times the mean of M's diagonal: large enough for few iterations, small enough for few digits lost."""
+        """Return 1e5 times the mean of M's diagonal: few iterations, and few digits lost."""
         g = self.graph
         diagonal = [b.entries[i][i] for b in self.equations.mass for i in range(len(b.columns))]
         return Scalar(g, g.mul(g.constant(1e5 / max(1, len(diagonal))), g.total(diagonal)))
@@ -299,7 +194,7 @@ class System:
         return Vector(self.graph, tuple(self.schur.solve(self.graph, right.nodes)))
 
     def gram_factor(self, weight: Sequence[Mapping[int, int]] | None = None) -> Factor:
-        """Return the factor of D W D^T that decides rank: dependent rows get a reciprocal pivot of 0, no branch taken."""
+        """Return the factor of D W D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
         g = self.graph
 
         def reciprocal(_: int, pivot: int, diagonal: int) -> int:
@@ -311,7 +206,7 @@ class System:
         return factorise(g, self.gram(weight), self.order, reciprocal)
 
     def factor_with(self, rank: Factor, matrix: Mapping[tuple[int, int], int]) -> Factor:
-        """Return the factor of D W D^T in which those rows are skipped that `rank`, the factor of D D^T, finds dependent."""
+        """Return the factor of D W D^T without the rows that `rank`, the factor of D D^T, finds dependent."""
         g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:

@@ -4,7 +4,8 @@ Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also et
 
 - ``q' - N v + D^T eta``,
 - ``M v' + D^T lambda - f``,
-- the constraints at the level of the method: ``D v' - g - e lambda`` (acceleration), ``Phi`` (position, with ``D v - nu`` in
+- the constraints at the level of the method: ``D v' - g - e lambda`` (acceleration), ``Phi`` (position, with ``D v -
+  nu`` in
   nonholonomic rows), or ``D v - nu`` and ``Phi`` together (stabilised); ``Phi`` with the two other levels behind the
   equations for projections (projected).
 
@@ -16,8 +17,9 @@ from __future__ import annotations
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import STATUS, Block, Target
-from symgen.lower.algebra import System, Vector
+from symgen.lower.algebra import System
 from symgen.lower.hoist import Hoister
+from symgen.lower.vectors import Vector
 from symgen.methods._base import Descriptor
 
 
@@ -86,7 +88,7 @@ def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
 
 
 def _projected_rows(system: System, descriptor: Descriptor) -> list[int]:
-    """Return ``D v - nu`` and ``D v' - gamma`` where velocities and accelerations are projected, behind the equations."""
+    """Return ``D v - nu`` and ``D v' - gamma``, which stand behind the equations where both are projected."""
     if descriptor.level != "projected":
         return []
     assert descriptor.target is not None, "a projected descriptor has gamma as its target"

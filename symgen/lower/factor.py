@@ -1,7 +1,8 @@
 """Symmetric elimination on a pattern that is known while code is generated.
 
-The order is minimum degree; ties go to the row that waits for the fewest pivots before it (chains of dependent divisions are
-what a small factorisation costs), then to the smaller index: few fill-ins, and the same for ever. The factorisation is emitted for exactly that pattern; nothing is stored that is structurally zero.
+The order is minimum degree; ties go to the row that waits for the fewest pivots before it (chains of dependent
+divisions are what a small factorisation costs), then to the smaller index: few fill-ins, and the same for ever. The
+factorisation is emitted for exactly that pattern; nothing is stored that is structurally zero.
 """
 
 from __future__ import annotations

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
-from symgen.lower.algebra import SKIP, Sparse, System, Vector
+from symgen.lower.algebra import SKIP, System
 from symgen.lower.descriptor import descriptor_blocks
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
@@ -20,6 +20,7 @@ from symgen.lower.parts import (
     to_status,
     transposed_product,
 )
+from symgen.lower.vectors import Sparse, Vector
 from symgen.methods._base import Acceleration, Iteration, Method, multiplier_law
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
@@ -205,13 +206,13 @@ class _Builder:
     # -- metrics of corrections ----------------------------------------------------------------------------------------
 
     def mass_metric(self) -> None:
-        """Geometry and spread in the metric of M: S = D M^-1 D^T is factorised, rows being skipped as D D^T decides."""
+        """Add geometry and spread in the metric of M: S = D M^-1 D^T is factorised, rows being skipped as D D^T decides."""
         system = self.system
         rank = system.gram_factor()
         self._weighted(rank, system.factor_with(rank, system.gram(system.inverse_mass)), system.minv, "D M^-1 D^T", [])
 
     def independent_metric(self) -> None:
-        """Geometry and spread that change dependent coordinates only: W^-1 = P, a projector kept in ``dependent``."""
+        """Add geometry and spread that change dependent coordinates only: W^-1 = P, a projector kept in ``dependent``."""
         e, g, system = self.equations, self.system.graph, self.system
         self._dense()
         weight = [{j: g.input("dependent", j)} for j in range(e.nv)]
@@ -249,7 +250,7 @@ class _Builder:
         ]
 
     def augmented_metric(self) -> None:
-        """The mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
+        """Add the mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
 
         ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` for the residual r of
         positions or velocities; delta and lambda are kept in sections of their own.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import STATUS, Block, Entry, Layout, ModelProgram, Target
-from symgen.lower.algebra import System, Vector
+from symgen.lower.algebra import System
 from symgen.lower.hoist import Hoister
 from symgen.lower.parts import (
     Outputs,
@@ -18,6 +18,7 @@ from symgen.lower.parts import (
     spread,
     to_status,
 )
+from symgen.lower.vectors import Vector
 
 
 def lower_model(equations: Equations, digest: str) -> ModelProgram:
@@ -95,6 +96,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
 
 
 def measure(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -> Block:
+    """Return the block that measures a state after its geometry."""
     g = hoister.graph
     outputs: Outputs = []
     residuals: list[int] = []
@@ -111,6 +113,7 @@ def measure(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -
 
 
 def observe(hoister: Hoister, system: System) -> Block:
+    """Return the block of what is reported at outputs only."""
     g, e = system.graph, system.equations
     accelerations = Vector(g, tuple(g.input("ydot", e.nq + i) for i in range(e.nv)))
     outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(system.D @ accelerations - system.gamma)]

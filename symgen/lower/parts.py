@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 from symgen.formulate.equations import Equations
 from symgen.ir.graph import Graph
 from symgen.ir.program import STATUS, Block, Entry, Target
-from symgen.lower.algebra import SKIP, System, Vector
+from symgen.lower.algebra import SKIP, System
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
+from symgen.lower.vectors import Vector
 
 Outputs = list[tuple[Target, int]]
 
@@ -61,8 +62,9 @@ def geometry_outputs(system: System, jacobian: Sequence[Entry]) -> Outputs:
 
 
 def pivot_outputs(system: System, factor: Factor) -> Outputs:
-    """Relative pivots (the squared sine of the angle between a row and those eliminated before it), the rank they decide,
-    and the smallest one over the rows that are not masked.
+    """Return relative pivots, the rank they decide, and the smallest of rows that are not masked.
+
+    A relative pivot is the squared sine of the angle between a row and those eliminated before it.
     """
     g = system.graph
     outputs: Outputs = []

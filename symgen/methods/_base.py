@@ -1,7 +1,7 @@
 """What a constraint stabilisation method is: an acceleration law, a correction after each accepted step, parameters.
 
-A method is a formula over named blocks (`symgen.lower.algebra.System`), lowered like everything else, so one file serves
-every layout of the emitted code.
+A method is a formula over named blocks (`symgen.lower.algebra.System`), lowered like everything else, so one file
+serves every layout of the emitted code.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import Correction
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import Scalar, System, Vector
+    from symgen.lower.algebra import System
+    from symgen.lower.vectors import Scalar, Vector
 
 
 @dataclass(frozen=True)
@@ -103,8 +104,8 @@ class Descriptor:
     Parameters
     ----------
     level : {"acceleration", "position", "stabilised", "projected"}
-        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; or ``Phi = 0`` with
-        what projections to the other levels need.
+        ``D v' = g + e lambda``; ``Phi = 0``; ``Phi = 0`` and ``D v = nu`` with ``q' = N (v - D^T eta)``; or ``Phi =
+        0`` with what projections to the other levels need.
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional
@@ -187,7 +188,7 @@ class Method(ABC):
         return options.get("weight") == "mass"
 
     def stem(self, options: Mapping[str, str], implicit: bool = False) -> str:
-        """Return the file stem of the emitted module: the method, options that are not the default, and the form if implicit."""
+        """Return the file stem of the emitted module: the method, options off their defaults, the form if implicit."""
         chosen = (options[o.name] for o in self.options if options[o.name] != o.values[0])
         parts = [self.name, *chosen, *(("implicit",) if implicit else ())]
         return "_".join(parts).replace("-", "_")
@@ -218,9 +219,10 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
 def augmented_iteration(system: System, penalty: Scalar, target: Vector) -> Iteration:
     """Return the augmented Lagrangian iteration for D v' = target.
 
-    ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``,
-    ``lambda += a (D v' - target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo, Garcia de
-    Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a times it.
+    ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -
+    target)``, from ``v' = M^-1 f`` (0 where M is singular) and ``lambda = 0``. It is the textbook's iteration (Bayo,
+    Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
+    times it.
     """
     factor = system.keep_factor(system.augmented_factor(penalty))
     constraints = system.keep_constraints()

@@ -7,17 +7,18 @@ from typing import TYPE_CHECKING
 from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System, Vector
+    from symgen.lower.algebra import System
+    from symgen.lower.vectors import Vector
 
 
 class AdaptiveBaumgarte(MultiplierMethod):
     """`baumgarte` with ``alpha = beta = min(gain, a / h)``, h being the step that is taken.
 
-    Fixed gains are weak for one step and unstable for another one; Chang and Nikravesh adapt them while the run goes on, Lin
-    and Huang take them from the integrator's region of stability as a multiple of 1 / h. Both readings meet here: a / h
-    keeps the root of the violations inside the region of every explicit integrator (whose real boundary is at least 2),
-    whatever the step, and `gain` bounds it where steps are short: gains that grow like 1 / h feed the stages' own violations
-    back and cost the integrator its order.
+    Fixed gains are weak for one step and unstable for another one; Chang and Nikravesh adapt them while the run goes
+    on, Lin and Huang take them from the integrator's region of stability as a multiple of 1 / h. Both readings meet
+    here: a / h keeps the root of the violations inside the region of every explicit integrator (whose real boundary
+    is at least 2), whatever the step, and `gain` bounds it where steps are short: gains that grow like 1 / h feed the
+    stages' own violations back and cost the integrator its order.
     """
 
     name = "adaptive-baumgarte"

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class DirectCorrection(MultiplierMethod):
-    """As `lagrange`; after each accepted step ``dv = -D^+ Phi``, ``q <- q + N dv`` until small, then ``v -= D^+ (D v - nu)``.
+    """As `lagrange`; after each step ``dv = -D^+ Phi``, ``q <- q + N dv`` until small, then ``v -= D^+ (D v - nu)``.
 
     ``D^+ = W^-1 D^T (D W^-1 D^T)^-1``: with weight W = 1 the Moore-Penrose inverse of the source; with W = M the
     mass-orthogonal projection. The minimum-norm metric weighs 1 rad like 1 m: well defined, not unit-invariant.

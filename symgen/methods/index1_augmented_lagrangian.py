@@ -23,7 +23,10 @@ class Index1AugmentedLagrangian(Method):
 
     name = "index1-augmented-lagrangian"
     summary = "iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities"
-    reference = "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
+    reference = (
+        "Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; "
+        "Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280"
+    )
     parameters = (
         PENALTY,
         ITERATION_TOLERANCE,

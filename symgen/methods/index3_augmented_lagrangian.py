@@ -12,11 +12,11 @@ if TYPE_CHECKING:
 
 
 class Index3AugmentedLagrangian(MultiplierMethod):
-    """``M v' + D^T (lambda + a Phi) = f`` solved for q at the end of a trapezoidal step, ``lambda += a Phi`` until Phi = 0.
+    """``M v' + D^T (lambda + a Phi) = f`` at the end of a trapezoidal step, ``lambda += a Phi`` until Phi = 0.
 
     The leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)`` has the exact stiffness K and damping C of forces and
-    constraints. Velocities and accelerations, which the trapezoidal rule leaves off their constraints, are projected with
-    W. With h^2/4 a D M^-1 D^T well above 1 a few iterations do; redundant constraints need no care.
+    constraints. Velocities and accelerations, which the trapezoidal rule leaves off their constraints, are projected
+    with W. With h^2/4 a D M^-1 D^T well above 1 a few iterations do; redundant constraints need no care.
     """
 
     name = "index3-augmented-lagrangian"

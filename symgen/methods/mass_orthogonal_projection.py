@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 
 
 class MassOrthogonalProjection(MultiplierMethod):
-    """As `lagrange`; after each step ``(M + a D^T D) dv = -M delta - D^T (a Phi + lambda)`` is iterated for q, then for v.
+    """As `lagrange`; after each step q, then v, by ``(M + a D^T D) dv = -M delta - D^T (a Phi + lambda)``, iterated.
 
-    ``delta += dv``, ``lambda += a Phi``: the change is orthogonal to the admissible motions in the metric of M. Where D has
-    full rank it is `direct-correction` with ``weight=mass``, reached without inverting D M^-1 D^T.
+    ``delta += dv``, ``lambda += a Phi``: the change is orthogonal to the admissible motions in the metric of M. Where
+    D has full rank it is `direct-correction` with ``weight=mass``, reached without inverting D M^-1 D^T.
     """
 
     name = "mass-orthogonal-projection"

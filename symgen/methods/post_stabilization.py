@@ -15,13 +15,16 @@ if TYPE_CHECKING:
 class PostStabilization(MultiplierMethod):
     """As `lagrange`; after each step once ``q -= N D^+ Phi`` and once ``v -= D^+ (D v - nu)``.
 
-    The stabilisation with F = D^T (D D^T)^-1 of Ascher, Chin and Reich: one step towards the constraints, which keeps the
-    violation at the square of what a step adds, at a fixed price.
+    The stabilisation with F = D^T (D D^T)^-1 of Ascher, Chin and Reich: one step towards the constraints, which keeps
+    the violation at the square of what a step adds, at a fixed price.
     """
 
     name = "post-stabilization"
     summary = "one correction of positions and velocities after each step, not iterated"
-    reference = "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
+    reference = (
+        "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "
+        "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
+    )
     options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"), SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class VelocityProjection(MultiplierMethod):
     """As `lagrange`; after each step ``v -= D^+ (D v - nu)``.
 
-    The velocity constraint holds to rounding, so positions violate theirs only by what integrating exact velocities adds:
-    linear growth instead of the quadratic one of `lagrange`.
+    The velocity constraint holds to rounding, so positions violate theirs only by what integrating exact velocities
+    adds: linear growth instead of the quadratic one of `lagrange`.
     """
 
     name = "velocity-projection"

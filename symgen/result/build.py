@@ -12,8 +12,9 @@ from symgen.result.result import Rank, Result, Seconds
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.api import Model, Plan, Settings
+    from symgen.api import Model
     from symgen.model import CompiledModel
+    from symgen.plan import Plan, Settings
     from symgen.runtime.run import Outcome
 
 

@@ -17,8 +17,8 @@ from symgen.runtime import abi
 from symgen.runtime.run import WARN, integrate
 
 if TYPE_CHECKING:
-    from symgen.api import Plan, Settings
     from symgen.model import CompiledModel
+    from symgen.plan import Plan, Settings
     from symgen.runtime.run import Outcome
 
 #: Two runs agree when no coordinate differs by more than this, times the largest coordinate (at least 1).

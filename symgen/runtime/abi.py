@@ -24,7 +24,8 @@ MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 
-# -- positions in the status section at the beginning of w, and in iw ---------------------------------------------------
+# -- positions in the status section at the beginning of w, and in iw
+# ---------------------------------------------------
 PHI = STATUS.index("position_violation")
 DRIFT = STATUS.index("velocity_violation")
 KINETIC = STATUS.index("kinetic")
@@ -38,11 +39,13 @@ POWER = STATUS.index("power")
 PROBING = COUNTERS.index("probing")
 N_COUNTERS = len(COUNTERS)
 
-# -- control: integers shared with the thread that watches a run ---------------------------------------------------------
+# -- control: integers shared with the thread that watches a run
+# ---------------------------------------------------------
 STOP, STEPS, REJECTED, EVALUATIONS, OUTPUTS, EVENTS, IN_ZONE, LAST_RANK, JACOBIANS, NEWTON_ITERATIONS = range(10)
 N_CONTROL = 10
 
-# -- gauges: floating-point numbers a run keeps --------------------------------------------------------------------------
+# -- gauges: floating-point numbers a run keeps
+# --------------------------------------------------------------------------
 (
     TIME,  # how far the run is
     MAX_PHI,  # largest |Phi| over accepted steps and outputs
@@ -70,7 +73,8 @@ EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)
 N_EVENT = 4
 MAX_EVENTS = 1000
 
-# -- how a loop ended -----------------------------------------------------------------------------------------------------
+# -- how a loop ended
+# -----------------------------------------------------------------------------------------------------
 DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP, NEWTON = range(9)
 
 REASONS = {

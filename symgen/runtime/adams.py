@@ -1,8 +1,8 @@
 """The loop of Adams-Bashforth-Moulton predictor-corrector schemes with derivatives at unequal distances.
 
-Coefficients are integrals of the Lagrange polynomials through the past derivatives, by Gauss' quadrature that is exact for
-them, so one loop serves constant and varying steps. The derivative kept for a time is evaluated at the corrected state: a
-correction enters the history instead of spoiling it.
+Coefficients are integrals of the Lagrange polynomials through the past derivatives, by Gauss' quadrature that is
+exact for them, so one loop serves constant and varying steps. The derivative kept for a time is evaluated at the
+corrected state: a correction enters the history instead of spoiling it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.explicit import store
+from symgen.runtime.steps import store
 from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 
@@ -100,10 +100,8 @@ def adams_steps(
     room : Array
         Working memory.
 
-    Notes
-    -----
-    A run with constant steps starts with the classical Runge-Kutta scheme; one with varying steps starts at order 1 with a
-    short step and raises the order by one with every accepted step.
+    Notes ----- A run with constant steps starts with the classical Runge-Kutta scheme; one with varying steps starts
+    at order 1 with a short step and raises the order by one with every accepted step.
     """
     ny = y.shape[0]
     n_error = ny - 1
@@ -168,7 +166,8 @@ def adams_steps(
             if rhs(following, predicted, p, w, iw, rate) != 0:
                 confirm(following, predicted, p, w, iw, rate)
             control[_EVALUATIONS] += 1
-            # the corrector has the new derivative in front; with varying steps it is of one order more than the predictor
+            # the corrector has the new derivative in front; with varying steps it is of one order more than the
+            # predictor
             corrected = used if adaptive == 1 else used - 1
             last = past[corrected]
             for j in range(corrected, 0, -1):

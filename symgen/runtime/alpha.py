@@ -5,8 +5,8 @@ With the algorithmic acceleration a,
 - ``q1 = q0 + h N v0 + h^2 (1/2 - beta) a0 + h^2 beta a1``, ``v1 = v0 + h (1 - gamma) a0 + h gamma a1``,
 - ``(1 - alpha_m) a1 + alpha_m a0 = (1 - alpha_f) v1' + alpha_f v0'``,
 
-the equations of motion and the constraints, at position or acceleration level, hold at the end of the step (Arnold, Bruls
-2007). Unknowns of the Newton iteration are v1' and lambda.
+the equations of motion and the constraints, at position or acceleration level, hold at the end of the step (Arnold,
+Bruls 2007). Unknowns of the Newton iteration are v1' and lambda.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.dense import eliminate, substitute
-from symgen.runtime.explicit import store
+from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
 
@@ -81,10 +81,8 @@ def alpha_steps(
     room, rows : Array
         Working memory.
 
-    Notes
-    -----
-    The algorithmic acceleration starts with ``a0 = v0' + (alpha_m - alpha_f) h v0''``: with a0 = v0' the multipliers would
-    start with an error of order one.
+    Notes ----- The algorithmic acceleration starts with ``a0 = v0' + (alpha_m - alpha_f) h v0''``: with a0 = v0' the
+    multipliers would start with an error of order one.
     """
     width, ny, size = nq + nv, nq + nv + 1, n - nq
     y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)

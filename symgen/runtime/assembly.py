@@ -203,7 +203,7 @@ def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | 
 
 
 def has_light_bodies(compiled: CompiledModel, start: Start) -> bool:
-    """Whether a pivot of S is suspiciously small at the start although D D^T finds no more dependent rows than are masked.
+    """Whether a pivot of S is suspiciously small at the start although D D^T finds no row dependent.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Arrays without ownership, for calls of emitted functions.
 
-Numba counts references to an array's memory whenever a function hands the array on, with atomic operations that cost more
-than a quarter of a small right-hand side. A bare array has no owner to count for. The memory must outlive it: loops only
-make bare what their caller holds.
+Numba counts references to an array's memory whenever a function hands the array on, with atomic operations that cost
+more than a quarter of a small right-hand side. A bare array has no owner to count for. The memory must outlive it:
+loops only make bare what their caller holds.
 """
 
 from __future__ import annotations

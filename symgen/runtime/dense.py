@@ -1,4 +1,4 @@
-"""Dense elimination for the Newton matrices of implicit stages, in loops that compile in a fraction of LAPACK's time."""
+"""Dense elimination for Newton matrices, in loops that compile in a fraction of LAPACK's time."""
 
 from __future__ import annotations
 

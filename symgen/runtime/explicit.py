@@ -1,9 +1,10 @@
 """Loops of explicit Runge-Kutta schemes, driven by the tableau: one compilation serves all schemes and all models.
 
 The state is projected after each accepted step only; the error estimate belongs to the unprojected pair; output times
-within a step are interpolated between unprojected ends (adaptive) or reached by a shortened step that is not propagated
-(fixed), and each output is then projected. Stage derivatives live in one flat buffer: views of rows cost more than a stage. All working memory comes from outside in
-`room` and is handed to emitted functions without ownership (`symgen.runtime.bare`).
+within a step are interpolated between unprojected ends (adaptive) or reached by a shortened step that is not
+propagated (fixed), and each output is then projected. Stage derivatives live in one flat buffer: views of rows cost
+more than a stage. All working memory comes from outside in `room` and is handed to emitted functions without
+ownership (`symgen.runtime.bare`).
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
+from symgen.runtime.steps import combine, error_norm, store
 from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 
@@ -29,79 +31,6 @@ _CORRECTION, _TINY = abi.CORRECTION, abi.TINY_STEP
 _IN_ZONE, _FALL, _LAST_SINE = abi.IN_ZONE, abi.FALL, abi.LAST_SINE
 _STEP, _PHI, _STEP_STATUS, _PROBING = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PROBING
 _N_STATUS = abi.RANK + 1
-
-
-@jit()
-def store(k: int, y: Any, w: Any, states: Any, status: Any) -> None:
-    """Write output `k`: the state and what ``accept`` measured."""
-    for i in range(y.shape[0]):
-        states[k, i] = y[i]
-    for i in range(_N_STATUS):
-        status[k, i] = w[i]
-
-
-@jit()
-def combine(n: int, h: float, first: int, last: int, column: Any, value: Any, y: Any, stages: Any, out: Any) -> None:
-    """Set out = y + h sum of value times stage, over the entries from `first` to `last` of a packed tableau."""
-    k = first
-    if k == last:
-        for i in range(n):
-            out[i] = y[i]
-        return
-    if (last - first) % 2 == 1:
-        f0 = h * value[k]
-        o0 = column[k] * n
-        for i in range(n):
-            out[i] = y[i] + f0 * stages[o0 + i]
-        k += 1
-    else:
-        f0 = h * value[k]
-        o0 = column[k] * n
-        f1 = h * value[k + 1]
-        o1 = column[k + 1] * n
-        for i in range(n):
-            out[i] = y[i] + (f0 * stages[o0 + i] + f1 * stages[o1 + i])
-        k += 2
-    while k < last:
-        f0 = h * value[k]
-        o0 = column[k] * n
-        f1 = h * value[k + 1]
-        o1 = column[k + 1] * n
-        for i in range(n):
-            out[i] += f0 * stages[o0 + i] + f1 * stages[o1 + i]
-        k += 2
-
-
-@jit()
-def error_norm(
-    n: int,
-    size: int,
-    h: float,
-    weights: Any,
-    count: int,
-    width: int,
-    stages: Any,
-    y: Any,
-    new: Any,
-    rtol: float,
-    atol: float,
-) -> float:
-    """Weighted root mean square of h times the error weights; two estimates are combined as Hairer does."""
-    first = second = 0.0
-    for i in range(n):
-        scale = atol + rtol * max(abs(y[i]), abs(new[i]))
-        a = b = 0.0
-        for s in range(width):
-            a += weights[s] * stages[s * size + i]
-            if count == 2:
-                b += weights[width + s] * stages[s * size + i]
-        first += (a / scale) ** 2
-        second += (b / scale) ** 2
-    if count == 1:
-        return abs(h) * math.sqrt(first / n)
-    if first == 0.0:
-        return 0.0
-    return abs(h) * first / math.sqrt((first + 0.01 * second) * n)
 
 
 @jit(
@@ -260,8 +189,8 @@ def adaptive_steps(
 ) -> int:
     """Integrate with steps chosen from the error estimate; outputs are interpolated.
 
-    ``h`` 0 asks for Hairer's choice of a first step. ``dense`` holds the weights of the powers of the interpolant, stage
-    by stage (see `symgen.integrators._tableau.Tableau.dense`).
+    ``h`` 0 asks for Hairer's choice of a first step. ``dense`` holds the weights of the powers of the interpolant,
+    stage by stage (see `symgen.integrators._tableau.Tableau.dense`).
     """
     n = y.shape[0]
     n_error = n - 1  # the work is not controlled
@@ -317,8 +246,8 @@ def adaptive_steps(
     while t < until:
         if control[_STOP] != 0:
             return _STOPPED
-        # inside the zone around a singular position the estimate sees noise: the zone is crossed in one step, and not so
-        # that a stage at half the step meets its middle
+        # inside the zone around a singular position the estimate sees noise: the zone is crossed in one step, and not
+        # so that a stage at half the step meets its middle
         crossing = control[_IN_ZONE] == 1 and gauges[_FALL] > 0.0
         before = h
         h = approach(min(h, h_max), gauges)
@@ -400,7 +329,8 @@ def adaptive_steps(
             store(out, y, w, states, status)
             out += 1
         control[_OUTPUTS] = out
-        # a correction changes the state: the stage at the end of the step is no longer that of the next step's beginning
+        # a correction changes the state: the stage at the end of the step is no longer that of the next step's
+        # beginning
         if bits & 2 or not end_known:
             if rhs(t, y, p, w, iw, first) != 0:
                 confirm(t, y, p, w, iw, first)

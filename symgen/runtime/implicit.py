@@ -1,8 +1,8 @@
 """The loop of implicit Runge-Kutta schemes on the descriptor form F(t, y, k) = 0.
 
-Stages are solved one after the other where the scheme allows (diagonally implicit), else together. Newton's iteration uses the
-exact Jacobian that was emitted with the residual, evaluated at the stage's own iterate and kept while it converges fast. An
-output between two steps is reached by a shortened step of its own that is not propagated.
+Stages are solved one after the other where the scheme allows (diagonally implicit), else together. Newton's iteration
+uses the exact Jacobian that was emitted with the residual, evaluated at the stage's own iterate and kept while it
+converges fast. An output between two steps is reached by a shortened step of its own that is not propagated.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.dense import eliminate, substitute
-from symgen.runtime.explicit import store
+from symgen.runtime.steps import store
 from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
 

@@ -1,4 +1,4 @@
-"""Quantities that are wanted at outputs only: accelerations, multipliers, joint coordinates, acceleration violations."""
+"""Quantities wanted at outputs only: accelerations, multipliers, joint coordinates, residuals."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """The loop of the index-3 augmented Lagrangian method with projections: trapezoidal rule in positions.
 
-With ``v1 = 2/h (q1 - q0) - v0`` and ``a1 = 4/h^2 (q1 - q0) - 4/h v0 - a0`` the equations of motion at the end of the step are
-solved for q1 with the leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every
-iteration. Then velocities and accelerations are projected with the same matrix,
-``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``, iterated, since one pass leaves a residual.
+With ``v1 = 2/h (q1 - q0) - v0`` and ``a1 = 4/h^2 (q1 - q0) - 4/h v0 - a0`` the equations of motion at the end of the
+step are solved for q1 with the leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised
+by a Phi in every iteration. Then velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4
+a D^T D) v* + h^2/4 a D^T nu``, iterated, since one pass leaves a residual.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.dense import eliminate, substitute
-from symgen.runtime.explicit import store
+from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
 

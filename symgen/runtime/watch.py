@@ -1,4 +1,4 @@
-"""What happens at each accepted state, whatever the integrator: measures, limits and passages near singular positions."""
+"""What happens at each accepted state: measures, limits and passages near singular positions."""
 
 from __future__ import annotations
 
@@ -84,8 +84,8 @@ def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: 
     pivot, rank = w[_PIVOT], int(w[_RANK])
     if pivot < gauges[_SMALLEST]:
         gauges[_SMALLEST] = pivot
-    # the root of a pivot is the sine of an angle: it falls to 0 and rises again in a straight line, so a step that would
-    # have met 0 has passed a singular position even if both its ends are far from it
+    # the root of a pivot is the sine of an angle: it falls to 0 and rises again in a straight line, so a step that
+    # would have met 0 has passed a singular position even if both its ends are far from it
     sine = math.sqrt(max(pivot, 0.0))
     elapsed = t - gauges[_LAST_TIME]
     met = gauges[_FALL] > 0.0 and gauges[_LAST_SINE] - gauges[_FALL] * elapsed < math.sqrt(gauges[_WARN])

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from symgen.api import Model, Plan, Settings, load, make_plan
+from symgen.api import Model, load
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.plan import Plan, Settings, make_plan
 from symgen.result.judge import judge
 from symgen.result.result import FAILED, finite
 from symgen.runtime import abi
@@ -196,8 +197,8 @@ def compare(
     model : str, path, Mechanism or Model
         What to run.
     methods, integrators : sequence of str
-        Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not suit each
-        other are left out.
+        Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not
+        suit each other are left out.
     steps : sequence of float
         Constant steps [s] of integrators without error estimate; multiples of the mechanism's own unless given.
     rtols : sequence of float
@@ -209,7 +210,7 @@ def compare(
     output_step : float, optional
         Time between the outputs that are compared [s].
     parameters, options : mapping
-        As for `symgen.api.Settings`.
+        As for `symgen.plan.Settings`.
     progress : callable, optional
         Called with what is being done, how far it is, and how much there is in all.
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.api import Settings, make_plan
+from symgen.plan import Settings, make_plan
 from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
 from symgen.runtime.run import RankEvent, integrate
 

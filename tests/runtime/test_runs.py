@@ -12,10 +12,11 @@ from support.kinds import ADAPTIVE, INTEGRATORS, METHODS
 from support.models import parallelogram
 from support.runs import run
 
-from symgen.api import Settings, load, make_plan
+from symgen.api import load
 from symgen.catalogue import raw
 from symgen.integrators import INTEGRATORS as SCHEMES
 from symgen.methods import METHODS as KNOWN
+from symgen.plan import Settings, make_plan
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
 from symgen.store.stats import cache_stats

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from symgen.api import Model, Settings, make_plan
+from symgen.api import Model
+from symgen.plan import Settings, make_plan
 from symgen.runtime.run import Outcome, integrate
 
 

@@ -1,0 +1,56 @@
+"""The pairs of method and integrator that fit together, from the forms both declare, as the table of ``docs/pairs.md``.
+
+python -m benchmarks.pairs > docs/pairs.md
+"""
+
+from __future__ import annotations
+
+import sys
+
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
+
+INTRODUCTION = """# Pairs of method and integrator
+
+Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve ([integrators.md](integrators.md)).
+**D** marks a method's default integrator, + the others that fit; anything else is refused with a sentence that names those that fit.
+"""
+
+
+def forms_in_common(method: str, integrator: str) -> tuple[str, ...]:
+    """Return the problem forms that the method gives and the integrator solves."""
+    solved = INTEGRATORS.get(integrator).forms
+    return tuple(form for form in METHODS.get(method).forms if form in solved)
+
+
+def allowed_pairs() -> list[tuple[str, str]]:
+    """Return every (method, integrator) that fits, in the order of the tables."""
+    return [(m, i) for m in METHODS.names for i in integrators() if forms_in_common(m, i)]
+
+
+def integrators() -> list[str]:
+    """Return the integrators, explicit ones first, by order."""
+    return sorted(INTEGRATORS.names, key=lambda n: ("ode" not in INTEGRATORS.get(n).forms, INTEGRATORS.get(n).order, n))
+
+
+def page() -> str:
+    """Return the whole page."""
+    columns = integrators()
+    lines = [
+        INTRODUCTION,
+        "| method | forms | " + " | ".join(f"`{c}`" for c in columns) + " |",
+        "| --- | --- |" + " --- |" * len(columns),
+    ]
+    for name in METHODS.names:
+        method = METHODS.get(name)
+        marks = [
+            "**D**" if c == method.default_integrator else "+" if forms_in_common(name, c) else "" for c in columns
+        ]
+        lines.append(f"| `{name}` | {', '.join(method.forms)} | " + " | ".join(marks) + " |")
+    count = len(allowed_pairs())
+    lines.append(f"\n{count} of {len(METHODS.names) * len(columns)} pairs fit.\n")
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(page())
