@@ -206,13 +206,13 @@ class _Builder:
     # -- metrics of corrections ----------------------------------------------------------------------------------------
 
     def mass_metric(self) -> None:
-        """Add geometry and spread in the metric of M: S = D M^-1 D^T is factorised, rows being skipped as D D^T decides."""
+        """Add geometry and spread in the metric of M: S = D M^-1 D^T, rows skipped as D D^T decides."""
         system = self.system
         rank = system.gram_factor()
         self._weighted(rank, system.factor_with(rank, system.gram(system.inverse_mass)), system.minv, "D M^-1 D^T", [])
 
     def independent_metric(self) -> None:
-        """Add geometry and spread that change dependent coordinates only: W^-1 = P, a projector kept in ``dependent``."""
+        """Add geometry and spread that change dependent coordinates only: W^-1 = P, in ``dependent``."""
         e, g, system = self.equations, self.system.graph, self.system
         self._dense()
         weight = [{j: g.input("dependent", j)} for j in range(e.nv)]
