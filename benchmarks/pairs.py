@@ -12,8 +12,9 @@ from symgen.methods import METHODS
 
 INTRODUCTION = """# Pairs of method and integrator
 
-Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve ([integrators.md](integrators.md)).
-**D** marks a method's default integrator, + the others that fit; anything else is refused with a sentence that names those that fit.
+Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve
+([integrators.md](integrators.md)). **D** marks a method's default integrator, + the others that fit; anything else is
+refused with a sentence that names those that fit.
 """
 
 

@@ -106,7 +106,7 @@ class Tableau:
         confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
         y, p, w, iw = state.y, state.p, state.w, state.iw
         common = (law.rhs, confirm, law.accept, *self.packed(), self.stages, compiled.info.nq)
-        room = np.zeros((self.stages + 3 + len(self.extra_c)) * len(y))  # all stages, and two states
+        room = np.zeros((self.stages + 5 + len(self.extra_c)) * len(y))  # all stages, two states, two error sums
         if not spec.adaptive:
             from symgen.runtime.explicit import fixed_steps
 

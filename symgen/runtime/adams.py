@@ -56,6 +56,81 @@ def advance(ny: int, count: int, coefficients: Any, history: Any, y: Any, out: A
             out[i] += coefficients[j] * history[j * ny + i]
 
 
+@jit()
+def classical(
+    rhs: Any,
+    confirm: Any,
+    t: float,
+    h: float,
+    y: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    begun: Any,
+    out: Any,
+    stage: Any,
+    rate: Any,
+) -> int:
+    """One step of the classical Runge-Kutta scheme from y, where the derivative is `begun`; return its evaluations."""
+    ny = y.shape[0]
+    for i in range(ny):
+        out[i] = y[i] + h / 6.0 * begun[i]
+        rate[i] = begun[i]
+    for s in range(3):
+        ahead = 0.5 * h if s < 2 else h
+        for i in range(ny):
+            stage[i] = y[i] + ahead * rate[i]
+        if rhs(t + ahead, stage, p, w, iw, rate) != 0:
+            confirm(t + ahead, stage, p, w, iw, rate)
+        weight = h / 3.0 if s < 2 else h / 6.0
+        for i in range(ny):
+            out[i] += weight * rate[i]
+    return 3
+
+
+@jit()
+def extrapolated(
+    rhs: Any,
+    confirm: Any,
+    t: float,
+    h: float,
+    y: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    begun: Any,
+    out: Any,
+    stage: Any,
+    before: Any,
+    rate: Any,
+) -> int:
+    """One step of order 8: modified midpoint rules with 2, 4, 6 and 8 parts, extrapolated (Gragg, Bulirsch, Stoer)."""
+    ny, evaluations = y.shape[0], 0
+    for i in range(ny):
+        out[i] = 0.0
+    for parts in range(2, 9, 2):
+        factor = 1.0  # of this result in the extrapolated one
+        for other in range(2, 9, 2):
+            if other != parts:
+                factor *= parts**2 / (parts**2 - other**2)
+        ahead = h / parts
+        for i in range(ny):
+            before[i] = y[i]
+            stage[i] = y[i] + ahead * begun[i]
+        for k in range(1, parts + 1):
+            if rhs(t + k * ahead, stage, p, w, iw, rate) != 0:
+                confirm(t + k * ahead, stage, p, w, iw, rate)
+            evaluations += 1
+            if k < parts:
+                for i in range(ny):
+                    following = before[i] + 2.0 * ahead * rate[i]
+                    before[i] = stage[i]
+                    stage[i] = following
+        for i in range(ny):
+            out[i] += 0.5 * factor * (stage[i] + before[i] + ahead * rate[i])
+    return evaluations
+
+
 @jit(
     _I8(
         *(abi.RHS, abi.RHS, abi.ACCEPT, _I8, _I8, _I8, _A, _A, _A, _A, _A, _I),
@@ -100,8 +175,11 @@ def adams_steps(
     room : Array
         Working memory.
 
-    Notes ----- A run with constant steps starts with the classical Runge-Kutta scheme; one with varying steps starts
-    at order 1 with a short step and raises the order by one with every accepted step.
+    Notes
+    -----
+    A run with constant steps starts with one-step schemes: the classical Runge-Kutta scheme up to order 4, extrapolated
+    midpoint rules beyond, so that the start keeps the order. One with varying steps starts at order 1 with a short step
+    and raises the order by one with every accepted step.
     """
     ny = y.shape[0]
     n_error = ny - 1
@@ -146,20 +224,17 @@ def adams_steps(
         w[_STEP_STATUS] = step
         used = min(count, order)
         if adaptive == 0 and count < order:
-            # no history yet: the classical Runge-Kutta scheme of order 4
-            for i in range(ny):
-                trial[i] = y[i] + step / 6.0 * history[i]
-                rate[i] = history[i]
-            for s in range(3):
-                part_of_step = 0.5 * step if s < 2 else step
-                for i in range(ny):
-                    predicted[i] = y[i] + part_of_step * rate[i]
-                if rhs(t + part_of_step, predicted, p, w, iw, rate) != 0:
-                    confirm(t + part_of_step, predicted, p, w, iw, rate)
-                weight = step / 3.0 if s < 2 else step / 6.0
-                for i in range(ny):
-                    trial[i] += weight * rate[i]
-            control[_EVALUATIONS] += 3
+            # no history yet
+            if order > 4:
+                spare = part(history, (_DEPTH - 1) * ny, ny)  # free as long as the history is short
+                evaluations = extrapolated(
+                    rhs, confirm, t, step, y, p, w, iw, part(history, 0, ny), trial, predicted, spare, rate
+                )
+            else:
+                evaluations = classical(
+                    rhs, confirm, t, step, y, p, w, iw, part(history, 0, ny), trial, predicted, rate
+                )
+            control[_EVALUATIONS] += evaluations
         else:
             weights(used, past, t, following, nodes, factors, coefficients)
             advance(ny, used, coefficients, history, y, predicted)

@@ -200,6 +200,7 @@ def adaptive_steps(
     gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
     column, value = bare(column), bare(value)
     trial, new, stages = part(room, 0, n), part(room, n, n), part(room, 2 * n, n_all * n)
+    sums = part(room, (2 + n_all) * n, 2 * n)
     first, last = part(stages, 0, n), part(stages, n_stages * n, n)
     kept = np.zeros(_N_STATUS)
     exponent = -1.0 / (error_order + 1.0)
@@ -270,7 +271,7 @@ def adaptive_steps(
             if rhs(t + h, new, p, w, iw, last) != 0:
                 confirm(t + h, new, p, w, iw, last)
             control[_EVALUATIONS] += 1
-        error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol)
+        error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol, sums)
         if not (error <= 1.0 or (crossing and math.isfinite(error))):
             control[_REJECTED] += 1
             h *= max(0.2, 0.9 * error**exponent) if math.isfinite(error) else 0.1

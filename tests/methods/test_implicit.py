@@ -1,0 +1,137 @@
+"""Descriptor forms: the emitted Jacobian by complex steps on the emitted residual, and what implicit runs cannot do."""
+
+import cmath
+import types
+from functools import cache
+
+import msgspec
+import numpy as np
+import pytest
+from support.emitted import listed, mechanism_of
+from support.models import EVERYTHING
+
+from symgen.api import Settings, load, make_plan
+from symgen.errors import InputError
+from symgen.model import LawInfo, ModelInfo
+from symgen.pipeline import choose_method, generate
+
+#: Every joint kind, the weld among them, and every force kind.
+ALL_KINDS = listed(EVERYTHING) | {
+    "bodies": EVERYTHING["bodies"] | {"tail": {"mass": 0.4, "inertia": 0.03, "points": {"P": [0.1, 0.2]}}},
+    "joints": EVERYTHING["joints"]
+    | {"weld": {"type": "rigid", "between": ["arm", "tail"], "at": [[0.3, -0.1], "P"], "angle": "k1/3"}},
+}
+#: Method -> level of its descriptor.
+LEVELS = {
+    "lagrange": "acceleration",
+    "baumgarte": "acceleration",
+    "adaptive-baumgarte": "acceleration",
+    "penalty": "acceleration",
+    "ggl": "stabilised",
+    "generalized-alpha": "position",
+    "index3-augmented-lagrangian": "projected",
+}
+STEP = 1e-30
+
+
+@cache
+def generated():
+    return generate(mechanism_of(ALL_KINDS), tuple(choose_method(m, None, True) for m in LEVELS))
+
+
+class Stage:
+    """``residual`` and ``tangent`` of a law as plain Python, with complex arithmetic where asked for."""
+
+    def __init__(self, method):
+        stem = choose_method(method, None, True).stem
+        modules = generated().modules
+        self.info = msgspec.convert(modules["model"][1], ModelInfo)
+        self.law = msgspec.convert(modules[stem][1], LawInfo)
+        source = modules[stem][0].replace("from .model import", "# from .model import")
+        self.module = types.ModuleType(stem)
+        exec(compile(source, stem, "exec"), self.module.__dict__)
+        self.complex = types.ModuleType(f"{stem}_complex")
+        exec(compile(source, stem, "exec"), self.complex.__dict__)
+        self.complex.math = cmath
+
+    def parameters(self):
+        p = [0.0] * (self.law.parameter_offset + len(self.law.parameters) + self.law.hoisted)
+        for i, name in enumerate(self.info.parameters):
+            p[i] = {"k1": 1.7, "k2": -0.6, "m1": 2.5}[name.name]
+        for i, (_, default) in enumerate(self.law.parameters):
+            p[self.law.parameter_offset + i] = default
+        model = types.ModuleType("model")
+        exec(compile(generated().modules["model"][0], "model", "exec"), model.__dict__)
+        model.prepare.py_func(p)
+        self.module.prepare.py_func(p)
+        return p
+
+    def scratch(self):
+        w = [0.0] * self.law.nw
+        w[0:20] = [0.01] * 20  # the step, which adaptive gains are taken from, is among the status
+        return w
+
+    def residual(self, t, y, k, p):
+        r = [0.0] * (self.law.unknowns + 2 * self.info.m)
+        self.complex.residual.py_func(t, y, k, p, self.scratch(), r)
+        return np.array(r[: self.law.unknowns])
+
+    def tangent(self, t, y, k, p):
+        n, width = self.law.unknowns, self.info.nq + self.info.nv
+        j = [0.0] * (n * (n + width))
+        self.module.tangent.py_func(t, y, k, p, self.scratch(), j)
+        return np.array(j[: n * n]).reshape(n, n), np.array(j[n * n :]).reshape(n, width)
+
+
+@pytest.mark.parametrize("method", LEVELS)
+def test_tangent_is_the_derivative_of_the_residual(method):
+    stage = Stage(method)
+    assert stage.law.level == LEVELS[method]
+    p, n, width = stage.parameters(), stage.law.unknowns, stage.info.nq + stage.info.nv
+    rng = np.random.default_rng(len(method))
+    for t in (0.0, 0.83):
+        y = [*rng.uniform(-1.0, 1.0, width).tolist(), 0.0]
+        k = rng.uniform(-2.0, 2.0, n).tolist()
+        by_k, by_y = stage.tangent(t, y, k, p)
+        for found, vector, size in ((by_k, k, n), (by_y, y, width)):
+            expected = np.zeros((n, size))
+            for c in range(size):
+                moved = [complex(x, STEP if i == c else 0.0) for i, x in enumerate(vector)]
+                r = stage.residual(t, y if vector is k else moved, moved if vector is k else k, p)
+                expected[:, c] = np.imag(r) / STEP
+            scale = np.maximum(1.0, np.abs(expected).max(axis=1, keepdims=True))
+            np.testing.assert_allclose(found / scale, expected / scale, rtol=0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [
+        ("generalized-alpha", "trapezoidal"),  # undamped on index 3 without projections
+        ("generalized-alpha", "newmark"),
+        ("generalized-alpha", "rk4"),
+        ("ggl", "trapezoidal"),
+        ("ggl", "dop853"),
+        ("index3-augmented-lagrangian", "generalized-alpha"),
+        ("coordinate-partitioning", "radau5"),
+        ("augmented-lagrangian", "sdirk"),
+        ("augmented-hamiltonian", "abm"),
+        ("lagrange", "generalized-alpha"),
+    ],
+)
+def test_unsuitable_pairs_are_refused_with_those_that_fit(method, integrator):
+    from benchmarks.pairs import allowed_pairs
+
+    with pytest.raises(InputError) as refusal:
+        make_plan(load("four-bar"), Settings(method=method, integrator=integrator))
+    sentence = str(refusal.value)
+    assert f"integrator '{integrator}'" in sentence and method in sentence
+    fitting = [i for m, i in allowed_pairs() if m == method]
+    named = sentence.partition("these do: ")[2]
+    assert set(named.rstrip(".").split(", ")) == set(fitting)
+
+
+@pytest.mark.parametrize("rho", [1.0, -0.1])
+def test_generalized_alpha_without_damping_is_refused(rho):
+    settings = Settings(method="generalized-alpha", options={"integrator.rho": rho})
+    with pytest.raises(InputError, match=r"option integrator\.rho.*0\.999"):
+        make_plan(load("four-bar"), settings)
