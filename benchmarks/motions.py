@@ -53,7 +53,7 @@ def run(
 
 def positions(result: Result) -> Array:
     """Return q at the outputs, shape (k, nq)."""
-    return np.asarray(result.q.values)
+    return np.asarray(result.q)
 
 
 def motion(
