@@ -1,4 +1,4 @@
-"""Runs of single methods for the tables: suitable integrators and steps, and extrapolated motions of second-order ones."""
+"""Runs of single methods for the tables: suitable integrators, and extrapolated motions of second-order ones."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Options = Mapping[str, str | float]
 
 
 def fine_integrator(method: str) -> str:
-    """Return the integrator of highest order among those that fit a method and stay accurate: `dop853` where it fits."""
+    """Return the integrator of highest order that fits a method: `dop853` where it can be used."""
     forms = METHODS.get(method).forms
     return "dop853" if {"ode", "one-step"} & set(forms) else METHODS.get(method).default_integrator
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,7 +40,7 @@ WRONG = 1e-2
 FACTORS = (1.0, 1e-3, 1e-6, 1e-9, 1e-12)
 
 
-# -- redundant -----------------------------------------------------------------------------------------------------------
+# -- redundant ---------------------------------------------------------------------------------------------------------
 
 
 def parallel_four_bar() -> Model:
@@ -85,7 +86,7 @@ def parallel_motion(times: Array) -> Array:
     return np.column_stack(columns)
 
 
-# -- one row of a table --------------------------------------------------------------------------------------------------
+# -- one row of a table ------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -147,15 +148,15 @@ def null_space_motion(factor: float, times: Array) -> Array:
 
     q, _ = model.initial_state(values)
     y = equations.project(0.0, np.concatenate([q, np.zeros(n)]), mass_weighted=False)
-    motion_ = [y[:n]]
-    for a, b in zip(times[:-1], times[1:], strict=True):
+    states = [y[:n]]
+    for a, b in pairwise(times):
         y = solve_ivp(rate, (a, b), y, "DOP853", rtol=3e-13, atol=1e-13).y[:, -1]
         y = equations.project(float(b), y, mass_weighted=False)
-        motion_.append(y[:n])
-    return np.array(motion_)
+        states.append(y[:n])
+    return np.array(states)
 
 
-# -- singular ------------------------------------------------------------------------------------------------------------
+# -- singular ----------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -192,7 +193,7 @@ def passages(method: str, windows: int, steps: Array, until: float = 10.0) -> Pa
     return Passages(method, windows, tuple(errors), tuple(statuses), tuple(warned))
 
 
-# -- tables --------------------------------------------------------------------------------------------------------------
+# -- tables ------------------------------------------------------------------------------------------------------------
 
 
 def rows_table(title: str, rows: list[Row]) -> Table:

@@ -174,16 +174,20 @@ def alpha_steps(
             control[_EVALUATIONS] += 1
             substitute(matrix, size, rows, part(right, nq, size), change)
             control[_ITERATIONS] += 1
-            moved, total = 0.0, 0.0
+            moved, total, length = 0.0, 0.0, 1.0
             for i in range(size):
                 k[nq + i] -= change[i]
                 if i < nv:
                     moved += change[i] ** 2
                     total += k[nq + i] ** 2
+            for i in range(nq):
+                length = max(length, abs(trial[i]))
+            # rounding of positions is divided by the square of the step in accelerations: it decides where those stall
+            at_floor = math.sqrt(moved) * by_position < 1e-12 * length
             moved = math.sqrt(moved) / (1.0 + math.sqrt(total))
             if not math.isfinite(moved):
                 break
-            if moved < 1e-12 or (moved > 0.3 * last and moved < 1e-7):
+            if moved < 1e-12 or (moved > 0.3 * last and (moved < 1e-7 or at_floor)):
                 converged = True
                 break
             fresh = moved > 0.05 * last

@@ -234,10 +234,15 @@ def implicit_steps(
                         if i < width:
                             moved += change[(s - low) * n + i] ** 2
                             size += k[s * n + i] ** 2
+                # stiff forces turn rounding of positions into noise of derivatives: what counts is how far the state moves
+                length = 1.0
+                for i in range(width):
+                    length = max(length, abs(trial[i]))
+                at_floor = math.sqrt(moved) * step < 1e-12 * length
                 moved = math.sqrt(moved) / (1.0 + math.sqrt(size))
                 if not math.isfinite(moved):
                     break
-                if moved < 1e-13 or (moved > 0.3 * last and moved < 1e-9):
+                if moved < 1e-13 or (moved > 0.3 * last and (moved < 1e-9 or at_floor)):
                     converged = True
                     break
                 fresh = moved > 0.05 * last

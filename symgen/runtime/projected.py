@@ -28,6 +28,8 @@ _JACOBIANS, _ITERATIONS = abi.JACOBIANS, abi.NEWTON_ITERATIONS
 _DONE, _STOPPED, _NEWTON = abi.DONE, abi.STOPPED, abi.NEWTON
 _STEP_STATUS, _PROBING, _POWER = abi.STEP_STATUS, abi.PROBING, abi.POWER
 _MOST_ITERATIONS = 100
+#: h^2/4 a is at least this many times the largest mass: below, the iterations of short steps would not converge.
+_LEAST_PENALTY = 1e3
 
 
 @jit()
@@ -130,6 +132,13 @@ def projected_steps(
     for c in range(m):
         forces[c] = w[multipliers + c]
     power = begun[width]
+    heaviest = 0.0
+    for i in range(n):
+        k[i] = 0.0
+    tangent(t, y, k, p, w, slopes)
+    for i in range(nv):
+        heaviest = max(heaviest, slopes[(nq + i) * n + nq + i])
+    asked = penalty
     while t < until - tiny:
         if control[_STOP] != 0:
             return _STOPPED
@@ -144,6 +153,7 @@ def projected_steps(
             step = following - t
         w[_STEP_STATUS] = step
         quarter = 0.25 * step * step
+        penalty = max(asked, _LEAST_PENALTY * heaviest / quarter)
         for i in range(nv):
             trial[i] = y[i] + step * y[nq + i] + 0.5 * step * step * begun[nq + i]
         for c in range(m):

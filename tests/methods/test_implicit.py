@@ -10,10 +10,11 @@ import pytest
 from support.emitted import listed, mechanism_of
 from support.models import EVERYTHING
 
-from symgen.api import Settings, load, make_plan
+from symgen.api import load
 from symgen.errors import InputError
 from symgen.model import LawInfo, ModelInfo
 from symgen.pipeline import choose_method, generate
+from symgen.plan import Settings, make_plan
 
 #: Every joint kind, the weld among them, and every force kind.
 ALL_KINDS = listed(EVERYTHING) | {

@@ -36,6 +36,7 @@ ALLOWED = {
     "methods": set(),
     "model": {"msgspec", "numpy"},
     "pipeline": set(),
+    "plan": {"numpy"},
     "registry": set(),
     "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},
     "runtime": {"numba", "numpy"},

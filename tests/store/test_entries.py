@@ -10,7 +10,7 @@ import time
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from symgen.errors import SymgenError
@@ -37,6 +37,8 @@ def start(script: str, *arguments: object) -> subprocess.Popen[str]:
 
 
 class TestFolderName:
+    # making strings for a pattern is slow at first, while tests run beside each other
+    @settings(suppress_health_check=[HealthCheck.too_slow], deadline=None)
     @given(
         st.from_regex(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}", fullmatch=True),
         st.from_regex(r"[0-9a-f]{16}", fullmatch=True),

@@ -81,10 +81,10 @@ class TestSecondProcess:
     def test_compiles_again_when_a_helper_in_another_file_was_edited(self, cache, python, tmp_path):
         library = tmp_path / "library"
         library.mkdir()
-        (library / "inner.py").write_text("from symgen.store.jit import jit\n@jit\ndef f(x):\n    return 2.0 * x\n")
+        (library / "inner.py").write_text("from symgen.store.jit import jit\n@jit()\ndef f(x):\n    return 2.0 * x\n")
         (library / "middle.py").write_text("from inner import f\n")
         (library / "outer.py").write_text(
-            "from symgen.store.jit import jit\nfrom middle import f\n@jit\ndef g(x):\n    return f(x)\n"
+            "from symgen.store.jit import jit\nfrom middle import f\n@jit()\ndef g(x):\n    return f(x)\n"
         )
         script = """
 import json, outer
@@ -121,7 +121,7 @@ from symgen.store.jit import jit
 def apply(function, x):
     return function(x)
 def make(factor, step):
-    @jit
+    @jit()
     def scale(x):
         return factor * step(x)
     return scale
@@ -165,7 +165,7 @@ class TestDecorator:
         assert pickle.loads(pickle.dumps(at_the_top)) is at_the_top
 
     def test_defaults_and_documentation(self, cache):
-        @jit.jit
+        @jit.jit()
         def double(x):
             """Twice as much."""
             return 2.0 * x
@@ -249,7 +249,7 @@ class TestDecorator:
         assert type(jit.jit()(closes)._cache).__name__ == "NullCache"
 
     def test_recompile_forgets_and_works(self, cache):
-        @jit.jit
+        @jit.jit()
         def flushed(x):
             return 2 * x
 

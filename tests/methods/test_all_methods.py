@@ -1,0 +1,134 @@
+"""All methods against each other, the orders of pairs, and the methods that hold their constraints to rounding."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from benchmarks import all_orders
+from benchmarks.motions import motion, second_order
+from symgen.api import load
+from symgen.methods import METHODS
+from symgen.study.points import Points
+
+#: Model -> end [s], step of integrators of order 4 and more, step of those of order 2, which are extrapolated [s].
+CASES = {
+    "four-bar": (2.0, 1e-3, 1.25e-4),
+    "slider-crank": (1.0, 1e-3, 6.25e-5),
+    "andrews": (0.01, 1e-5, 2.5e-6),
+}
+#: `penalty` approaches another motion: its error falls with the penalty.
+COMMON = tuple(m for m in METHODS.names if m != "penalty")
+TOLERANCE = 1e-8
+EXACT = ("coordinate-partitioning", "direct-correction")
+
+
+@cache
+def motions(name, method):
+    until, step, short = CASES[name]
+    times = np.linspace(0.0, until, 11)
+    q, result = motion(load(name), method, short if second_order(method) else step, times)
+    assert result.status == "ok", f"{method}: {result.reason}"
+    return q
+
+
+def distance(name, a, b):
+    model = load(name)
+    return Points.of(model.mechanism, model.parameters()).distance(a, b)
+
+
+def largest_pairwise(name, methods):
+    found = {m: motions(name, m) for m in methods}
+    return max((distance(name, found[a], found[b]), a, b) for a in methods for b in methods)
+
+
+def test_methods_agree_on_the_four_bar():
+    assert largest_pairwise("four-bar", COMMON)[0] <= TOLERANCE
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["slider-crank", "andrews"])
+def test_methods_agree(name):
+    worst = largest_pairwise(name, COMMON)
+    assert worst[0] <= TOLERANCE, worst
+
+
+def test_the_error_of_penalty_falls_with_the_penalty():
+    exact, model = motions("four-bar", "lagrange"), load("four-bar")
+    errors = []
+    for penalty in (1e5, 1e6, 1e7):
+        result = model.simulate(
+            method="penalty",
+            step=1e-3,
+            until=2.0,
+            times=np.linspace(0.0, 2.0, 11),
+            options={"method.penalty": penalty},
+            max_violation=1e-2,
+        )
+        assert result.status == "ok"
+        errors.append(distance("four-bar", np.asarray(result.q), exact))
+    assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.3)
+    assert errors[1] / errors[2] == pytest.approx(10.0, rel=0.3)
+
+
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [
+        *(("lagrange", i) for i in ("euler", "heun", "abm4", "abm", "newmark", "trapezoidal", "sdirk", "radau5")),
+        ("generalized-alpha", "generalized-alpha"),
+        ("index3-augmented-lagrangian", "trapezoidal"),
+        ("ggl", "radau5"),
+        ("augmented-hamiltonian", "rk4"),
+        ("coordinate-partitioning", "rk4"),
+        ("null-space", "abm4"),
+        ("adaptive-baumgarte", "rk4"),
+        ("augmented-lagrangian", "rk4"),
+    ],
+)
+def test_order(method, integrator):
+    found = all_orders.observe(method, integrator)
+    assert found.halvings >= 2.9 and found.slope >= found.order - all_orders.TOLERANCE, found
+
+
+@pytest.mark.slow
+def test_order_of_every_pair():
+    from benchmarks.pairs import allowed_pairs
+
+    found = [all_orders.observe(m, i) for m, i in allowed_pairs()]
+    missed = {(p.method, p.integrator): p.slope for p in found if not p.kept}
+    assert set(missed) <= set(all_orders.UNSEEN), missed
+
+
+def check_violations(name, method, until, step):
+    result = load(name).simulate(method=method, integrator="rk4", step=step, until=until, output_step=until / 97)
+    assert result.status == "ok", result.reason
+    largest, fastest = np.abs(np.asarray(result.q)).max(), np.abs(np.asarray(result.v)).max()
+    assert result.position_violation_max <= 1e-12 * max(1.0, largest)
+    assert result.velocity_violation_max <= 1e-12 * max(1.0, fastest)
+
+
+@pytest.mark.parametrize("method", EXACT)
+@pytest.mark.parametrize("name", ["pendulum", "four-bar"])
+def test_constraints_hold_to_rounding_over_100_seconds(name, method):
+    check_violations(name, method, 100.0, 1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", EXACT)
+@pytest.mark.parametrize(
+    ("name", "until", "step"),
+    [
+        ("slider-crank", 100.0, 1e-3),
+        ("driven-four-bar", 100.0, 1e-3),
+        ("andrews", 0.05, 1e-5),
+        ("n-four-bar:10", 100.0, 1e-3),
+    ],
+)
+def test_constraints_hold_to_rounding(name, until, step, method):
+    check_violations(name, method, until, step)
+
+
+@pytest.mark.slow
+def test_constraints_hold_to_rounding_on_a_large_mechanism():
+    """Coordinate partitioning at this size takes minutes to compile; ``benchmarks.methods`` tries it."""
+    check_violations("n-four-bar:40", "direct-correction", 100.0, 1e-3)

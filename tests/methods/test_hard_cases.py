@@ -1,0 +1,137 @@
+"""Redundant constraints, singular positions, light bodies and a massless one."""
+
+import numpy as np
+import pytest
+
+from benchmarks import robustness
+from symgen.api import Model, load
+from symgen.describe import MechanismBuilder
+from symgen.methods import METHODS
+
+#: Methods that do with constraints of which some depend on others, permanently.
+FAILS_WITH_REDUNDANT_ROWS = ("ggl",)
+FEW = ("lagrange", "direct-correction", "augmented-lagrangian", "coordinate-partitioning", "null-space")
+#: Method -> largest error [m] where it is not 1e-6: a penalty is an error of its own, M^-1/2 loses digits and says so.
+LIGHT = {"penalty": 1e-5, "udwadia-kalaba": 1e-5}
+
+
+def check_redundant(methods):
+    for row in robustness.redundant(methods):
+        if row.method in FAILS_WITH_REDUNDANT_ROWS:
+            assert row.status == "failed" and row.said
+            continue
+        assert row.status == "ok", f"{row.method}: {row.said}"
+        assert row.error <= (1e-6 if row.method == "penalty" else 1e-9), row.method
+        assert (row.result.rank.rank, row.result.rank.rows) == (11, 12)
+        assert row.result.rank_event_count == 0
+
+
+def test_redundant_constraints():
+    check_redundant(FEW)
+
+
+@pytest.mark.slow
+def test_redundant_constraints_by_every_method():
+    check_redundant(tuple(m for m in METHODS.names if m not in FEW))
+
+
+def check_light(factor, methods):
+    for row in robustness.light(factor, methods):
+        if row.status == "ok":
+            assert row.error <= LIGHT.get(row.method, 1e-6), f"{row.method} x {factor}: {row.error}"
+            assert row.result.rank.rank == row.result.rank.rows and row.result.rank_event_count == 0
+            if row.error > 1e-6 and row.method != "penalty":
+                assert "light bodies" in row.said
+        else:
+            assert row.said
+
+
+@pytest.mark.parametrize("factor", [1e-6, 1e-12])
+def test_light_bodies(factor):
+    rows = robustness.light(factor, ("lagrange", "direct-correction", "coordinate-partitioning"))
+    assert all(row.status == "ok" and row.error <= 1e-8 for row in rows), rows
+    check_light(factor, ("augmented-lagrangian",))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("factor", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_light_bodies_by_every_method(factor):
+    check_light(factor, METHODS.names)
+
+
+def check_passages(method, windows, steps, until):
+    found = robustness.passages(method, windows, steps, until)
+    assert found.silently_wrong == 0, found
+    # a run that met a singular position says so, or has failed
+    assert all(w or s == "failed" for w, s in zip(found.warned, found.statuses, strict=True)), found
+    return found
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+def test_singular_positions(method):
+    found = check_passages(method, 1, np.linspace(0.95e-3, 1.05e-3, 5), 10.0)
+    if method == "lagrange":
+        assert "ok" not in found.statuses  # nothing corrects positions
+    else:
+        assert set(found.statuses) == {"ok"} and max(found.errors) < 1e-6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("windows", [1, 2])
+@pytest.mark.parametrize("method", METHODS.names)
+def test_singular_positions_by_every_method(method, windows):
+    check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
+
+
+def two_links(massless: bool) -> Model:
+    """A crank and a rocker, joined by a rod without mass or by a distance joint."""
+    raw = MechanismBuilder("massless" if massless else "linked", gravity=(0.0, -9.81))
+    crank = {"points": {"A": (-1, 0), "B": (1, 0)}, "angle": "pi/3", "angular_velocity": 0.0}
+    raw.body("crank", mass=2.0, inertia="2*2**2/12", position=(0.5, 0.8660254037844386), **crank)
+    rocker = {"points": {"D": (-2.5, 0), "C": (2.5, 0)}, "angle": 1.8938968124057762}
+    raw.body("rocker", mass=5.0, inertia="5*5**2/12", position=(9.206229663272005, 2.3706388701214536), **rocker)
+    raw.joint("A", "revolute", between=("ground", "crank"), at=((0, 0), "A"))
+    raw.joint("D", "revolute", between=("ground", "rocker"), at=((10, 0), "D"))
+    if not massless:
+        raw.joint("link", "distance", between=("crank", "rocker"), at=("B", "C"), length=8.0)
+        return Model(raw.build())
+    rod = {"position": (4.706229663272004, 3.236664273905892), "angle": 0.38564124740737094}
+    raw.body("coupler", mass=0.0, inertia=0.0, points={"B": (-4, 0), "C": (4, 0)}, **rod)
+    raw.joint("B", "revolute", between=("crank", "coupler"), at=("B", "B"))
+    raw.joint("C", "revolute", between=("rocker", "coupler"), at=("C", "C"))
+    return Model(raw.build())
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+def test_a_massless_coupler_moves_as_a_distance_joint(method):
+    keys = {"method": method, "integrator": "dop853", "rtol": 1e-12, "atol": 1e-13, "until": 2.0, "output_step": 0.1}
+    rod, link = (two_links(massless).simulate(**keys) for massless in (True, False))
+    assert rod.status == link.status == "ok"
+    np.testing.assert_allclose(np.asarray(rod.q)[:, :6], np.asarray(link.q)[:, :6], rtol=0.0, atol=1e-9)
+
+
+def test_methods_that_invert_the_mass_matrix_refuse_a_massless_body():
+    from symgen.errors import InputError
+
+    with pytest.raises(InputError, match="massless bodies"):
+        two_links(True).simulate(method="udwadia-kalaba", until=0.01)
+
+
+def test_a_light_coupler_costs_no_accuracy_against_a_massless_one():
+    """The limit of small masses is the massless coupler's motion."""
+    model = load("four-bar")
+    times = np.linspace(0.0, 1.0, 6)
+    light = model.simulate(
+        method="direct-correction",
+        integrator="dop853",
+        rtol=1e-12,
+        atol=1e-13,
+        until=1.0,
+        times=times,
+        parameters={"coupler_mass": 8e-10},
+    )
+    rod = two_links(True).simulate(
+        method="direct-correction", integrator="dop853", rtol=1e-12, atol=1e-13, until=1.0, times=times
+    )
+    for name in ("crank.theta", "rocker.theta"):
+        np.testing.assert_allclose(light[name], rod[name], rtol=0.0, atol=1e-8)
