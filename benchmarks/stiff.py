@@ -72,6 +72,7 @@ class Row:
     error: float
     steps: int
     seconds: float
+    reason: str
 
 
 @cache
@@ -95,7 +96,7 @@ def row(method: str, integrator: str, step: float) -> Row:
     result = run(model(), method, integrator, step, TIMES)
     q, exact = positions(result), reference()[0]
     error = points().distance(q, exact[: len(q)]) if len(q) > 1 else np.inf
-    return Row(method, integrator, step, result.status, error, result.steps, result.seconds.run)
+    return Row(method, integrator, step, result.status, error, result.steps, result.seconds.run, result.reason or "")
 
 
 def main() -> int:
@@ -106,10 +107,10 @@ def main() -> int:
     table = Table(
         title=f"elastic coupler, {UNTIL:g} s: rk4 is stable up to {limit:.3g} s; steps {FACTOR:g} times larger"
     )
-    for heading in ("method", "integrator", "order", "step [s]", "status", "error [m]", "steps", "run [ms]"):
+    for heading in ("method", "integrator", "order", "step [s]", "status", "error [m]", "steps", "run [ms]", "reason"):
         table.add_column(heading, justify="left" if heading in ("method", "integrator") else "right")
     for r in (row(m, i, limit * FACTOR) for m, i in PAIRS):
-        numbers = f"{r.step:.2e}", r.status, f"{r.error:.1e}", str(r.steps), f"{r.seconds * 1e3:.1f}"
+        numbers = f"{r.step:.2e}", r.status, f"{r.error:.1e}", str(r.steps), f"{r.seconds * 1e3:.1f}", r.reason[:70]
         table.add_row(r.method, r.integrator, str(INTEGRATORS.get(r.integrator).order), *numbers)
     table.caption = (
         f"reference: radau5 at 1e-4 s, {reference()[1]:.1e} m from ggl at 1.25e-4 s; rk4 at {limit / 1.5:.2e} s: "

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
+from symgen.methods import METHODS
 from symgen.runtime.probe import call_rhs
 
 if TYPE_CHECKING:
@@ -138,30 +140,32 @@ def decide(facts: Facts, method: str, integrator: str | None) -> tuple[str, str 
                 "accelerations stay unique"
             )
     if integrator == AUTO:
-        unknowns = 2 * facts.coordinates + facts.rows
-        if facts.stiffness > STIFF_RATIO and unknowns <= LARGEST_IMPLICIT and method not in _EXPLICIT_ONLY:
-            integrator = "radau5"
-            reasons.append(
-                f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
-                f"{facts.stiffness:.3g} times the steps that the motion needs"
-            )
-        else:
-            integrator = "dop853"
-            reasons.append(
-                f"integrator dop853: the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
-                if facts.stiffness <= STIFF_RATIO
-                else f"integrator dop853: stiff, but {unknowns} unknowns a stage are too many for dense Newton matrices"
-            )
+        integrator, reason = _integrator(facts, method)
+        reasons.append(reason)
     return method, integrator, tuple(reasons)
 
 
-#: Methods without a form for implicit integrators.
-_EXPLICIT_ONLY = frozenset(
-    (
-        *("augmented-lagrangian", "index1-augmented-lagrangian", "augmented-hamiltonian"),
-        *("coordinate-partitioning", "null-space", "udwadia-kalaba"),
+def _integrator(facts: Facts, method: str) -> tuple[str, str]:
+    """Return the integrator that suits the facts among those that fit a method, and why."""
+    chosen, unknowns = METHODS.get(method), 2 * facts.coordinates + facts.rows
+    forms = set(chosen.forms)
+    if not forms & set(INTEGRATORS.get("dop853").forms):
+        name = chosen.default_integrator
+        return name, f"integrator {name}: it solves the form of {method} ({', '.join(chosen.forms)})"
+    if facts.stiffness <= STIFF_RATIO:
+        asks = f"the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
+        return "dop853", f"integrator dop853: {asks}"
+    if not forms & set(INTEGRATORS.get("radau5").forms):
+        return "dop853", f"integrator dop853: stiff, but {method} has no form for implicit integrators"
+    if unknowns > LARGEST_IMPLICIT:
+        return (
+            "dop853",
+            f"integrator dop853: stiff, but {unknowns} unknowns a stage are too many for dense Newton matrices",
+        )
+    return "radau5", (
+        f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
+        f"{facts.stiffness:.3g} times the steps that the motion needs"
     )
-)
 
 
 def resolve(model: Model, settings: Settings) -> tuple[Settings, tuple[str, ...]]:

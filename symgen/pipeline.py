@@ -59,6 +59,7 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
         If there is no such method or option.
     """
     method = METHODS.get(name, "--method")
+    implicit = implicit or not {"ode", "one-step"} & set(method.forms)  # some methods have no other form
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
 

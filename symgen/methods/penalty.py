@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from symgen.methods._augmented import MU, OMEGA, PENALTY, stabilised
-from symgen.methods._base import Acceleration, Descriptor, Method
+from symgen.methods._augmented import MU, OMEGA, stabilised
+from symgen.methods._base import Acceleration, Descriptor, Method, MethodParameter
 
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
@@ -26,7 +26,17 @@ class Penalty(Method):
         "Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011"
     )
     forms = ("ode", "index-1")
-    parameters = (PENALTY, OMEGA, MU)
+    parameters = (
+        MethodParameter(
+            "penalty",
+            1e9,
+            "kg",
+            "factor a of D^T D: the error falls like 1 / a until rounding, which grows like a, takes over near 1e10",
+            1e-300,
+        ),
+        OMEGA,
+        MU,
+    )
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with M + a D^T D."""

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba import types
+from numba import config, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 from numba.np.arrayobj import populate_array
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
-def bare(typing_context: Any, array: Any) -> Any:
+def _bare(typing_context: Any, array: Any) -> Any:
     """Return the same array without a reference to the object that owns its memory."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -29,7 +29,7 @@ def bare(typing_context: Any, array: Any) -> Any:
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
-def part(typing_context: Any, array: Any, first: Any, size: Any) -> Any:
+def _part(typing_context: Any, array: Any, first: Any, size: Any) -> Any:
     """Return `size` elements of a one-dimensional array from index `first` on, as a bare array; nothing is checked."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
@@ -46,3 +46,16 @@ def part(typing_context: Any, array: Any, first: Any, size: Any) -> Any:
         return view._getvalue()
 
     return array(array, types.int64, types.int64), codegen
+
+
+def _same(array: Any) -> Any:
+    return array
+
+
+def _slice(array: Any, first: int, size: int) -> Any:
+    return array[first : first + size]
+
+
+#: Under NUMBA_DISABLE_JIT the loops are plain Python and views do.
+bare: Any = _same if config.DISABLE_JIT else _bare
+part: Any = _slice if config.DISABLE_JIT else _part

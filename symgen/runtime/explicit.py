@@ -244,12 +244,13 @@ def adaptive_steps(
         h1 = max(1e-6, 1e-3 * h0) if largest <= 1e-15 else (0.01 / largest) ** -exponent
         h = min(100.0 * h0, h1)
     rejected = False
+    may_cross = True  # not again after an attempt that failed: some positions cannot be passed
     while t < until:
         if control[_STOP] != 0:
             return _STOPPED
         # inside the zone around a singular position the estimate sees noise: the zone is crossed in one step, and not
         # so that a stage at half the step meets its middle
-        crossing = control[_IN_ZONE] == 1 and gauges[_FALL] > 0.0
+        crossing = may_cross and control[_IN_ZONE] == 1 and gauges[_FALL] > 0.0
         before = h
         h = approach(min(h, h_max), gauges)
         if crossing:
@@ -273,6 +274,7 @@ def adaptive_steps(
             control[_EVALUATIONS] += 1
         error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol, sums)
         if not (error <= 1.0 or (crossing and math.isfinite(error))):
+            may_cross = may_cross and not crossing
             control[_REJECTED] += 1
             h *= max(0.2, 0.9 * error**exponent) if math.isfinite(error) else 0.1
             rejected = True
@@ -285,6 +287,7 @@ def adaptive_steps(
             control[_REJECTED] += 1
             h *= 0.5
             rejected = True
+            may_cross = False
             continue
         code = watch(following, trial, nq, w, gauges, control, events)
         if code != _DONE:
@@ -340,6 +343,7 @@ def adaptive_steps(
             for i in range(n):
                 first[i] = last[i]
         grow = min(10.0, max(0.2, 0.9 * max(error, 1e-10) ** exponent))
+        may_cross = True
         h = before if crossing else h * (min(1.0, grow) if rejected else grow)
         rejected = False
     return _DONE

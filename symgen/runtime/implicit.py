@@ -234,7 +234,7 @@ def implicit_steps(
                         if i < width:
                             moved += change[(s - low) * n + i] ** 2
                             size += k[s * n + i] ** 2
-                # stiff forces turn rounding of positions into noise of derivatives: what counts is how far the state moves
+                # stiff forces turn rounding of positions into noise of derivatives: how far the state moves counts
                 length = 1.0
                 for i in range(width):
                     length = max(length, abs(trial[i]))

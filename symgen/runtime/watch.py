@@ -65,7 +65,7 @@ def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: 
     y, nq : Array, int
         The state (q, v, work) and the number of coordinates in it.
     w : Array
-        Scratch with the status that ``accept`` left; its scales follow the largest coordinate and speed so far.
+        Scratch with the status that ``accept`` left; its speed scale follows the largest speed so far.
     gauges, control, events : Array
         See `symgen.runtime.abi`; updated.
     """
@@ -75,7 +75,7 @@ def watch(t: float, y: Any, nq: int, w: Any, gauges: Any, control: Any, events: 
         length = max(length, abs(y[i]))
     for i in range(nq, y.shape[0] - 1):
         speed = max(speed, abs(y[i]))
-    w[_LENGTH], w[_SPEED] = length, speed
+    w[_SPEED] = speed  # the length scale stays that of the start: turns that are counted do not make rods longer
     error = keep_maxima(w, work, gauges)
     scale = max(w[_KINETIC], abs(w[_POTENTIAL] - gauges[_POTENTIAL_START]), abs(work))
     if scale > gauges[_SCALE]:

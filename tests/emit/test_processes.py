@@ -18,7 +18,7 @@ from symgen.methods import METHODS
 from symgen.pipeline import choose_method, generate
 
 for name in names():
-    for method in METHODS:
+    for method in METHODS if name == "four-bar" else ("lagrange", "baumgarte", "direct-correction"):
         options = [{}] + [{o.name: v} for o in METHODS.get(method).options for v in o.values]
         choices = tuple({c.stem: c for c in (choose_method(method, o) for o in options)}.values())
         made = generate(load(name).mechanism, choices)
@@ -46,7 +46,7 @@ def finished(process) -> str:
 
 
 def test_the_whole_catalogue_is_emitted_byte_for_byte_alike(tmp_path):
-    """Two processes that differ in hash seed, user, home, folder, zone and language."""
+    """All methods for the four-bar. Two processes that differ in hash seed, user, home, folder, zone and language."""
     here = start(EMIT_ALL, PYTHONHASHSEED="0")
     there = start(
         EMIT_ALL,

@@ -5,6 +5,7 @@ import re
 from functools import cache
 
 import pytest
+from support import kinds
 from support.emitted import mechanism_of
 from support.models import EVERYTHING, ROUGH
 
@@ -25,9 +26,10 @@ def mechanism(model: str):
 
 @cache
 def sources(model: str) -> dict[str, str]:
-    """Stem -> source of the model and of every method with every option."""
+    """Stem -> source of the model and of methods with every option: of all methods for the four-bar."""
     choices = []
-    for name, method in METHODS.items():
+    for name in METHODS if model == "four-bar" else kinds.METHODS:
+        method = METHODS.get(name)
         combinations = [{}] + [{o.name: value} for o in method.options for value in o.values]
         choices += {choice.stem: choice for choice in (choose_method(name, c) for c in combinations)}.values()
     return {stem: source for stem, (source, _) in generate(mechanism(model), tuple(choices)).modules.items()}

@@ -10,6 +10,7 @@ import pytest
 from support.emitted import listed, mechanism_of
 from support.models import EVERYTHING
 
+from benchmarks import stiff
 from symgen.api import load
 from symgen.errors import InputError
 from symgen.model import LawInfo, ModelInfo
@@ -136,3 +137,38 @@ def test_generalized_alpha_without_damping_is_refused(rho):
     settings = Settings(method="generalized-alpha", options={"integrator.rho": rho})
     with pytest.raises(InputError, match=r"option integrator\.rho.*0\.999"):
         make_plan(load("four-bar"), settings)
+
+
+@pytest.mark.parametrize(
+    ("method", "integrator", "tolerance"),
+    [
+        ("direct-correction", "radau5", 1e-11),
+        ("baumgarte", "radau5", 1e-11),
+        ("ggl", "radau5", 1e-11),
+        ("direct-correction", "sdirk", 1e-6),
+    ],
+)
+def test_steps_far_above_the_explicit_limit_of_a_stiff_case(method, integrator, tolerance):
+    limit = stiff.explicit_limit()
+    assert 1e-5 < limit < 1e-4  # of the order of the damper's decay, 5.5e4 1/s
+    found = stiff.row(method, integrator, stiff.FACTOR * limit)
+    assert found.status == "ok" and found.error <= tolerance, found
+
+
+def test_the_reference_of_the_stiff_case_has_two_routes():
+    assert stiff.reference()[1] <= 1e-11
+
+
+def test_an_adaptive_implicit_run_passes_the_transient():
+    """Newton's iteration goes down to rounding, which the spring amplifies, and tolerances are kept."""
+    result = stiff.model().simulate(
+        method="direct-correction",
+        integrator="radau5",
+        rtol=1e-9,
+        atol=1e-11,
+        until=float(stiff.TIMES[-1]),
+        times=stiff.TIMES,
+    )
+    assert result.status == "ok" and result.steps < 1000
+    exact, _ = stiff.reference()
+    assert stiff.points().distance(np.asarray(result.q), exact) <= 1e-7
