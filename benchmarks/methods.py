@@ -1,8 +1,8 @@
 """Every method on every mechanism of the catalogue: violations, energy drift and cost relative to `lagrange`.
 
-`rk4` at 1e-3 s over 10 s, or the method's own integrator where it does not fit; `andrews` at 1e-5 s to 0.05 s, and once more
-at 1e-3 s, which is 1.4 rad a step and expected to fail. Times are the best of several runs, `lagrange` before and after each
-method; the ratios of the source are those of its interpreted code.
+`rk4` at 1e-3 s over 10 s, or the method's own integrator where it does not fit; `andrews` at 1e-5 s to 0.05 s, and once
+more at 1e-3 s, which is 1.4 rad a step and expected to fail. Times are the best of several runs, `lagrange` before and
+after each method; the ratios of the source are those of its interpreted code.
 
     python -m benchmarks.methods [MODEL ...] [--repeat 5] [--overhead 9]
 """

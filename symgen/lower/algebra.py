@@ -197,10 +197,11 @@ class System:
         """Return the factor of D W D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
         g = self.graph
 
-        def reciprocal(_: int, pivot: int, diagonal: int) -> int:
+        def reciprocal(row: int, pivot: int, diagonal: int) -> int:
             if pivot == diagonal:
                 return g.div(g.one, pivot)
-            keep = g.call("step", pivot, g.mul(g.constant(SKIP), diagonal))
+            # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
+            keep = g.call("step", pivot, g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row]))
             return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
 
         return factorise(g, self.gram(weight), self.order, reciprocal)
@@ -212,7 +213,8 @@ class System:
         def reciprocal(row: int, pivot: int, _: int) -> int:
             if rank.pivots[row] == rank.diagonal[row]:
                 return g.div(g.one, pivot)
-            keep = g.call("step", rank.pivots[row], g.mul(g.constant(SKIP), rank.diagonal[row]))
+            least = g.add(g.mul(g.constant(SKIP), rank.diagonal[row]), self.mask[row])
+            keep = g.call("step", rank.pivots[row], least)
             return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
 
         return factorise(g, matrix, self.order, reciprocal)

@@ -75,7 +75,8 @@ def pivot_outputs(system: System, factor: Factor) -> Outputs:
             continue
         relative = g.div(factor.pivots[i], factor.diagonal[i])
         outputs.append((Target("pivot", i), relative))
-        rank = g.add(rank, g.call("step", factor.pivots[i], g.mul(g.constant(SKIP), factor.diagonal[i])))
+        least = g.add(g.mul(g.constant(SKIP), factor.diagonal[i]), system.mask[i])
+        rank = g.add(rank, g.call("step", factor.pivots[i], least))
         smallest = g.call("min", smallest, g.add(relative, system.mask[i]))
     return [*outputs, to_status("rank", rank), to_status("smallest_pivot", smallest)]
 

@@ -114,14 +114,33 @@ def assemble(
     if notes and strict:
         raise InputError("initial state", "a consistent start (--strict)", f"{notes[0]}")
 
-    pivots = compiled.section(w, "pivot")
-    mask = compiled.section(w, "mask")
-    mask[pivots < SKIP] = np.inf
-    redundant = tuple(info.rows[i].name for i in np.flatnonzero(pivots < SKIP))
+    lasting = _lasting(compiled, t0, y, p, w)
+    compiled.section(w, "mask")[lasting] = np.inf
+    redundant = tuple(info.rows[i].name for i in np.flatnonzero(lasting))
     status = compiled.section(w, "status")
     status[6] = max(1.0, float(np.abs(y[: info.nq]).max(initial=0.0)))
     status[7] = max(1.0, float(np.abs(y[info.nq : -1]).max(initial=0.0)))
     return Start(y, p, w, _rank(d), redundant, tuple(notes))
+
+
+def _lasting(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> NDArray[np.bool_]:
+    """Return which rows depend on others at the start and at closed positions near it: not only at a singular one."""
+    nq = compiled.info.nq
+    lasting = np.asarray(compiled.section(w, "pivot") < SKIP)
+    if not lasting.any():
+        return lasting
+    _, sizes, rows = np.linalg.svd(_scaled(compiled.jacobian(w)))
+    free = rows[int(np.sum(sizes > RANK_CUTOFF)) :]
+    for k in range(3 if len(free) else 0):
+        direction = np.cos((k + 1.0) * np.arange(1, len(free) + 1)) @ free
+        probe, probed = y.copy(), w.copy()
+        probe[:nq] += 0.03 * max(1.0, float(np.abs(y[:nq]).max())) * direction / np.abs(direction).max()
+        try:
+            _close(compiled, t0, probe, p, probed)
+        except AssemblyError:
+            continue
+        lasting = lasting & (compiled.section(probed, "pivot") < SKIP)
+    return lasting
 
 
 def _scaled(d: Array) -> Array:

@@ -28,6 +28,8 @@ _M = types.float64[:, ::1]
 _STOP, _STEPS, _REJECTED, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.REJECTED, abi.EVALUATIONS, abi.OUTPUTS
 _DONE, _STOPPED, _NOT_FINITE = abi.DONE, abi.STOPPED, abi.NOT_FINITE
 _CORRECTION, _TINY = abi.CORRECTION, abi.TINY_STEP
+#: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
+_HOPELESS = 1e6
 _IN_ZONE, _FALL, _LAST_SINE = abi.IN_ZONE, abi.FALL, abi.LAST_SINE
 _STEP, _PHI, _STEP_STATUS, _PROBING = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PROBING
 _N_STATUS = abi.RANK + 1
@@ -273,7 +275,7 @@ def adaptive_steps(
                 confirm(t + h, new, p, w, iw, last)
             control[_EVALUATIONS] += 1
         error = error_norm(n_error, n, h, weights, n_errors, n_stages + 1, stages, y, new, rtol, atol, sums)
-        if not (error <= 1.0 or (crossing and math.isfinite(error))):
+        if not (error <= 1.0 or (crossing and error <= _HOPELESS)):
             may_cross = may_cross and not crossing
             control[_REJECTED] += 1
             h *= max(0.2, 0.9 * error**exponent) if math.isfinite(error) else 0.1

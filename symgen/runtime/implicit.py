@@ -256,6 +256,14 @@ def implicit_steps(
             h = 0.25 * step
             rejected = True
             continue
+        if n > width + m:
+            # multipliers of index 2 are of lower order than the state: the power comes from the law's own
+            for s in range(n_stages):
+                stage_state(y, width, n, step, a, s, n_stages, k, trial)
+                if rhs(t + c[s] * step, trial, p, w, iw, part(right, 0, ny)) != 0:
+                    confirm(t + c[s] * step, trial, p, w, iw, part(right, 0, ny))
+                powers[s] = right[width]
+            control[_EVALUATIONS] += n_stages
         for i in range(ny):
             trial[i] = y[i]
         for s in range(n_stages):

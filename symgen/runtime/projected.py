@@ -26,7 +26,7 @@ _A, _I, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
 _STOP, _STEPS, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS
 _JACOBIANS, _ITERATIONS = abi.JACOBIANS, abi.NEWTON_ITERATIONS
 _DONE, _STOPPED, _NEWTON = abi.DONE, abi.STOPPED, abi.NEWTON
-_STEP_STATUS, _PROBING, _POWER = abi.STEP_STATUS, abi.PROBING, abi.POWER
+_STEP_STATUS, _PROBING = abi.STEP_STATUS, abi.PROBING
 _MOST_ITERATIONS = 100
 #: h^2/4 a is at least this many times the largest mass: below, the iterations of short steps would not converge.
 _LEAST_PENALTY = 1e3
@@ -226,7 +226,13 @@ def projected_steps(
                         trial[nq + i] -= change[i]
                     else:
                         k[nq + i] -= change[i]
-        reached = w[_POWER]
+        # multipliers of the iteration belong to accelerations before their projection, of order 1: the power comes from
+        # those of the law
+        rate = part(matrix, 0, ny)
+        if rhs(following, trial, p, w, iw, rate) != 0:
+            confirm(following, trial, p, w, iw, rate)
+        control[_EVALUATIONS] += 1
+        reached = rate[width]
         trial[width] = y[width] + 0.5 * step * (power + reached)
         iw[_PROBING] = 1 if partial else 0
         accept(following, trial, p, w, iw)
