@@ -19,6 +19,7 @@ from rich.table import Table
 
 from benchmarks.show import show
 from symgen.api import Model, load
+from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.result.result import Result
 
@@ -55,7 +56,9 @@ class Row:
 
 def simulate(model: Model, method: str, step: float, until: float, repeat: int) -> Result:
     """Run with constant steps; only the end is kept, so that outputs cost nothing."""
-    return model.simulate(method=method, step=step, until=until, times=[until], repeat=repeat)
+    scheme = INTEGRATORS.get(METHODS.get(method).default_integrator)
+    options = {"integrator.adaptive": "false"} if scheme.adaptive else {}
+    return model.simulate(method=method, step=step, until=until, times=[until], repeat=repeat, options=options)
 
 
 def row(name: str, method: str, step: float, until: float, repeat: int) -> Row:

@@ -244,7 +244,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 388 operations, 317172 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 395 operations, 321435 before sharing."""
     # inputs
     p3 = p[3]  # crank_start [rad]
     p4 = p[4]  # crank_speed [rad/s]
@@ -336,13 +336,13 @@ def geometry(t, y, p, w):
     s62 = s57 - s61
     s63 = s53 + s54*s59
     s64 = 1.0 - s55 + s61
-    s65 = 1.0*(s62 > 1e-12*s57)
+    s65 = 1.0*(s62 > mask_7 + 1e-12*s57)
     s66 = 1.0 - s65
     s67 = s65/(s62 + s66)
     s68 = s63*s67
     s69 = s52 - s54*s60 - s63*s68
     s70 = s47 + s53 + s53*s60 + s64*s68
-    s71 = 1.0*(s69 > 1e-12*s52)
+    s71 = 1.0*(s69 > mask_4 + 1e-12*s52)
     s72 = 1.0 - s71
     s73 = s71/(s69 + s72)
     s74 = s70*s73
@@ -350,7 +350,7 @@ def geometry(t, y, p, w):
     s76 = s56 - s61 - s64*(s64*s67) - s70*s74
     s77 = s48*s74 - s47
     s78 = -1.0 + s49 - s47*s74
-    s79 = 1.0*(s76 > 1e-12*s56)
+    s79 = 1.0*(s76 > mask_5 + 1e-12*s56)
     s80 = 1.0 - s79
     s81 = s79/(s76 + s80)
     s82 = s77*s81
@@ -363,7 +363,7 @@ def geometry(t, y, p, w):
     s89 = s1*s84 - s0
     s90 = s42*s84 - s41
     s91 = -1.0 + s43 - s87
-    s92 = 1.0*(s88 > 1e-12*s44)
+    s92 = 1.0*(s88 > mask_1 + 1e-12*s44)
     s93 = 1.0 - s92
     s94 = s92/(s88 + s93)
     s95 = s89*s94
@@ -371,16 +371,16 @@ def geometry(t, y, p, w):
     s97 = 1.0 - s1*s85 - s89*s95
     s98 = s1 - s42*s85 - s90*s95
     s99 = s41*s85 - s0 - s91*s95
-    s100 = 1.0*(s97 > 1e-12)
+    s100 = 1.0*(s97 > mask_8 + 1e-12)
     s101 = 1.0 - s100
     s102 = s100/(s97 + s101)
     s103 = s98*s102
     s104 = s46 - s48*s75 - s77*s82 - s42*s86 - s90*s96 - s98*s103
     s105 = s47*s75 - (s41 + s47) - s78*s82 + s41*s86 - s91*s96 - s99*s103
-    s106 = 1.0*(s104 > 1e-12*s46)
+    s106 = 1.0*(s104 > mask_2 + 1e-12*s46)
     s107 = 1.0 - s106
     s108 = s50 - s47*(s47*s73) - s78*(s78*s81) - s87 - s91*(s91*s94) - s99*(s99*s102) - s105*(s105*(s106/(s104 + s107)))
-    s109 = 1.0*(s108 > 1e-12*s50)
+    s109 = 1.0*(s108 > mask_3 + 1e-12*s50)
     s110 = 1.0/(p25 + s34)
     s111 = s35*s110
     s112 = s36*s110

@@ -226,7 +226,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 326 operations, 215790 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 332 operations, 219464 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -313,7 +313,7 @@ def geometry(t, y, p, w):
     s60 = s42 - s59
     s61 = s40*s57 - s39
     s62 = -1.0 + s41 - s59
-    s63 = 1.0*(s60 > 1e-12*s42)
+    s63 = 1.0*(s60 > mask_1 + 1e-12*s42)
     s64 = 1.0 - s63
     s65 = s63/(s60 + s64)
     s66 = s61*s65
@@ -326,11 +326,11 @@ def geometry(t, y, p, w):
     s73 = s55 - s72
     s74 = s51 + s52*s70
     s75 = 1.0 - s53 + s72
-    s76 = 1.0*(s73 > 1e-12*s55)
+    s76 = 1.0*(s73 > mask_7 + 1e-12*s55)
     s77 = 1.0 - s76
     s78 = s76/(s73 + s77)
     s79 = s74*s78
-    s80 = 1.0*(s67 > 1e-12*s44)
+    s80 = 1.0*(s67 > mask_2 + 1e-12*s44)
     s81 = 1.0 - s80
     s82 = s80/(s67 + s81)
     s83 = s68*s82
@@ -338,16 +338,16 @@ def geometry(t, y, p, w):
     s85 = s48 - s59 - s62*(s62*s65) - s68*s83
     s86 = s45 + s46*s83
     s87 = -1.0 + s47 + s45*s83
-    s88 = 1.0*(s85 > 1e-12*s48)
+    s88 = 1.0*(s85 > mask_3 + 1e-12*s48)
     s89 = 1.0 - s88
     s90 = s88/(s85 + s89)
     s91 = s86*s90
     s92 = s50 - s52*s71 - s74*s79 - s46*s84 - s86*s91
     s93 = s45*s84 - (s45 + s51 + s51*s71 + s75*s79) + s87*s91
-    s94 = 1.0*(s92 > 1e-12*s50)
+    s94 = 1.0*(s92 > mask_4 + 1e-12*s50)
     s95 = 1.0 - s94
     s96 = s54 - s72 - s75*(s75*s78) - s45*(s45*s82) - s87*(s87*s90) - s93*(s93*(s94/(s92 + s95)))
-    s97 = 1.0*(s96 > 1e-12*s54)
+    s97 = 1.0*(s96 > mask_5 + 1e-12*s54)
     s98 = 1.0/s23
     s99 = s24*s98
     s100 = -s99

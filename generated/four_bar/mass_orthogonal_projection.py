@@ -245,7 +245,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 296 operations, 97235 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 302 operations, 98849 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -316,7 +316,7 @@ def geometry(t, y, p, w):
     s39 = s21 - s38
     s40 = s19*s36 - s18
     s41 = -1.0 + s20 - s38
-    s42 = 1.0*(s39 > 1e-12*s21)
+    s42 = 1.0*(s39 > mask_1 + 1e-12*s21)
     s43 = s42/(s39 + 1.0 - s42)
     s44 = s40*s43
     s45 = s23 - s19*s37 - s40*s44
@@ -328,22 +328,22 @@ def geometry(t, y, p, w):
     s51 = s34 - s50
     s52 = s30 + s31*s48
     s53 = 1.0 - s32 + s50
-    s54 = 1.0*(s51 > 1e-12*s34)
+    s54 = 1.0*(s51 > mask_7 + 1e-12*s34)
     s55 = s54/(s51 + 1.0 - s54)
     s56 = s52*s55
-    s57 = 1.0*(s45 > 1e-12*s23)
+    s57 = 1.0*(s45 > mask_2 + 1e-12*s23)
     s58 = s57/(s45 + 1.0 - s57)
     s59 = s46*s58
     s60 = s25*s58
     s61 = s27 - s38 - s41*(s41*s43) - s46*s59
     s62 = s24 + s25*s59
     s63 = -1.0 + s26 + s24*s59
-    s64 = 1.0*(s61 > 1e-12*s27)
+    s64 = 1.0*(s61 > mask_3 + 1e-12*s27)
     s65 = s64/(s61 + 1.0 - s64)
     s66 = s62*s65
     s67 = s29 - s31*s49 - s52*s56 - s25*s60 - s62*s66
     s68 = s24*s60 - (s24 + s30 + s30*s49 + s53*s56) + s63*s66
-    s69 = 1.0*(s67 > 1e-12*s29)
+    s69 = 1.0*(s67 > mask_4 + 1e-12*s29)
     s70 = s33 - s50 - s53*(s53*s55) - s24*(s24*s58) - s63*(s63*s65) - s68*(s68*(s69/(s67 + 1.0 - s69)))
     s71 = s1*p15
     s72 = s1*s71
@@ -415,7 +415,7 @@ def geometry(t, y, p, w):
     w[57] = s109
     w[58] = s110
     w[60] = s112
-    w[5] = s54 + 1.0 + 1.0*(s70 > 1e-12*s33) + s69 + s64 + s57 + 1.0 + s42
+    w[5] = s54 + 1.0 + 1.0*(s70 > mask_5 + 1e-12*s33) + s69 + s64 + s57 + 1.0 + s42
     w[4] = min(s111, mask_7 + s112)
     w[115] = p35
     w[116] = -s85

@@ -200,7 +200,7 @@ def rhs(t, y, p, w, iw, ydot):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 229 operations, 19028 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D M^-1 D^T: 233 operations, 19246 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -271,7 +271,7 @@ def geometry(t, y, p, w):
     s44 = s32 - s43
     s45 = s30*s41 - s29
     s46 = -1.0 + s31 - s43
-    s47 = 1.0*(s44 > 1e-12*s32)
+    s47 = 1.0*(s44 > mask_1 + 1e-12*s32)
     s48 = 1.0 - s47
     s49 = s47/(s44 + s48)
     s50 = s45*s49
@@ -282,16 +282,16 @@ def geometry(t, y, p, w):
     s55 = s39 - 1.0 - s54
     s56 = s36*s52 - s35
     s57 = -1.0 + s37 - s54
-    s58 = 1.0*(s55 > 1e-12*s39)
+    s58 = 1.0*(s55 > mask_5 + 1e-12*s39)
     s59 = 1.0 - s58
     s60 = s58/(s55 + s59)
     s61 = s56*s60
     s62 = s34 - s30*s42 - s45*s50 - s36*s53 - s56*s61
     s63 = s29*s42 - (s29 + s35) - s46*s50 + s35*s53 - s57*s61
-    s64 = 1.0*(s62 > 1e-12*s34)
+    s64 = 1.0*(s62 > mask_2 + 1e-12*s34)
     s65 = 1.0 - s64
     s66 = s38 - s43 - s46*(s46*s49) - s54 - s57*(s57*s60) - s63*(s63*(s64/(s62 + s65)))
-    s67 = 1.0*(s66 > 1e-12*s38)
+    s67 = 1.0*(s66 > mask_3 + 1e-12*s38)
     s68 = 1.0/s17
     s69 = s18*s68
     s70 = -s69
