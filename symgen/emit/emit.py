@@ -75,7 +75,7 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
     wanted -= {"nq", "nv", "m"} if parts else set()  # set by the parent for its parts
     if parts:
         # what a part could ask for belongs to the interface even if the parts at hand do not
-        wanted |= {"skip", "counters", "status", "tolerance", "iteration_tolerance"}
+        wanted |= {"skip", "counters", "status", "tolerance", "iteration_tolerance", "penalty"}
     if wanted != set(values):
         missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
         raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
@@ -140,6 +140,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "counters": {name: i for i, name in enumerate(COUNTERS)},
             "tolerance": place.get("tolerance", "1e-13"),
             "iteration_tolerance": place.get("iteration_tolerance", "1e-13"),
+            "penalty": place.get("penalty", "0.0"),
             "skip": SKIP,
             "functions": _functions(program.blocks, layout, equations),
         },

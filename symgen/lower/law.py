@@ -252,8 +252,9 @@ class _Builder:
     def augmented_metric(self) -> None:
         """Add the mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
 
-        ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` for the residual r of
-        positions or velocities; delta and lambda are kept in sections of their own.
+        ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` with the residual r of
+        positions or velocities after the change; delta and lambda are kept in sections of their own. The block raises
+        lambda before it solves, so lambda begins at -a r.
         """
         e, g, system = self.equations, self.system.graph, self.system
         penalty = system.parameter("penalty")
@@ -272,7 +273,8 @@ class _Builder:
         moved = Vector(g, tuple(g.input("moved", j) for j in range(e.nv)))
         forces = Vector(g, tuple(g.input("force_of_constraints", i) for i in range(e.m)))
         raised = forces + penalty * residual
-        right = system.mass(moved) + Vector(g, tuple(transposed_product(g, self.model.jacobian, raised.nodes, e.nv)))
+        pressed = raised + penalty * residual
+        right = system.mass(moved) + Vector(g, tuple(transposed_product(g, self.model.jacobian, pressed.nodes, e.nv)))
         x = stored.loaded("law_lower", "law_reciprocal").solve(g, [g.neg(n) for n in right])
         changes = [
             *_to("change", x),
