@@ -134,7 +134,8 @@ class LawInfo(msgspec.Struct, frozen=True):
             parameters=program.parameters,
             parameter_offset=program.parameter_offset,
             hoisted=program.hoisted,
-            position_correction=program.correction.position != "none",
+            # closing dependent coordinates keeps the constraints but not the branch: a poor partition meets both
+            position_correction=program.correction.position != "none" and program.correction.metric != "independent",
             velocity_correction=program.correction.velocity,
             nw=program.layout.nw,
             unknowns=program.unknowns,

@@ -66,7 +66,7 @@ def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outc
     verdict = Verdict(OK, None, warnings)
     if passed and not compiled.law.position_correction:
         reason = (
-            f"passed near a singular position{_when(outcome)} without correction of positions: "
+            f"passed near a singular position{_when(outcome)} and positions are not corrected in all coordinates: "
             "nothing tells whether the right branch was taken"
         )
         verdict = Verdict(UNVERIFIED, reason, warnings)

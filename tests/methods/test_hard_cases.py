@@ -79,11 +79,10 @@ def test_singular_positions(method):
 @pytest.mark.slow
 @pytest.mark.parametrize("windows", [1, 2])
 @pytest.mark.parametrize("method", METHODS.names)
-def test_singular_positions_by_every_method(method, windows, request):
+def test_singular_positions_by_every_method(method, windows):
+    found = check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
     if method == "coordinate-partitioning":
-        reason = "a partition near a singular position may follow a wrong branch, and the run ends ok with a warning"
-        request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
-    check_passages(method, windows, np.linspace(0.95e-3, 1.05e-3, 4), 10.0)
+        assert "ok" not in found.statuses  # a poor partition keeps the constraints, but not always the branch
 
 
 def two_links(massless: bool) -> Model:
