@@ -2,7 +2,7 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates fe292ed5ae0ffbf8
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 5bd7b9f05bae4c73
 option solver = augmented
 p[15] tolerance (default 1e-13)
 """
@@ -876,7 +876,7 @@ def accept(t, y, p, w, iw):
     if iw[5] == 0:
         geometry(t, y, p, w)
         current = w[10]
-        if iw[7] == 0 or current < 0.5 * w[11]:
+        if iw[7] == 0 or current < 0.1 * w[11]:
             choose(p, w, iw)
             geometry(t, y, p, w)
             w[11] = w[10]

@@ -2,7 +2,7 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates fe292ed5ae0ffbf8
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 5bd7b9f05bae4c73
 option solver = elimination
 p[3] tolerance (default 1e-13)
 """
@@ -190,7 +190,7 @@ def accept(t, y, p, w, iw):
     if iw[5] == 0:
         geometry(t, y, p, w)
         current = w[10]
-        if iw[7] == 0 or current < 0.5 * w[11]:
+        if iw[7] == 0 or current < 0.1 * w[11]:
             choose(p, w, iw)
             geometry(t, y, p, w)
             w[11] = w[10]

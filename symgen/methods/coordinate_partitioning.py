@@ -18,7 +18,7 @@ class CoordinatePartitioning(MultiplierMethod):
     Before every evaluation u is found by Newton's iteration on the dependent columns of D and u' by one solve, so
     that all states of a step satisfy the constraints. The derivatives that the integrator forms for u serve as
     prediction only. The partition comes from an elimination of D with complete pivoting; another one is chosen where
-    the smallest pivot of the dependent block has fallen to half of what it was when the partition was chosen.
+    the smallest pivot of the dependent block has fallen to a tenth of what it was when the partition was chosen.
     """
 
     name = "coordinate-partitioning"

@@ -106,7 +106,9 @@ def test_order_of_every_pair():
 
 def check_violations(name, method, until, step):
     result = load(name).simulate(method=method, integrator="rk4", step=step, until=until, output_step=until / 97)
-    assert result.status == "ok", result.reason
+    # a partition may meet singular positions, after which nothing tells whether the right branch was taken
+    passed = method == "coordinate-partitioning" and result.rank_event_count > 0
+    assert result.status == ("unverified" if passed else "ok"), result.reason
     largest, fastest = np.abs(np.asarray(result.q)).max(), np.abs(np.asarray(result.v)).max()
     assert result.position_violation_max <= 1e-12 * max(1.0, largest)
     assert result.velocity_violation_max <= 1e-12 * max(1.0, fastest)
