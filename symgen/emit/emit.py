@@ -117,6 +117,8 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
     layout, correction = program.layout, program.correction
     own = {b.name for b in program.blocks}
     shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
+    if program.unknowns:  # exact Jacobians need the slopes of tables
+        shared |= {f"table_{name}_slope" for name, _, _ in model.tables}
     if correction.any:
         shared.add("spread")
     parts = _parts(program)

@@ -26,8 +26,10 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     inputs : iterable of (space, index)
         What to differentiate with respect to; structurally zero derivatives are absent.
 
-    Notes ----- At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope
-    is that of its piece.
+    Notes
+    -----
+    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope is that of its
+    piece.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}

@@ -81,7 +81,9 @@ def alpha_steps(
     room, rows : Array
         Working memory.
 
-    Notes ----- The algorithmic acceleration starts with ``a0 = v0' + (alpha_m - alpha_f) h v0''``: with a0 = v0' the
+    Notes
+    -----
+    The algorithmic acceleration starts with ``a0 = v0' + (alpha_m - alpha_f) h v0''``: with a0 = v0' the
     multipliers would start with an error of order one.
     """
     width, ny, size = nq + nv, nq + nv + 1, n - nq

@@ -109,7 +109,7 @@ def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert imported("run", "pendulum", "--until", "0.1", "--json")[0] == 0
     saved = tmp_path / "run.csv"
     arguments = ("run", "pendulum", "--until", "1e5", "--output-step", "10", "--json", "--save", saved)
-    code, out, err, seconds = interrupt(arguments, integrating, tmp_path)
+    code, out, err, _ = interrupt(arguments, integrating, tmp_path)
     assert code == 130
     found = json.loads(out)
     assert found["status"] == "failed" and found["reason"] == "interrupted"
@@ -117,7 +117,6 @@ def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert err.splitlines()[-1] == f"symgen: interrupted; outputs up to t = {found['final']['t']:g} s were kept"
     lines = saved.read_text().splitlines()
     assert float(lines[-1].split(",")[0]) == found["final"]["t"]
-    assert seconds < 30.0  # the loop stops at once; what takes time is importing pandas
 
 
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")

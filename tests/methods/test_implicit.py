@@ -3,6 +3,7 @@
 import cmath
 import types
 from functools import cache
+from pathlib import Path
 
 import msgspec
 import numpy as np
@@ -172,3 +173,12 @@ def test_an_adaptive_implicit_run_passes_the_transient():
     assert result.status == "ok" and result.steps < 1000
     exact, _ = stiff.reference()
     assert stiff.points().distance(np.asarray(result.q), exact) <= 1e-7
+
+
+def test_tables_have_slopes_in_implicit_schemes():
+    keys = {"method": "direct-correction", "until": 0.2, "output_step": 0.05}
+    model = load(Path(__file__).parents[2] / "examples" / "gear-pair.toml")
+    implicit = model.simulate(integrator="radau5", rtol=1e-10, atol=1e-11, **keys)
+    explicit = model.simulate(integrator="rk4", step=1e-4, **keys)
+    assert implicit.status == explicit.status == "ok"
+    np.testing.assert_allclose(np.asarray(implicit.q), np.asarray(explicit.q), atol=1e-8)
