@@ -28,8 +28,8 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
 
     Notes
     -----
-    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope is that of its
-    piece.
+    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope is that of
+    its piece.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
