@@ -6,7 +6,8 @@ import bisect
 import math
 from collections.abc import Mapping
 
-from symgen.describe.mechanism import Table
+from symgen.describe.mechanism import SpatialBody, Table
+from symgen.describe.orientation import EulerParameters, euler_parameters
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number
@@ -56,6 +57,27 @@ def evaluate(
     if isinstance(value, complex) or not math.isfinite(value):
         raise _undefined(expression, arguments, where, "is not a finite real number")
     return float(value)
+
+
+def orientation(body: SpatialBody, values: Mapping[str, float], source: str) -> EulerParameters:
+    """Return the Euler parameters that a body starts with.
+
+    Parameters
+    ----------
+    body : SpatialBody
+        The body.
+    values : mapping of str to float
+        Values of the parameters.
+    source : str
+        File or mechanism, for the message.
+
+    Raises
+    ------
+    InputError
+        If its description stands for no orientation.
+    """
+    where = f"{source}: bodies.{body.name}.orientation"
+    return euler_parameters(body.orientation, lambda e: evaluate(e, values, where), where)
 
 
 def interpolate(table: Table, x: float) -> float:

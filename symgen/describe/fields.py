@@ -24,25 +24,56 @@ StateFunction = Annotated[
     Meta(description="a number or an expression of t, parameters and body coordinates such as crank.theta"),
 ]
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
-PotentialPair = Annotated[
-    tuple[float | str, float | str], Meta(description="two expressions [x, y], the first of x, the second of y")
+Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
+#: Two or three of them: the schema publishes that much, which of the two a mechanism needs is said by its `Scope`.
+_Components = Annotated[tuple[float | str, ...], Meta(extra_json_schema={"minItems": 2, "maxItems": 3})]
+Vector = Annotated[
+    _Components,
+    Meta(description="two numbers or expressions of parameters [x, y], in space three [x, y, z]"),
 ]
-Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters [x, y]")]
-Axis = Annotated[tuple[float | str, float | str], Meta(description="a direction [x, y] in the body's frame")]
-StatePair = Annotated[
-    tuple[float | str, float | str], Meta(description="two numbers or expressions [x, y] of t, parameters and state")
+PotentialVector = Annotated[
+    _Components, Meta(description="expressions [x, y] or [x, y, z], each of its own coordinate")
 ]
+Axis = Annotated[_Components, Meta(description="a direction [x, y] or [x, y, z] in the body's frame")]
+StateVector = Annotated[
+    _Components,
+    Meta(description="numbers or expressions [x, y] or [x, y, z] of t, parameters and state"),
+]
+StateTorque = Annotated[
+    float | str | tuple[float | str, ...],
+    Meta(description="a number or an expression of t, parameters and state; for a body in space three [x, y, z]"),
+]
+TextPair = Annotated[tuple[str, str], Meta(description="two names")]
+_AnyPoint = str | _Components
 Point = Annotated[
-    str | tuple[float | str, float | str],
-    Meta(description="a point of the body: its name, 'centre' or coordinates [x, y]"),
+    _AnyPoint, Meta(description="a point of the body: its name, 'centre' or coordinates [x, y] or [x, y, z]")
 ]
 BodyName = Annotated[str, Meta(description="the name of a body or 'ground'")]
 BodyPair = Annotated[tuple[str, str], Meta(description="the names of two bodies, one of which may be 'ground'")]
 PointPair = Annotated[
-    tuple[str | tuple[float | str, float | str], str | tuple[float | str, float | str]],
-    Meta(description="two points, one of each body: a name, 'centre' or coordinates [x, y]"),
+    tuple[_AnyPoint, _AnyPoint],
+    Meta(description="two points, one of each body: a name, 'centre' or coordinates [x, y] or [x, y, z]"),
 ]
-Points = Annotated[dict[str, Pair], Meta(description="a table of points, name = [x, y] in the body's frame")]
+AxisPair = Annotated[
+    tuple[float | str | _Components, ...],
+    Meta(description="a direction [x, y], in space [x, y, z] or two such, one in the frame of each body"),
+]
+DirectionPair = Annotated[
+    tuple[_Components, _Components], Meta(description="two directions, one in the frame of each body")
+]
+Tensor = Annotated[
+    tuple[float | str | tuple[float | str, ...], ...],
+    Meta(
+        description="[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three", min_length=3, max_length=6
+    ),
+]
+SixBySix = Annotated[
+    tuple[float | str | tuple[float | str, ...], ...],
+    Meta(description="six numbers or expressions of parameters, or six rows of six", min_length=6, max_length=6),
+]
+Points = Annotated[
+    dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
+]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import msgspec
 
+from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import Effort, Measure, Row
+
+#: Components of a vector: two in the plane, three in space.
+Vec = tuple[Expr, ...]
 
 
 class Parameter(msgspec.Struct, frozen=True):
@@ -35,11 +39,11 @@ class Body(msgspec.Struct, frozen=True):
     name: str
     mass: Expr
     inertia: Expr | None = None  # about the centre of mass [kg m^2]; None for a point mass, which has no angle
-    centre_of_mass: tuple[Expr, Expr] = (ZERO, ZERO)
-    points: tuple[tuple[str, tuple[Expr, Expr]], ...] = ()
-    position: tuple[Expr, Expr] = (ZERO, ZERO)
+    centre_of_mass: Vec = (ZERO, ZERO)
+    points: tuple[tuple[str, Vec], ...] = ()
+    position: Vec = (ZERO, ZERO)
     angle: Expr = ZERO
-    velocity: tuple[Expr | None, Expr | None] = (None, None)  # of the centre of mass; None: completed by assembly
+    velocity: tuple[Expr | None, ...] = (None, None)  # of the centre of mass; None: completed by assembly
     angular_velocity: Expr | None = None
 
     @property
@@ -57,6 +61,53 @@ class Body(msgspec.Struct, frozen=True):
         """Names of the velocities, without the body's."""
         return ("vx", "vy") if self.is_point else ("vx", "vy", "omega")
 
+    @property
+    def massless(self) -> bool:
+        """Whether mass or inertia is the number 0."""
+        return ZERO in (self.mass, self.inertia)
+
+
+class SpatialBody(msgspec.Struct, frozen=True):
+    """A spatial rigid body or point mass.
+
+    As for a planar `Body`; `inertia` holds the entries (xx, yy, zz, xy, xz, yz) of the tensor about the centre of mass
+    along the axes of the body frame, None for a point mass, which has no orientation. `angular_velocity` is given in
+    body axes.
+    """
+
+    name: str
+    mass: Expr
+    inertia: tuple[Expr, Expr, Expr, Expr, Expr, Expr] | None = None
+    centre_of_mass: Vec = (ZERO, ZERO, ZERO)
+    points: tuple[tuple[str, Vec], ...] = ()
+    position: Vec = (ZERO, ZERO, ZERO)
+    orientation: Orientation = IDENTITY
+    velocity: tuple[Expr | None, ...] = (None, None, None)
+    angular_velocity: tuple[Expr | None, ...] = (None, None, None)
+
+    @property
+    def is_point(self) -> bool:
+        """Whether the body is a point mass: coordinates x, y and z only."""
+        return self.inertia is None
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the coordinates, without the body's."""
+        return ("x", "y", "z") if self.is_point else ("x", "y", "z", "e0", "e1", "e2", "e3")
+
+    @property
+    def speeds(self) -> tuple[str, ...]:
+        """Names of the velocities, without the body's."""
+        return ("vx", "vy", "vz") if self.is_point else ("vx", "vy", "vz", "wx", "wy", "wz")
+
+    @property
+    def massless(self) -> bool:
+        """Whether a mass or moment of inertia is the number 0."""
+        return ZERO in (self.mass, *(self.inertia or ())[:3])
+
+
+AnyBody = Body | SpatialBody
+
 
 class Joint(msgspec.Struct, frozen=True):
     """A joint, driver or nonholonomic condition of any kind, resolved to rows on measures.
@@ -70,6 +121,11 @@ class Joint(msgspec.Struct, frozen=True):
     bodies: tuple[str, ...]
     rows: tuple[Row, ...]
     coordinates: tuple[tuple[str, Measure], ...] = ()
+
+    @staticmethod
+    def unit(label: str) -> str:
+        """Return the unit of a coordinate: labels of angles begin with ``angle``, all others are lengths."""
+        return "rad" if label.startswith("angle") else "m"
 
 
 class Force(msgspec.Struct, frozen=True):
@@ -92,7 +148,7 @@ class Defaults(msgspec.Struct, frozen=True):
 
 
 class Mechanism(msgspec.Struct, frozen=True):
-    """A validated planar mechanism.
+    """A validated mechanism, all of it planar or all of it spatial.
 
     Bodies, joints and forces stand in the order of the file, which is the order of coordinates and multipliers.
     """
@@ -100,14 +156,14 @@ class Mechanism(msgspec.Struct, frozen=True):
     name: str
     title: str
     space: str
-    gravity: tuple[Expr, Expr]
+    gravity: Vec
     parameters: tuple[Parameter, ...]
     tables: tuple[Table, ...]
-    bodies: tuple[Body, ...]
+    bodies: tuple[Body, ...] | tuple[SpatialBody, ...]
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
 
-    def body(self, name: str) -> Body:
+    def body(self, name: str) -> AnyBody:
         """Return the body called `name`."""
         return next(b for b in self.bodies if b.name == name)

@@ -8,7 +8,14 @@ from typing import Any
 
 import msgspec
 
-from symgen.describe.sections import BodySection, MechanismSection, ParameterSection, RunSection, TableSection
+from symgen.describe.sections import (
+    BodySection,
+    MechanismSection,
+    ParameterSection,
+    RunSection,
+    SpatialBodySection,
+    TableSection,
+)
 
 _NAME = "^[A-Za-z][A-Za-z0-9_]{0,63}$"
 
@@ -30,7 +37,7 @@ def schema() -> dict[str, Any]:
             "run": _table(RunSection),
             "parameters": _named(parameter),
             "tables": _named(_table(TableSection)),
-            "bodies": _named(_table(BodySection)) | {"minProperties": 1},
+            "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases)}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
         },
@@ -55,7 +62,15 @@ def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str]) -> list[di
 
 
 def _table(struct: type[Any]) -> dict[str, Any]:
-    """Return the schema of one table, in place rather than by reference: no table contains another kind of table."""
-    found = msgspec.json.schema(struct)
-    (table,) = found["$defs"].values()
-    return dict(table) | {"description": inspect.cleandoc(struct.__doc__ or "")}
+    """Return the schema of one table, with tables inside it in place rather than by reference."""
+    found = msgspec.json.schema(struct)["$defs"]
+
+    def inlined(part: Any) -> Any:
+        if isinstance(part, dict):
+            if "$ref" in part:
+                return inlined(found[part["$ref"].rpartition("/")[2]])
+            return {key: inlined(value) for key, value in part.items()}
+        return [inlined(item) for item in part] if isinstance(part, list) else part
+
+    table: dict[str, Any] = inlined(found[struct.__name__])
+    return table | {"description": inspect.cleandoc(struct.__doc__ or "")}

@@ -9,12 +9,14 @@ from collections.abc import Callable, Mapping
 import msgspec
 
 from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import Body, Joint
+from symgen.describe.fields import found
+from symgen.describe.mechanism import AnyBody, Joint, Vec
 from symgen.describe.names import quoted
 from symgen.describe.parser import Names, parse
+from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
-from symgen.vocabulary.measures import GROUND, Direction, Marker
+from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
 #: The name by which a file means a body's centre of mass.
 CENTRE = "centre"
@@ -26,8 +28,9 @@ class Model(msgspec.Struct, frozen=True):
     source: str
     values: Mapping[str, float]  # parameters with their defaults
     tables: tuple[str, ...]
-    bodies: Mapping[str, Body]
+    bodies: Mapping[str, AnyBody]
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
+    space: str = "planar"
 
     @property
     def coordinates(self) -> dict[str, tuple[str, ...]]:
@@ -52,6 +55,33 @@ class Scope:
 
     def __init__(self, model: Model, path: str, name: str = "", kind: str = "") -> None:
         self.model, self.path, self.name, self.kind = model, path, name, kind
+
+    @property
+    def spatial(self) -> bool:
+        """Whether the mechanism lives in space."""
+        return self.model.space == "spatial"
+
+    @property
+    def dimension(self) -> int:
+        """Number of components of a point."""
+        return 3 if self.spatial else 2
+
+    def check_space(self, spaces: tuple[str, ...]) -> None:
+        """Refuse a kind that does not exist in this mechanism's space."""
+        if self.model.space not in spaces:
+            raise self.error(
+                "type", f"a type for {self.model.space} mechanisms", f"'{self.kind}', which is {spaces[0]}"
+            )
+
+    def only(self, *keys: str, **given: object) -> None:
+        """Refuse keys that mean nothing in this mechanism's space, and require `keys` that do."""
+        space = "space" if self.spatial else "the plane"
+        for key, value in given.items():
+            if (value is None) == (key in keys):
+                expected = (
+                    f"a value, as '{self.kind}' needs it in {space}" if key in keys else f"no such key in {space}"
+                )
+                raise self.error(key, expected, "no such key" if value is None else found(value))
 
     def where(self, key: str) -> str:
         """Return file and key for a message."""
@@ -87,12 +117,13 @@ class Scope:
             raise self.error(key, "two different bodies", f"'{a}' twice")
         return a, b
 
-    def marker(self, key: str, body: str, point: str | tuple[float | str, float | str]) -> Marker:
+    def marker(self, key: str, body: str, point: str | tuple[float | str, ...]) -> Marker:
         """Return the point of `body` that is given by name, as ``"centre"`` or by coordinates."""
         if not isinstance(point, str):
             return self._free_marker(key, body, self.vector(key, point))
         if body == GROUND:
-            raise self.error(key, "coordinates [x, y] of a point of the ground", quoted(point))
+            listed = "[x, y, z]" if self.spatial else "[x, y]"
+            raise self.error(key, f"coordinates {listed} of a point of the ground", quoted(point))
         known = dict(self.model.bodies[body].points)
         if point == CENTRE:
             return Marker(body, self.model.bodies[body].centre_of_mass)
@@ -101,27 +132,94 @@ class Scope:
             raise self.error(key, "the name of a point", got, nearest(point, [*known, CENTRE]))
         return Marker(body, known[point])
 
-    def _free_marker(self, key: str, body: str, point: tuple[Expr, Expr]) -> Marker:
-        if not self.turns(body) and point != (ZERO, ZERO):
-            raise self.error(key, f"'{CENTRE}' or [0, 0], the one point of the point mass '{body}'", "another point")
+    def _free_marker(self, key: str, body: str, point: Vec) -> Marker:
+        if not self.turns(body) and any(e != ZERO for e in point):
+            origin = "[0, 0, 0]" if self.spatial else "[0, 0]"
+            expected = f"'{CENTRE}' or {origin}, the one point of the point mass '{body}'"
+            raise self.error(key, expected, "another point")
         return Marker(body, point)
 
-    def axis(self, key: str, body: str, vector: tuple[float | str, float | str]) -> tuple[Direction, Direction]:
-        """Return the direction fixed in `body` and its left-hand normal, both of length 1."""
-        x, y = self.vector(key, vector)
-        length = call("sqrt", call("add", call("mul", x, x), call("mul", y, y)))
+    def axis(
+        self, key: str, body: str, vector: tuple[float | str | tuple[float | str, ...], ...]
+    ) -> tuple[Direction, Direction]:
+        """Return the direction in the plane fixed in `body` and its left-hand normal, both of length 1."""
+        plain = tuple(e for e in vector if not isinstance(e, tuple))
+        if len(plain) < len(vector):
+            raise self.error(key, "one direction [x, y]", found(vector))
+        along = self.direction(key, body, plain)
+        x, y = along.vector
+        return along, Direction(body, (call("neg", y), x))
+
+    def direction(self, key: str, body: str, vector: tuple[float | str, ...]) -> Direction:
+        """Return a direction of length 1 fixed in `body`."""
+        parts = self.vector(key, vector)
+        squares = [call("mul", e, e) for e in parts]
+        square = squares[0]
+        for e in squares[1:]:
+            square = call("add", square, e)
+        length = call("sqrt", square)
         if not self.value(length, key) > 0:
             raise self.error(key, "a direction", "a vector of length 0")
-        if isinstance(x, Number) and isinstance(y, Number):
-            size = math.hypot(x.value, y.value)
-            x, y = Number(x.value / size), Number(y.value / size)
-        else:
-            x, y = call("div", x, length), call("div", y, length)
-        return Direction(body, (x, y)), Direction(body, (call("neg", y), x))
+        if all(isinstance(e, Number) for e in parts):
+            size = math.hypot(*(e.value for e in parts if isinstance(e, Number)))
+            return Direction(body, tuple(Number(e.value / size) for e in parts if isinstance(e, Number)))
+        return Direction(body, tuple(call("div", e, length) for e in parts))
+
+    def triads(
+        self,
+        bodies: tuple[str, str],
+        axis: tuple[float | str | tuple[float | str, ...], ...],
+        reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
+        keys: tuple[str, str] = ("axis", "reference"),
+        *,
+        fixed: bool = False,
+    ) -> tuple[Triad, Triad]:
+        """Return a right-handed triad in each of two bodies; see `symgen.describe.triads`."""
+        return make_triads(self, bodies, axis, reference, keys, fixed)
+
+    def cross(
+        self,
+        bodies: tuple[str, str],
+        axes: tuple[tuple[float | str, ...], tuple[float | str, ...]],
+        reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None = None,
+        keys: tuple[str, str] = ("axes", "reference"),
+    ) -> tuple[Triad, Triad]:
+        """Return triads about two axes that cross, one of each body; see `symgen.describe.triads`."""
+        return make_cross(self, bodies, axes, reference, keys)
+
+    def triad(
+        self,
+        body: str,
+        axis: tuple[float | str | tuple[float | str, ...], ...],
+        reference: tuple[float | str, ...] | None = None,
+        keys: tuple[str, str] = ("axis", "reference"),
+    ) -> Triad:
+        """Return a right-handed triad about an axis of one body."""
+        return make_triad(self, body, axis, reference, keys)
 
     def joint(self, key: str, name: str) -> Joint:
         """Return another joint of the mechanism."""
         return self.model.joint(name, self.where(key))
+
+    def joint_coordinate(
+        self, name: str, label: str | None, keys: tuple[str, str] = ("joint", "coordinate"), unit: str = ""
+    ) -> tuple[Joint, str, Measure]:
+        """Return a joint, and label and measure of one of its coordinates: the only one where no label is given.
+
+        With `unit` (``"rad"`` or ``"m"``) coordinates of the other one are left out of account.
+        """
+        joint = self.joint(keys[0], name)
+        known = {n: m for n, m in joint.coordinates if unit in ("", Joint.unit(n))}
+        what = {"": "a coordinate", "rad": "an angle", "m": "a displacement"}[unit]
+        if not known:
+            raise self.error(keys[0], f"a joint that has {what}", f"'{name}', a {joint.kind} joint without")
+        if label is None:
+            if len(known) > 1:
+                raise self.error(keys[1], f"one of {', '.join(known)}", "no such key")
+            label = next(iter(known))
+        if label not in known:
+            raise self.error(keys[1], f"{what} of joint '{name}'", quoted(label), nearest(label, known))
+        return joint, label, known[label]
 
     # Formulas ------------------------------------------------------------------------------------------------------
 
@@ -141,9 +239,14 @@ class Scope:
             raise self.error(key, "a value above 0", repr(size))
         return expression
 
-    def vector(self, key: str, pair: tuple[float | str, float | str]) -> tuple[Expr, Expr]:
-        """Return two numbers or expressions of parameters."""
-        return self.constant(key, pair[0]), self.constant(key, pair[1])
+    def vector(self, key: str, components: tuple[float | str, ...]) -> Vec:
+        """Return two numbers or expressions of parameters, in space three."""
+        if len(components) != self.dimension:
+            what = "three numbers or expressions of parameters [x, y, z]"
+            raise self.error(
+                key, what if self.spatial else "two numbers or expressions of parameters [x, y]", found(components)
+            )
+        return tuple(self.constant(key, e) for e in components)
 
     def optional(self, key: str, value: float | str | None) -> Expr | None:
         """Return as `constant` does, None for None."""

@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from symgen.describe.fields import Numbers, Pair, PlainScalar, Points, PositiveNumber, Scalar, Text
+from symgen.describe.fields import Numbers, PlainScalar, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
 
 
 class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -19,16 +19,16 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     title, source : str
         One line for people; where the data come from.
     space : str
-        ``"planar"``.
-    gravity : pair
+        ``"planar"`` or ``"spatial"``.
+    gravity : vector
         Gravitational acceleration in the ground frame [m/s^2]; none unless given.
     """
 
     name: Text
     title: Text = ""
     source: Text = ""
-    space: Literal["planar"] = "planar"
-    gravity: Pair = (0.0, 0.0)
+    space: Literal["planar", "spatial"] = "planar"
+    gravity: Vector | None = None
 
 
 class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -78,7 +78,7 @@ class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
 
 class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A rigid body or a point mass.
+    """A planar rigid body or point mass.
 
     Parameters
     ----------
@@ -88,15 +88,15 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         [kg], above 0.
     inertia : scalar
         About the centre of mass [kg m^2], above 0.
-    centre_of_mass : pair
+    centre_of_mass : vector
         In the body's frame [m]; its origin unless given.
     points : table
         Named points in the body's frame [m].
-    position : pair
+    position : vector
         Where the origin of the body's frame starts [m]; approximately, as assembly closes the mechanism.
     angle : scalar
         How far the body's frame is turned at the start [rad].
-    velocity : pair
+    velocity : vector
         Of the centre of mass at the start [m/s]; completed by assembly unless given.
     angular_velocity : scalar
         At the start [rad/s]; completed by assembly unless given.
@@ -105,12 +105,84 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     type: Literal["rigid", "point"] = "rigid"
     mass: Scalar
     inertia: Scalar | None = None
-    centre_of_mass: Pair | None = None
+    centre_of_mass: Vector | None = None
     points: Points | None = None
-    position: Pair = (0.0, 0.0)
+    position: Vector | None = None
     angle: Scalar | None = None
-    velocity: Pair | None = None
+    velocity: Vector | None = None
     angular_velocity: Scalar | None = None
+
+
+class OrientationSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """How a body's frame is turned at the start, in one of five ways.
+
+    Parameters
+    ----------
+    quaternion : list of 4
+        Euler parameters e0, e1, e2, e3; their length does not matter.
+    rotation_vector : vector
+        Axis times angle [rad].
+    euler_angles : vector
+        Three angles [rad] about the axes that `convention` names, each as the turns before have left it.
+    convention : str
+        Such as ``"zxz"`` or ``"zyx"``; for `euler_angles`.
+    x_axis, y_axis : vector
+        The frame's x axis in the ground frame, and a vector on the side of its y axis.
+    start, end : vector
+        Two points in the ground frame that the x axis leads from and to, with `y_axis`.
+    """
+
+    quaternion: Tensor | None = None
+    rotation_vector: Vector | None = None
+    euler_angles: Vector | None = None
+    convention: Text | None = None
+    x_axis: Vector | None = None
+    y_axis: Vector | None = None
+    start: Vector | None = None
+    end: Vector | None = None
+
+
+class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A spatial rigid body or point mass.
+
+    Parameters
+    ----------
+    type : str
+        ``"rigid"`` or ``"point"``; a point mass has no inertia, orientation or points.
+    mass : scalar
+        [kg], above 0.
+    inertia : list of 3 or 6, or three rows
+        Tensor [kg m^2] as ``[Ixx, Iyy, Izz]``, with products ``[..., Ixy, Ixz, Iyz]`` or as a matrix; the products are
+        entries of the tensor, Ixy = - integral of x y dm.
+    inertia_at : point
+        The point that `inertia` refers to; the centre of mass unless given.
+    inertia_axes : table
+        How the axes of `inertia` are turned against the body's frame, in numbers; not at all unless given.
+    centre_of_mass : vector
+        In the body's frame [m]; its origin unless given.
+    points : table
+        Named points in the body's frame [m].
+    position : vector
+        Where the origin of the body's frame starts [m]; approximately, as assembly closes the mechanism.
+    orientation : table
+        How the body's frame is turned at the start; not at all unless given.
+    velocity : vector
+        Of the centre of mass at the start, in ground axes [m/s]; completed by assembly unless given.
+    angular_velocity : vector
+        At the start, in body axes [rad/s]; completed by assembly unless given.
+    """
+
+    type: Literal["rigid", "point"] = "rigid"
+    mass: Scalar
+    inertia: Tensor | None = None
+    inertia_at: Point | None = None
+    inertia_axes: OrientationSection | None = None
+    centre_of_mass: Vector | None = None
+    points: Points | None = None
+    position: Vector | None = None
+    orientation: OrientationSection | None = None
+    velocity: Vector | None = None
+    angular_velocity: Vector | None = None
 
 
 #: Sections whose entries are named tables -> what one entry is called.

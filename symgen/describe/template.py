@@ -2,27 +2,37 @@
 
 from __future__ import annotations
 
+import textwrap
+
 from symgen.describe.names import check_mechanism_name
 
 
-def template(name: str = "my-mechanism") -> str:
+def template(name: str = "my-mechanism", space: str = "planar") -> str:
     """Return the text of a new mechanism file.
 
     Parameters
     ----------
     name : str
         Name of the mechanism: lower-case words joined by dashes.
+    space : {"planar", "spatial"}
+        Which of the two it describes.
     """
     from symgen.forces import FORCES
     from symgen.joints import JOINTS
 
     check_mechanism_name(name, "name")
-    joints = ", ".join(kind for kind in JOINTS.names if kind != "revolute")
-    forces = ", ".join(kind for kind in FORCES.names if kind != "torsional-spring-damper")
-    return _TEXT.replace("NAME", name, 1).replace("JOINTS", joints).replace("FORCES", forces)
+    joints = _listed([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])
+    forces = _listed([k for k, kind in FORCES.items() if space in kind.SPACES and k != "torsional-spring-damper"])
+    text = {"planar": _PLANAR, "spatial": _SPATIAL}[space]
+    return text.replace("NAME", name, 1).replace("JOINTS", joints).replace("FORCES", forces)
 
 
-_TEXT = """\
+def _listed(kinds: list[str]) -> str:
+    """Return names with commas, in lines of comments where one line cannot hold them."""
+    return "\n".join(textwrap.wrap(", ".join(kinds), 74, break_on_hyphens=False)).replace("\n", "\n" + " " * 42 + "# ")
+
+
+_PLANAR = """\
 # A mechanism for symgen. SI units throughout: m, kg, s, N, rad. Angles count counter-clockwise.
 # Wherever a number stands, a text may stand: an expression of parameters such as "2*rod_mass" or "pi/3".
 
@@ -76,4 +86,75 @@ damping = "damping"
 type = "torque"
 body = "rod"
 torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rod.omega"   # also rod.x, .y (of the centre of mass), .theta, .vx, .vy
+"""
+
+_SPATIAL = """\
+# A mechanism in space for symgen. SI units throughout: m, kg, s, N, rad.
+# Wherever a number stands, a text may stand: an expression of parameters such as "2*rod_mass" or "pi/3".
+
+[mechanism]
+name = "NAME"
+title = "An arm that a motor turns, with a rod on a pin"
+space = "spatial"
+gravity = [0.0, 0.0, -9.81]               # none unless given
+# source = "where the data come from"
+
+[run]                                     # what a run uses where nothing else is asked for [s]
+until = 10.0
+step = 1e-3
+# output_step = 0.01
+# predictable_until = 5.0                 # for a chaotic motion
+
+[parameters]                              # adjustable at run time; plain numbers elsewhere are compiled in
+rod_mass = { value = 1.5, unit = "kg" }
+rod_length = { value = 0.8, unit = "m" }
+damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
+
+# [tables.profile]                        # a function by linear interpolation, called as profile(t)
+# x = [0.0, 1.0, 2.0]
+# y = [0.0, 0.5, 0.0]
+
+[bodies.arm]
+mass = 2.0
+inertia = [0.02, 0.05, 0.06]              # tensor about the centre of mass; or six numbers, or three rows
+# inertia_at = "centre"                   # another point that it refers to
+# centre_of_mass = [0.0, 0.0, 0.0]        # in the body's frame; its origin unless given
+points = { end = [0.3, 0.0, 0.0] }
+angular_velocity = [0.0, 0.0, 1.0]        # in body axes; left out: completed from the other velocities
+
+[bodies.rod]
+mass = "rod_mass"
+inertia = [1e-4, "rod_mass*rod_length**2/12", "rod_mass*rod_length**2/12"]
+points = { top = ["-rod_length/2", 0.0, 0.0], tip = ["rod_length/2", 0.0, 0.0] }
+position = [0.3, 0.0, "-rod_length/2"]    # where the frame's origin starts; approximately: assembly closes the joints
+orientation = { x_axis = [0.0, 0.0, -1.0], y_axis = [0.0, 1.0, 0.0] }   # or quaternion, rotation_vector, euler_angles
+# velocity = [0.0, 0.0, 0.0]              # of the centre of mass
+
+# [bodies.bob]                            # a point mass has no inertia, orientation or points
+# type = "point"
+# mass = 0.2
+# position = [0.0, 2.0, 0.0]
+
+[joints.hub]
+type = "revolute"                         # or JOINTS
+between = ["ground", "arm"]
+at = [[0.0, 0.0, 0.0], "centre"]          # a point of each body: a name, "centre" or coordinates in its frame
+axis = [0.0, 0.0, 1.0]                    # in the first body's frame; or a pair, one in the frame of each body
+# reference = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]   # directions that coincide at angle 0; as the bodies start
+
+[joints.pin]
+type = "revolute"
+between = ["arm", "rod"]
+at = ["end", "top"]
+axis = [0.0, 1.0, 0.0]
+
+[forces.friction]
+type = "torsional-spring-damper"          # or FORCES
+joint = "pin"
+damping = "damping"
+
+[forces.motor]
+type = "torque"
+joint = "hub"                             # or body = "arm" and three components
+torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rate"   # also rod.x (centre of mass), .e0, .vx, .wx, ...
 """

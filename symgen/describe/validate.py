@@ -8,23 +8,22 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import PlainScalar, found, read, read_value
-from symgen.describe.mechanism import Body, Defaults, Force, Joint, Mechanism, Parameter, Table
+from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, quoted
 from symgen.describe.parser import Names, parse
-from symgen.describe.scope import CENTRE, Model, Scope
+from symgen.describe.scope import Model, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
-    BodySection,
     MechanismSection,
     ParameterSection,
     RunSection,
     TableSection,
 )
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import ZERO
 
 Raw = Mapping[str, Any]
 
@@ -70,21 +69,28 @@ class _Validator:
         parameters = tuple(self.parameter(name, value) for name, value in self.entries("parameters"))
         tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
         self.model = Model(
-            self.source, {p.name: p.value for p in parameters}, tuple(t.name for t in tables), {}, self.joint
+            self.source,
+            {p.name: p.value for p in parameters},
+            tuple(t.name for t in tables),
+            {},
+            self.joint,
+            head.space,
         )
-        bodies = tuple(self.body(name, value) for name, value in self.entries("bodies"))
+        scope = Scope(self.model, "mechanism")
+        gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
+        read_body = spatial_body if head.space == "spatial" else planar_body
+        bodies = tuple(read_body(Scope(self.model, f"bodies.{n}", n), value) for n, value in self.entries("bodies"))
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
-        scope = Scope(self.model, "mechanism")
         return Mechanism(
             name=head.name,
             title=head.title,
             space=head.space,
-            gravity=scope.vector("gravity", head.gravity),
+            gravity=gravity,
             parameters=parameters,
             tables=tables,
-            bodies=bodies,
+            bodies=bodies,  # type: ignore[arg-type]  # all of one space
             joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
             forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
             defaults=self.defaults(head.source),
@@ -153,38 +159,6 @@ class _Validator:
                 raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
         return Table(name, section.x, section.y)
 
-    def body(self, name: str, raw: object) -> Body:
-        scope = Scope(self.model, f"bodies.{name}")
-        section = read(BodySection, raw, scope.where(""))
-        is_point = section.type == "point"
-        if is_point:
-            for key in ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"):
-                if getattr(section, key) is not None:
-                    raise scope.error(key, "no such key, as a point mass has none", found(getattr(section, key)))
-        elif section.inertia is None:
-            hint = 'a body without one is written type = "point"'
-            raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
-        points = []
-        for point, coordinates in (section.points or {}).items():
-            check_identifier(point, scope.where("points"), "point")
-            if point == CENTRE:
-                raise scope.error("points", "another name", f"'{CENTRE}', which is the centre of mass")
-            points.append((point, scope.vector(f"points.{point}", coordinates)))
-        vx, vy = section.velocity or (None, None)
-        return Body(
-            name=name,
-            mass=scope.constant("mass", section.mass, positive=True, or_zero=True),
-            inertia=None
-            if section.inertia is None
-            else scope.constant("inertia", section.inertia, positive=True, or_zero=True),
-            centre_of_mass=scope.vector("centre_of_mass", section.centre_of_mass or (0.0, 0.0)),
-            points=tuple(points),
-            position=scope.vector("position", section.position),
-            angle=ZERO if section.angle is None else scope.constant("angle", section.angle),
-            velocity=(scope.optional("velocity", vx), scope.optional("velocity", vy)),
-            angular_velocity=scope.optional("angular_velocity", section.angular_velocity),
-        )
-
     # Joints and forces ---------------------------------------------------------------------------------------------
 
     def split(self, path: str, raw: object, what: str) -> tuple[str, dict[str, Any]]:
@@ -215,6 +189,7 @@ class _Validator:
         kind, table = self.split(path, self.raw["joints"][name], "joint type")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, JOINTS.canonical(kind))
+        scope.check_space(struct.SPACES)
         joint = read(struct, table, self.where(path), ("type",)).build(scope)
         self._joints[name] = joint
         return joint
@@ -226,4 +201,5 @@ class _Validator:
         kind, table = self.split(path, raw, "force type")
         struct = FORCES.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, FORCES.canonical(kind))
+        scope.check_space(struct.SPACES)
         return read(struct, table, self.where(path), ("type",)).build(scope)

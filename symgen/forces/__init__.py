@@ -5,7 +5,7 @@ A kind is a frozen Struct with the file's keys as fields and a method ``build(sc
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
@@ -14,6 +14,9 @@ from symgen.registry import Registry
 
 class ForceKind(Protocol):
     """What every force kind offers."""
+
+    #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
+    SPACES: ClassVar[tuple[str, ...]]
 
     def build(self, scope: Scope) -> Force:
         """Resolve the file's keys to efforts along measures."""

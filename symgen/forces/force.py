@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import msgspec
 
-from symgen.describe.fields import BodyName, Point, PotentialPair, StatePair
+from symgen.describe.fields import BodyName, Point, PotentialVector, StateVector, found
 from symgen.describe.mechanism import Force as Resolved
 from symgen.describe.scope import CENTRE, Scope
 from symgen.vocabulary.expressions import ZERO, Expr, Name, call
-from symgen.vocabulary.measures import GROUND, X_AXIS, Y_AXIS, Component, Effort, Marker
+from symgen.vocabulary.measures import GROUND, Component, Effort, Marker, PointSpeed, axes
 
 
 class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -22,23 +22,26 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         The body.
     at : point
         Where it acts; the centre of mass unless given.
-    force : pair of functions of state
-        Components [N]; expressions of t, parameters and body coordinates.
+    force : vector of functions of state
+        Components [N], in space three; expressions of t, parameters and body coordinates.
     frame : str
         Axes of the components: ``"ground"``, or ``"body"`` for a force that turns with the body.
-    potential : pair of expressions
-        Potential energy [J] in place of `force`: the first as an expression of ``x``, the second of ``y``, the point's
-        coordinates in the ground frame [m]; the force is minus its derivative and counts as conservative.
+    potential : vector of expressions
+        Potential energy [J] in place of `force`: the first as an expression of ``x``, the second of ``y``, in space the
+        third of ``z``, the point's coordinates in the ground frame [m]; the force is minus its derivative and counts as
+        conservative.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     body: BodyName
     at: Point = CENTRE
-    force: StatePair | None = None
+    force: StateVector | None = None
     frame: Literal["ground", "body"] = "ground"
-    potential: PotentialPair | None = None
+    potential: PotentialVector | None = None
 
     def build(self, scope: Scope) -> Resolved:
-        """Resolve to efforts along the point's two coordinates."""
+        """Resolve to efforts along the point's coordinates, for body axes in space along its velocity."""
         body = scope.body("body", self.body, turns=self.frame == "body", ground=False)
         if (self.force is None) == (self.potential is None):
             raise scope.error(
@@ -47,22 +50,28 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
         if self.potential is not None and self.frame == "body":
             raise scope.error("frame", "'ground', as a potential is given", "'body'")
         point = scope.marker("at", body, self.at)
+        for key, given in (("force", self.force), ("potential", self.potential)):
+            if given is not None and len(given) != scope.dimension:
+                raise scope.error(key, f"{scope.dimension} components", found(given))
         magnitudes = self._magnitudes(scope, body)
+        turning = axes(body, 3) if scope.spatial and self.frame == "body" else None
         efforts = []
-        for i, (label, axis) in enumerate((("x", X_AXIS), ("y", Y_AXIS))):
+        for i, (label, axis) in enumerate(zip("xyz", axes(GROUND, scope.dimension), strict=False)):
             energy = ZERO if self.potential is None else scope.potential("potential", self.potential[i], {label: "s"})
             if magnitudes[i] != ZERO or energy != ZERO:
-                measure = Component(Marker(GROUND, (ZERO, ZERO)), point, axis)
+                origin = Marker(GROUND, (ZERO,) * scope.dimension)
+                measure = Component(origin, point, axis) if turning is None else PointSpeed(point, turning[i])
                 efforts.append(Effort(label, measure, magnitude=magnitudes[i], potential=energy))
         return Resolved(name=scope.name, kind=scope.kind, bodies=(body,), efforts=tuple(efforts))
 
-    def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, Expr]:
-        """Return the components in ground axes."""
+    def _magnitudes(self, scope: Scope, body: str) -> tuple[Expr, ...]:
+        """Return the components in ground axes, in space in the axes asked for."""
         if self.force is None:
-            return ZERO, ZERO
-        x, y = (scope.of_state("force", component) for component in self.force)
-        if self.frame == "ground":
-            return x, y
+            return (ZERO,) * scope.dimension
+        given = tuple(scope.of_state("force", component) for component in self.force)
+        if self.frame == "ground" or scope.spatial:
+            return given
+        x, y = given
         cosine, sine = call("cos", Name(f"{body}.theta")), call("sin", Name(f"{body}.theta"))
         return (
             _plus(_times(x, cosine), _times(call("neg", y), sine)),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction
@@ -35,6 +37,8 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     The force that pushes the ends apart is -k (length - free_length) - c rate - dU/d length + actuator; the spring and
     the potential count as conservative.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair

@@ -1,14 +1,16 @@
-"""Torsional spring, damper and actuator between two bodies."""
+"""Torsional spring, damper and actuator between two bodies, or along the angle of a joint."""
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
-from symgen.describe.fields import BodyPair, Potential, Scalar, StateFunction
+from symgen.describe.fields import BodyPair, Potential, Scalar, StateFunction, Text
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
 from symgen.forces._parts import damped, spring_energy
-from symgen.vocabulary.measures import Angle, Effort
+from symgen.vocabulary.measures import Angle, Effort, Measure
 
 
 class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -17,7 +19,11 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     Parameters
     ----------
     between : pair of body names
-        The two bodies; the torque acts on the second, its opposite on the first.
+        In the plane: the two bodies; the torque acts on the second, its opposite on the first.
+    joint : joint name
+        In space: the joint whose angle it is.
+    coordinate : str
+        In space: which angle of the joint, where it has several.
     stiffness, damping : scalar
         [N m/rad] and [N m s/rad]; 0 unless given.
     free_angle : scalar
@@ -34,7 +40,11 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     potential count as conservative.
     """
 
-    between: BodyPair
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
+
+    between: BodyPair | None = None
+    joint: Text | None = None
+    coordinate: Text | None = None
     stiffness: Scalar = 0.0
     damping: Scalar = 0.0
     free_angle: Scalar = 0.0
@@ -43,18 +53,27 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
 
     def build(self, scope: Scope) -> Force:
         """Resolve to an effort along the angle between the bodies."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
+        bodies, angle = self._angle(scope)
         stiffness, free = scope.constant("stiffness", self.stiffness), scope.constant("free_angle", self.free_angle)
         effort = Effort(
             "torque",
-            Angle(a, b),
+            angle,
             magnitude=damped(
                 scope.constant("damping", self.damping),
                 scope.of_state("actuator", self.actuator, {"angle": "s", "rate": "rate"}),
             ),
             potential=spring_energy(stiffness, free, scope.potential("potential", self.potential, {"angle": "s"})),
         )
-        return Force(name=scope.name, kind=scope.kind, bodies=(a, b), efforts=(effort,))
+        return Force(name=scope.name, kind=scope.kind, bodies=bodies, efforts=(effort,))
+
+    def _angle(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
+        if scope.spatial:
+            scope.only("joint", between=self.between, joint=self.joint)
+            joint, _, angle = scope.joint_coordinate(self.joint or "", self.coordinate, unit="rad")
+            return joint.bodies, angle
+        scope.only("between", between=self.between, joint=self.joint, coordinate=self.coordinate)
+        a, b = scope.pair("between", self.between or ("", ""), turns=(True, True))
+        return (a, b), Angle(a, b)
 
 
 KIND = TorsionalSpringDamper

@@ -21,6 +21,7 @@ _RELATIONS = {"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreater
 _FUNCTIONS: dict[str, Any] = {
     **{n: getattr(sp, n) for n in "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh sign".split()},
     "abs": sp.Abs,
+    "floor": sp.floor,
     "min": sp.Min,
     "max": sp.Max,
 }
@@ -45,6 +46,7 @@ class Display:
             ("p", equations.parameters),
         ):
             names.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
+        names.update({("winding", i): f"turned_{i}" for i in range(len(equations.windings))})
         self.symbols = {key: sp.Symbol(name, real=True) for key, name in names.items()}
         self._latex = {symbol: latex_name(symbol.name) for symbol in self.symbols.values()}
         self._memo: dict[int, Any] = {}

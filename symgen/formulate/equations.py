@@ -87,6 +87,10 @@ class Equations:
         What was left out and why.
     dropped_rows : tuple of str
         Rows that repeat another row for all q, named ``ROW = ROW``.
+    windings : tuple of int
+        Angles whose turns are counted: each on the branch nearest to what the section ``winding`` remembers.
+    spins : tuple of (int, int)
+        For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
     """
 
     name: str
@@ -105,6 +109,8 @@ class Equations:
     tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
     omissions: tuple[Omission, ...]
     dropped_rows: tuple[str, ...]
+    windings: tuple[int, ...] = ()
+    spins: tuple[tuple[int, int], ...] = ()
 
     @property
     def nq(self) -> int:

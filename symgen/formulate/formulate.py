@@ -10,14 +10,17 @@ from typing import Any
 
 import sympy as sp
 
-from symgen.describe.mechanism import Body, Mechanism
+from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
 from symgen.formulate.measures import Model
 from symgen.formulate.translate import Translator, to_sympy
 from symgen.vocabulary.expressions import ZERO, Expr, names
 from symgen.vocabulary.measures import Effort, Holonomic, Row
 
-_UNITS = {"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"}
+_UNITS = {
+    **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
+    **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
+}
 
 
 def formulate(mechanism: Mechanism) -> Equations:
@@ -40,7 +43,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     joint_coordinates = tuple(
         JointCoordinate(
             f"{joint.name}.{label}",
-            "rad" if label == "angle" else "m",
+            joint.unit(label),
             (derived := model.measure(measure)).value,
             derived.rate(model.graph, model.velocities),
         )
@@ -54,7 +57,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,
         velocities=velocities,
-        q_rates=model.velocities,
+        q_rates=model.q_rates(),
         mass=mass,
         rows=rows,
         forces=tuple(forces),
@@ -62,6 +65,12 @@ def formulate(mechanism: Mechanism) -> Equations:
         kinetic=kinetic,
         potential=model.graph.add(potential, gravity_potential),
         joint_coordinates=joint_coordinates,
+        windings=tuple(model.windings),
+        spins=tuple(
+            (model.first_q[b.name] + 3, model.first[b.name] + 3)
+            for b in mechanism.bodies
+            if isinstance(b, SpatialBody) and not b.is_point
+        ),
         tables=tuple((t.name, t.x, t.y) for t in mechanism.tables),
         omissions=tuple(omissions + _omissions(mechanism)),
         dropped_rows=tuple(dropped),
@@ -100,7 +109,7 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
         measure = model.measure(row.measure)
         phi, nu, gamma = g.sub(measure.value, value), slope, g.sub(curvature, measure.bias)
     else:
-        measure = model.point_speed(row)
+        measure = model.speed(row.speed)
         phi, nu, gamma = None, value, g.sub(slope, measure.bias)
     entries = tuple(sorted(measure.row.items()))
     return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, entries, nu, gamma)
@@ -137,7 +146,7 @@ def _forces(model: Model) -> tuple[list[int], int, int]:
     forces, power, potential = [g.zero] * model.size, g.zero, g.zero
     for force in model.mechanism.forces:
         for effort in force.efforts:
-            measure = model.measure(effort.measure)
+            measure = model.motion(effort.measure)
             rate = measure.rate(g, model.velocities)
             conservative, energy = _conservative(model, effort, measure.value)
             magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
@@ -160,43 +169,74 @@ def _conservative(model: Model, effort: Effort, s: int) -> tuple[int, int]:
 
 
 def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:
-    """Return M, the kinetic energy and gravity's potential; adds the weights to `forces`."""
+    """Return M, the kinetic energy and gravity's potential; adds weights and gyroscopic terms to `forces`."""
     g = model.graph
     gravity = tuple(model.expression(e) for e in model.mechanism.gravity)
     blocks: list[MassBlock] = []
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
-        first = model.first[body.name]
-        for offset, mass in enumerate(_body_masses(model, body)):
+        first, first_q = model.first[body.name], model.first_q[body.name]
+        mass = model.expression(body.mass)
+        masses = [mass] * len(gravity)
+        if isinstance(body, SpatialBody):
+            if body.inertia is not None:
+                tensor = tuple(model.expression(e) for e in body.inertia)
+                kinetic = g.add(kinetic, _turning(model, first + 3, tensor, blocks, forces))
+        elif body.inertia is not None:
+            masses.append(model.expression(body.inertia))
+        for offset, entry in enumerate(masses):
             i = first + offset
-            blocks.append(MassBlock((i,), ((mass,),)))
+            blocks.append(MassBlock((i,), ((entry,),)))
             v = model.velocities[i]
-            kinetic = g.add(kinetic, g.mul(g.mul(half, mass), g.mul(v, v)))
-            if offset < 2:
+            kinetic = g.add(kinetic, g.mul(g.mul(half, entry), g.mul(v, v)))
+            if offset < len(gravity):
                 weight = g.mul(mass, gravity[offset])
                 forces[i] = g.add(forces[i], weight)
-                potential = g.sub(potential, g.mul(weight, g.input("q", i)))
-    return tuple(blocks), kinetic, potential
+                potential = g.sub(potential, g.mul(weight, g.input("q", first_q + offset)))
+    return tuple(sorted(blocks, key=lambda block: block.columns)), kinetic, potential
 
 
-def _body_masses(model: Model, body: Body) -> tuple[int, ...]:
-    mass = model.expression(body.mass)
-    return (mass, mass) if body.inertia is None else (mass, mass, model.expression(body.inertia))
+def _turning(model: Model, first: int, tensor: tuple[int, ...], blocks: list[MassBlock], forces: list[int]) -> int:
+    """Add the inertia of rotation to M and -omega x (I omega) to f; return the energy of rotation.
+
+    Written with differences of the principal entries, so that it vanishes for a body that is alike in all directions.
+    """
+    g = model.graph
+    xx, yy, zz, xy, xz, yz = tensor
+    x, y, z = model.velocities[first : first + 3]
+    for i, (a, b, cross, ab, ac, (u, v, w)) in enumerate(
+        ((yy, zz, yz, xz, xy, (x, y, z)), (zz, xx, xz, xy, yz, (y, z, x)), (xx, yy, xy, yz, xz, (z, x, y)))
+    ):
+        # about axis u: (b - a) v w + I_vw (v^2 - w^2) + u (I_uw v - I_uv w)
+        moment = g.mul(g.sub(b, a), g.mul(v, w))
+        moment = g.add(moment, g.mul(cross, g.sub(g.mul(v, v), g.mul(w, w))))
+        moment = g.add(moment, g.mul(u, g.sub(g.mul(ab, v), g.mul(ac, w))))
+        forces[first + i] = g.sub(forces[first + i], moment)
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+    if (xy, xz, yz) == (g.zero,) * 3:
+        blocks += [MassBlock((first + i,), ((rows[i][i],),)) for i in range(3)]
+    else:
+        blocks.append(MassBlock((first, first + 1, first + 2), rows))
+    momentum = [g.dot(row, (x, y, z)) for row in rows]
+    return g.mul(g.constant(0.5), g.dot(momentum, (x, y, z)))
 
 
 def _omissions(mechanism: Mechanism) -> list[Omission]:
-    found = [
-        Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
-        Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
-        Omission("gyroscopic terms", "they vanish in the plane"),
-        Omission("columns of the ground", "the ground does not move"),
-    ]
+    found = [Omission("columns of the ground", "the ground does not move")]
+    if mechanism.space == "planar":
+        found = [
+            Omission("z coordinates, Euler parameters and 3x3 inertia tensors", "the mechanism is planar"),
+            Omission("the kinematic map N", "planar velocities are the rates of the coordinates"),
+            Omission("gyroscopic terms", "they vanish in the plane"),
+            *found,
+        ]
     if all(e == ZERO for e in mechanism.gravity):
         found.append(Omission("weights and gravity's potential", "gravity is zero"))
     for body in mechanism.bodies:
         if body.is_point:
-            found.append(Omission(f"angle of {body.name}", "a point mass has none"))
+            what = "angle" if mechanism.space == "planar" else "orientation"
+            found.append(Omission(f"{what} of {body.name}", "a point mass has none"))
         elif all(e == ZERO for e in body.centre_of_mass) and len(mechanism.bodies) <= 12:
             found.append(Omission(f"centre-of-mass offset of {body.name}", "its centre of mass is the frame's origin"))
     return found

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import sympy as sp
+
+from symgen.formulate.spatial import SpatialFrame
 
 #: Input slots of a frame in a kernel, in this order.
 FRAME_SLOTS = ("x", "y", "c", "s", "vx", "vy", "w")
@@ -30,6 +32,11 @@ class Frame:
 
     prefix: str
     kind: str
+
+    dimension: ClassVar[int] = 2
+    slots: ClassVar[tuple[str, ...]] = FRAME_SLOTS
+    #: Named vectors of a frame; the plane needs none.
+    definitions: ClassVar[Mapping[Any, Any]] = {}
 
     def symbol(self, slot: str) -> Any:
         """Return the SymPy symbol of a slot."""
@@ -61,14 +68,18 @@ class Frame:
             rule[c], rule[s] = -s * w, c * w
         return rule
 
-    def rotate(self, vector: tuple[Any, Any]) -> tuple[Any, Any]:
+    def column_entries(self, rate: Any) -> list[Any]:
+        """Return the coefficients of the frame's velocities in a rate."""
+        return [sp.diff(rate, v) for v in self.velocities]
+
+    def rotate(self, vector: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return A times a vector given in the frame."""
         if not self.turns:
             return vector
         c, s = self.symbol("c"), self.symbol("s")
         return c * vector[0] - s * vector[1], s * vector[0] + c * vector[1]
 
-    def locate(self, point: tuple[Any, Any]) -> tuple[Any, Any]:
+    def locate(self, point: tuple[Any, ...]) -> tuple[Any, ...]:
         """Return the position of a point given relative to the centre of mass (ground: to the origin)."""
         if self.kind == "ground":
             return point
@@ -79,7 +90,15 @@ class Frame:
         return x + dx, y + dy
 
 
-def along_motion(expression: Any, frames: Iterable[Frame]) -> Any:
+AnyFrame = Frame | SpatialFrame
+
+
+def frame(prefix: str, kind: str) -> AnyFrame:
+    """Return a frame of a kind; kinds of space end in 3."""
+    return SpatialFrame(prefix, kind) if kind.endswith("3") else Frame(prefix, kind)
+
+
+def along_motion(expression: Any, frames: Iterable[AnyFrame]) -> Any:
     """Return the time derivative of `expression` along the motion of `frames`, velocities held constant."""
     total = sp.S.Zero
     for frame in frames:

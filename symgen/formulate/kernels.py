@@ -7,14 +7,15 @@ the kernel's key, so that a direction fixed in the body of a marker is different
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
 import sympy as sp
 
-from symgen.formulate.frames import FRAME_SLOTS, Frame, along_motion
+from symgen.formulate.frames import AnyFrame, along_motion, frame
+from symgen.formulate.spatial import SpatialFrame, cross
 from symgen.formulate.translate import Translator
 from symgen.ir.graph import Graph
 
@@ -23,12 +24,12 @@ from symgen.ir.graph import Graph
 class Kernel:
     """A derived measure: a small graph whose inputs are slots.
 
-    Inputs are ``("slot", i)``: the frames' slots (`FRAME_SLOTS` each) come first, then the constants (`constants` of
-    them: local points, directions, lengths). `row` holds, for each frame, the nodes of its velocity columns.
+    Inputs are ``("slot", i)``: the frames' slots come first, frame by frame, then the constants (`constants` of them:
+    local points, directions, lengths). `row` holds, for each frame, the nodes of its velocity columns.
     """
 
     graph: Graph
-    frames: tuple[Frame, ...]
+    frames: tuple[AnyFrame, ...]
     constants: int
     value: int
     row: tuple[tuple[int, ...], ...]
@@ -40,41 +41,112 @@ class Kernel:
         return (self.value, *(n for part in self.row for n in part), self.bias)
 
 
+Frames = tuple[AnyFrame, ...]
+#: Points and directions as tuples of components, lengths as symbols.
 Constants = tuple[Any, ...]
-_Build = Callable[[tuple[Frame, ...], Constants], Any]
+_Build = Callable[[Frames, Constants], Any]
 
 
-def _component(f: tuple[Frame, ...], k: Constants) -> Any:
-    a, b = f[0].locate((k[0], k[1])), f[1].locate((k[2], k[3]))
-    e = f[2].rotate((k[4], k[5]))
-    return e[0] * (b[0] - a[0]) + e[1] * (b[1] - a[1])
+def _dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    total = a[0] * b[0]
+    for x, y in zip(a[1:], b[1:], strict=True):
+        total = total + x * y
+    return total
 
 
-def _squared(f: tuple[Frame, ...], k: Constants) -> Any:
-    a, b = f[0].locate((k[0], k[1])), f[1].locate((k[2], k[3]))
-    return (b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2
+def _minus(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
+    return tuple(x - y for x, y in zip(a, b, strict=True))
 
 
-def _distance(f: tuple[Frame, ...], k: Constants) -> Any:
+def _component(f: Frames, k: Constants) -> Any:
+    a, b = f[0].locate(k[0]), f[1].locate(k[1])
+    return _dot(f[2].rotate(k[2]), _minus(b, a))
+
+
+def _squared(f: Frames, k: Constants) -> Any:
+    a, b = f[0].locate(k[0]), f[1].locate(k[1])
+    return sp.Add(*((x - y) ** 2 for x, y in zip(b, a, strict=True)))
+
+
+def _distance(f: Frames, k: Constants) -> Any:
     return sp.sqrt(_squared(f, k))
 
 
-def _link_stretch(f: tuple[Frame, ...], k: Constants) -> Any:
-    return (_squared(f, k) - k[4] ** 2) / (2 * k[4])
+def _link_stretch(f: Frames, k: Constants) -> Any:
+    return (_squared(f, k) - k[2] ** 2) / (2 * k[2])
 
 
-def _point_speed(f: tuple[Frame, ...], k: Constants) -> Any:
-    a = f[0].locate((k[0], k[1]))
-    e = f[1].rotate((k[2], k[3]))
-    return e[0] * along_motion(a[0], f[:1]) + e[1] * along_motion(a[1], f[:1])
+def _point_speed(f: Frames, k: Constants) -> Any:
+    a = f[0].locate(k[0])
+    return _dot(f[1].rotate(k[1]), tuple(along_motion(x, f[:1]) for x in a))
 
 
-#: Kind -> (expression of frames and constants, number of frames, number of constants, whether it is a velocity already)
-_MEASURES: dict[str, tuple[_Build, int, int, bool]] = {
-    "component": (_component, 3, 6, False),
-    "distance": (_distance, 2, 4, False),
-    "link-stretch": (_link_stretch, 2, 5, False),
-    "point-speed": (_point_speed, 2, 4, True),
+# -- space only ------------------------------------------------------------------------------------------------------
+
+
+def _direction_product(f: Frames, k: Constants) -> Any:
+    return _dot(f[0].rotate(k[0]), f[1].rotate(k[1]))
+
+
+def _spin(f: Frames, k: Constants) -> Any:
+    """Relative angular velocity along a direction; that of the direction's own body is taken in its axes."""
+    a, b, along = _spatial(f)
+    total = sp.S.Zero
+    for body, sign in ((b, 1), (a, -1)):
+        if body is along:
+            total += sign * _dot(k[0], body.omega)
+        elif body.turns:
+            total += sign * _dot(along.rotate(k[0]), body.spin())
+    return total
+
+
+def _rim_height(f: Frames, k: Constants) -> Any:
+    plane, centre = f[0].locate(k[0]), f[1].locate(k[1])
+    normal, axis = f[0].rotate(k[2]), f[1].rotate(k[3])
+    return _dot(normal, _minus(centre, plane)) - k[4] * sp.sqrt(1 - _dot(normal, axis) ** 2)
+
+
+def _sphere_speed(f: Frames, k: Constants) -> Any:
+    ground, ball = _spatial(f)
+    along, normal = ground.rotate(k[1]), ground.rotate(k[2])
+    centre = tuple(along_motion(x, (ball,)) for x in ball.locate(k[0]))
+    return _dot(along, centre) - k[3] * _dot(along, cross(ball.spin(), normal))
+
+
+def _disc_speed(f: Frames, k: Constants) -> Any:
+    ground, disc = _spatial(f)
+    along, normal, axis = ground.rotate(k[1]), ground.rotate(k[2]), disc.rotate(k[4])
+    lean = _dot(normal, axis)
+    down = tuple(lean * a - n for a, n in zip(axis, normal, strict=True))
+    centre = tuple(along_motion(x, (disc,)) for x in disc.locate(k[0]))
+    return _dot(along, centre) + k[3] * _dot(along, cross(disc.spin(), down)) / sp.sqrt(1 - lean**2)
+
+
+def _blade_speed(f: Frames, k: Constants) -> Any:
+    ground, body = _spatial(f)
+    across = cross(ground.rotate(k[1]), body.rotate(k[2]))
+    velocity = tuple(along_motion(x, (body,)) for x in body.locate(k[0]))
+    return _dot(across, velocity) / sp.sqrt(_dot(across, across))
+
+
+def _spatial(f: Frames) -> tuple[SpatialFrame, ...]:
+    assert all(isinstance(frame, SpatialFrame) for frame in f), "these measures exist in space only"
+    return tuple(frame for frame in f if isinstance(frame, SpatialFrame))
+
+
+#: Kind -> (expression of frames and constants, number of frames, its constants: v for a vector, s for a scalar, whether
+#: it is a velocity already)
+_MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
+    "component": (_component, 3, "vvv", False),
+    "distance": (_distance, 2, "vv", False),
+    "link-stretch": (_link_stretch, 2, "vvs", False),
+    "point-speed": (_point_speed, 2, "vv", True),
+    "dot": (_direction_product, 2, "vv", False),
+    "spin": (_spin, 3, "v", True),
+    "rim-height": (_rim_height, 2, "vvvvs", False),
+    "sphere-speed": (_sphere_speed, 2, "vvvs", True),
+    "disc-speed": (_disc_speed, 2, "vvvsv", True),
+    "blade-speed": (_blade_speed, 2, "vvv", True),
 }
 
 
@@ -85,33 +157,46 @@ def derive(kind: str, frames: tuple[tuple[int, str], ...]) -> Kernel:
     Parameters
     ----------
     kind : str
-        ``component``, ``distance``, ``link-stretch`` or ``point-speed``.
+        ``component``, ``distance``, ``link-stretch``, ``point-speed``; in space also ``dot``, ``spin``, ``rim-height``,
+        ``sphere-speed``, ``disc-speed`` or ``blade-speed``.
     frames : tuple of (slot, kind)
         For each frame argument of the measure, which of the kernel's frames it is and what that frame is.
     """
-    build, count, constants, is_rate = _MEASURES[kind]
+    build, count, pattern, is_rate = _MEASURES[kind]
     assert len(frames) == count, "the caller passes one frame for each of the measure's"
-    unique = {slot: Frame(f"f{slot}", frame_kind) for slot, frame_kind in frames}
+    unique = {slot: frame(f"f{slot}", frame_kind) for slot, frame_kind in frames}
     ordered = tuple(unique[i] for i in sorted(unique))
-    k = tuple(sp.Symbol(f"k{i}", real=True) for i in range(constants))
-    value = build(tuple(unique[slot] for slot, _ in frames), k)
+    constants: list[Any] = []
+    symbols: list[Any] = []
+    for letter in pattern:
+        size = ordered[0].dimension if letter == "v" else 1
+        part = tuple(sp.Symbol(f"k{len(symbols) + i}", real=True) for i in range(size))
+        symbols += part
+        constants.append(part if letter == "v" else part[0])
+    value = build(tuple(unique[slot] for slot, _ in frames), tuple(constants))
     rate = value if is_rate else along_motion(value, ordered)
-    row = tuple(tuple(sp.diff(rate, v) for v in frame.velocities) for frame in ordered)
+    row = tuple(tuple(part.column_entries(rate)) for part in ordered)
     bias = along_motion(rate, ordered)
 
     graph = Graph()
-    symbols: dict[Any, int] = {}
-    for i, frame in enumerate(ordered):
-        for j, slot in enumerate(FRAME_SLOTS):
-            symbols[frame.symbol(slot)] = graph.input("slot", i * len(FRAME_SLOTS) + j)
-    for i, symbol in enumerate(k):
-        symbols[symbol] = graph.input("slot", len(ordered) * len(FRAME_SLOTS) + i)
+    known: dict[Any, int] = {}
+    slot = 0
+    for body in ordered:
+        for name in body.slots:
+            known[body.symbol(name)] = graph.input("slot", slot)
+            slot += 1
+    for i, symbol in enumerate(symbols):
+        known[symbol] = graph.input("slot", slot + i)
+    translator = Translator(graph, known)
+    for body in ordered:
+        for symbol, definition in body.definitions.items():
+            translator.known[symbol] = translator.node(definition)
     flat = [value, *(e for part in row for e in part), bias]
-    nodes = Translator(graph, symbols).all(flat)
+    nodes = translator.all(flat)
     position = 1
     rows = []
-    for frame in ordered:
-        width = len(frame.velocities)
+    for body in ordered:
+        width = len(body.velocities)
         rows.append(tuple(nodes[position : position + width]))
         position += width
-    return Kernel(graph, ordered, constants, nodes[0], tuple(rows), nodes[-1])
+    return Kernel(graph, ordered, len(symbols), nodes[0], tuple(rows), nodes[-1])

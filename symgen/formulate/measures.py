@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.frames import FRAME_SLOTS
 from symgen.formulate.kernels import derive
+from symgen.formulate.spatial import SPATIAL_SLOTS
 from symgen.ir.expression import build
 from symgen.ir.graph import Graph
 from symgen.vocabulary.expressions import Expr, call
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
+    Bearing,
+    BladeSpeed,
     Component,
     Direction,
     Distance,
+    Dot,
     LinkStretch,
     Marker,
     Measure,
-    Nonholonomic,
+    PointSpeed,
+    RimHeight,
+    RollingSpeed,
+    Speed,
+    Spin,
+    Sum,
+    Turn,
 )
 
 
@@ -51,17 +62,24 @@ class Model:
         self.coordinate_index: dict[str, int] = {}
         for i, parameter in enumerate(mechanism.parameters):
             self.names[parameter.name] = g.input("p", i)
-        self.first: dict[str, int] = {}
-        index = 0
+        self.spatial = mechanism.space == "spatial"
+        self.first_q: dict[str, int] = {}
+        self.first: dict[str, int] = {}  # of the velocities
+        coordinates = index = 0
         for body in mechanism.bodies:
-            self.first[body.name] = index
-            for coordinate, speed in zip(body.coordinates, body.speeds, strict=True):
-                self.names[f"{body.name}.{coordinate}"] = g.input("q", index)
+            self.first_q[body.name], self.first[body.name] = coordinates, index
+            for coordinate in body.coordinates:
+                self.names[f"{body.name}.{coordinate}"] = g.input("q", coordinates)
+                coordinates += 1
+            for speed in body.speeds:
                 self.names[f"{body.name}.{speed}"] = g.input("v", index)
                 index += 1
         self.size = index
         self.velocities = tuple(g.input("v", i) for i in range(index))
         self._memo: dict[object, Derived] = {}
+        self._frames: dict[str, list[int]] = {}
+        #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
+        self.windings: list[int] = []
 
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
@@ -69,19 +87,80 @@ class Model:
 
     def kind(self, body: str) -> str:
         """Return the frame kind of a body."""
-        return "ground" if body == GROUND else "point" if self.mechanism.body(body).is_point else "rigid"
+        kind = "ground" if body == GROUND else "point" if self.mechanism.body(body).is_point else "rigid"
+        return f"{kind}3" if self.spatial else kind
 
-    def local(self, marker: Marker) -> tuple[int, int]:
+    def local(self, marker: Marker) -> list[int]:
         """Return the marker relative to the centre of mass (ground: to the origin)."""
-        if marker.body == GROUND:
-            x, y = marker.point
-        else:
+        point = marker.point
+        if marker.body != GROUND:
             com = self.mechanism.body(marker.body).centre_of_mass
-            x, y = (call("sub", p, c) for p, c in zip(marker.point, com, strict=True))
-        return self.expression(x), self.expression(y)
+            point = tuple(call("sub", p, c) for p, c in zip(marker.point, com, strict=True))
+        return [self.expression(e) for e in point]
+
+    def direction(self, along: Direction) -> list[int]:
+        """Return the components of a direction in its body's frame."""
+        return [self.expression(e) for e in along.vector]
 
     def frame_inputs(self, body: str) -> list[int]:
         """Return the nodes of a frame's slots."""
+        if body not in self._frames:
+            self._frames[body] = self._spatial_inputs(body) if self.spatial else self._planar_inputs(body)
+        return self._frames[body]
+
+    def _spatial_inputs(self, body: str) -> list[int]:
+        g, kind = self.graph, self.kind(body)
+        if kind == "ground3":
+            return [g.zero] * len(SPATIAL_SLOTS)
+        i, j = self.first_q[body], self.first[body]
+        position, velocity = [g.input("q", i + k) for k in range(3)], [g.input("v", j + k) for k in range(3)]
+        if kind == "point3":
+            return [*position, *(g.zero,) * 9, *velocity, *(g.zero,) * 3]
+        return [*position, *self.rotation_matrix(body), *velocity, *(g.input("v", j + 3 + k) for k in range(3))]
+
+    def euler_parameters(self, body: str) -> list[int]:
+        """Return the nodes of a spatial body's Euler parameters."""
+        return [self.graph.input("q", self.first_q[body] + 3 + k) for k in range(4)]
+
+    def rotation_matrix(self, body: str) -> list[int]:
+        """Return A row by row in homogeneous form: A' = A skew(omega) for Euler parameters of any length."""
+        g = self.graph
+        a, b, c, d = self.euler_parameters(body)
+
+        def twice(x: int, y: int) -> int:
+            return g.mul(g.constant(2.0), g.mul(x, y))
+
+        aa, bb, cc, dd = (g.mul(x, x) for x in (a, b, c, d))
+        plus, minus = g.add(aa, bb), g.sub(aa, bb)
+        sums, rest = g.add(cc, dd), g.sub(cc, dd)
+        bc, ad, bd, ac, cd, ab = (twice(*pair) for pair in ((b, c), (a, d), (b, d), (a, c), (c, d), (a, b)))
+        return [
+            *(g.sub(plus, sums), g.sub(bc, ad), g.add(bd, ac)),
+            *(g.add(bc, ad), g.add(minus, rest), g.sub(cd, ab)),
+            *(g.sub(bd, ac), g.add(cd, ab), g.sub(minus, rest)),
+        ]
+
+    def q_rates(self) -> tuple[int, ...]:
+        """Return q' = N v: in space e' = G^T omega / 2, which keeps the length of e."""
+        g, rates = self.graph, list[int]()
+        half = g.constant(0.5)
+        for body in self.mechanism.bodies:
+            j = self.first[body.name]
+            if not self.spatial or body.is_point:
+                rates += self.velocities[j : j + len(body.speeds)]
+                continue
+            rates += self.velocities[j : j + 3]
+            x, y, z = (g.mul(half, w) for w in self.velocities[j + 3 : j + 6])
+            a, b, c, d = self.euler_parameters(body.name)
+            rates += [
+                g.neg(g.dot((b, c, d), (x, y, z))),
+                g.add(g.mul(a, x), g.sub(g.mul(c, z), g.mul(d, y))),
+                g.add(g.mul(a, y), g.sub(g.mul(d, x), g.mul(b, z))),
+                g.add(g.mul(a, z), g.sub(g.mul(b, y), g.mul(c, x))),
+            ]
+        return tuple(rates)
+
+    def _planar_inputs(self, body: str) -> list[int]:
         g, kind = self.graph, self.kind(body)
         if kind == "ground":
             return [g.zero] * len(FRAME_SLOTS)
@@ -102,15 +181,45 @@ class Model:
         return found
 
     def _measure(self, m: Measure) -> Derived:
+        if isinstance(m, Sum):
+            return self._sum(m)
         if isinstance(m, Angle):
             return self._angle(m)
+        if isinstance(m, Turn | Bearing):
+            return self._turn(m)
+        bodies, constants = self._parts(m)
+        kind = m.__struct_config__.tag
+        assert isinstance(kind, str), "measures are tagged by the names of their kernels"
+        derived = self._kernel(kind, bodies, constants)
+        # the angular velocity is no rate of a measure, so that there is nothing to report as its value
+        return Derived(self.graph.zero, derived.row, derived.bias) if isinstance(m, Spin) else derived
+
+    def _parts(
+        self, m: Component | Distance | LinkStretch | Dot | Spin | RimHeight
+    ) -> tuple[tuple[str, ...], list[int]]:
+        """Return the bodies of a measure's frames, and its constants."""
         if isinstance(m, Component):
-            return self._kernel("component", (m.a.body, m.b.body, m.along.body), self._points(m.a, m.b, m.along))
+            return (m.a.body, m.b.body, m.along.body), [*self.local(m.a), *self.local(m.b), *self.direction(m.along)]
         if isinstance(m, Distance):
-            return self._kernel("distance", (m.a.body, m.b.body), self._points(m.a, m.b))
+            return (m.a.body, m.b.body), [*self.local(m.a), *self.local(m.b)]
         if isinstance(m, LinkStretch):
-            constants = [*self._points(m.a, m.b), self.expression(m.length)]
-            return self._kernel("link-stretch", (m.a.body, m.b.body), constants)
+            return (m.a.body, m.b.body), [*self.local(m.a), *self.local(m.b), self.expression(m.length)]
+        if isinstance(m, Dot):
+            return (m.u.body, m.v.body), [*self.direction(m.u), *self.direction(m.v)]
+        if isinstance(m, Spin):
+            return (m.a, m.b, m.along.body), self.direction(m.along)
+        directions = [*self.direction(m.normal), *self.direction(m.axis)]
+        constants = [*self.local(m.plane), *self.local(m.centre), *directions, self.expression(m.radius)]
+        return (m.plane.body, m.centre.body), constants
+
+    def motion(self, m: Measure | Speed) -> Derived:
+        """Return a measure, or a velocity that is no rate of one, whose value is 0."""
+        if isinstance(m, PointSpeed | RollingSpeed | BladeSpeed):
+            derived = self.speed(m)
+            return Derived(self.graph.zero, derived.row, derived.bias)
+        return self.measure(m)
+
+    def _sum(self, m: Sum) -> Derived:
         g = self.graph
         value, bias, row = g.zero, g.zero, dict[int, int]()
         for coefficient, part in m.terms:
@@ -121,16 +230,47 @@ class Model:
                 row[i] = g.add(row.get(i, g.zero), g.mul(k, node))
         return Derived(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
-    def point_speed(self, row: Nonholonomic) -> Derived:
+    def speed(self, speed: Speed) -> Derived:
         """Return the velocity measure of a nonholonomic row; `value` is the kernel's u = J v."""
-        constants = [*self.local(row.at), *(self.expression(e) for e in row.along.vector)]
-        return self._kernel("point-speed", (row.at.body, row.along.body), constants)
+        if isinstance(speed, PointSpeed):
+            constants = [*self.local(speed.at), *self.direction(speed.along)]
+            return self._kernel("point-speed", (speed.at.body, speed.along.body), constants)
+        if isinstance(speed, BladeSpeed):
+            constants = [*self.local(speed.at), *self.direction(speed.normal), *self.direction(speed.blade)]
+            return self._kernel("blade-speed", (speed.normal.body, speed.at.body), constants)
+        constants = [*self.local(speed.centre), *self.direction(speed.along), *self.direction(speed.normal)]
+        constants.append(self.expression(speed.radius))
+        bodies = speed.along.body, speed.centre.body
+        if speed.axis is None:
+            return self._kernel("sphere-speed", bodies, constants)
+        return self._kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
 
-    def _points(self, a: Marker, b: Marker, along: Direction | None = None) -> list[int]:
-        constants = [*self.local(a), *self.local(b)]
-        if along is not None:
-            constants += [self.expression(e) for e in along.vector]
-        return constants
+    def _turn(self, m: Turn | Bearing) -> Derived:
+        """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.
+
+        s = atan2(y, x) of two measures, s' = (x y' - y x') / (x^2 + y^2), and s'' once more by the chain rule.
+        """
+        g = self.graph
+        if isinstance(m, Turn):
+            y, x = self.measure(Dot(m.quarter, m.pointer)), self.measure(Dot(m.zero, m.pointer))
+        else:
+            y, x = self.measure(Component(m.a, m.b, m.quarter)), self.measure(Component(m.a, m.b, m.zero))
+        square = g.add(g.mul(x.value, x.value), g.mul(y.value, y.value))
+        across, along = g.div(x.value, square), g.div(y.value, square)
+        row = {
+            i: g.sub(g.mul(across, y.row.get(i, g.zero)), g.mul(along, x.row.get(i, g.zero)))
+            for i in sorted({*x.row, *y.row})
+        }
+        rates = y.rate(g, self.velocities), x.rate(g, self.velocities)
+        rate = g.sub(g.mul(across, rates[0]), g.mul(along, rates[1]))
+        growth = g.mul(g.constant(2.0), g.add(g.mul(along, rates[0]), g.mul(across, rates[1])))
+        bias = g.sub(g.sub(g.mul(across, y.bias), g.mul(along, x.bias)), g.mul(rate, growth))
+        angle = g.call("atan2", y.value, x.value)
+        before = g.input("winding", len(self.windings))
+        turns = g.call("floor", g.add(g.div(g.sub(before, angle), g.constant(math.tau)), g.constant(0.5)))
+        value = g.add(angle, g.mul(g.constant(math.tau), turns))
+        self.windings.append(value)
+        return Derived(value, {i: n for i, n in row.items() if n != g.zero}, bias)
 
     def _angle(self, m: Angle) -> Derived:
         g, value, row = self.graph, self.graph.zero, dict[int, int]()

@@ -22,7 +22,7 @@ _BITS = {"t": TIME, "q": POSITION, "v": VELOCITY, "p": PARAMETER}
 FUNCTIONS = frozenset(
     (
         "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh "
-        "abs min max sign lt le gt ge and or not where step"
+        "abs floor min max sign lt le gt ge and or not where step"
     ).split()
 )
 
@@ -40,6 +40,7 @@ _FOLD: dict[str, Callable[[float], float]] = {
     "cosh": math.cosh,
     "tanh": math.tanh,
     "abs": abs,
+    "floor": math.floor,
 }
 
 

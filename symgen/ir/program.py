@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from symgen.ir.graph import Graph
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
-FORMAT = 1
+FORMAT = 2
 
 #: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
 STATUS = (
@@ -26,8 +26,10 @@ STATUS = (
     "speed_scale",  # set by the runtime: largest speed, at least 1
     "step",  # set by the loop: the step being taken
     "increment",  # |change| of the last iteration of an iterated law
-    "partition_pivot",  # smallest pivot of D P D^T over the diagonal of D D^T, P keeping the dependent columns
-    "partition_chosen",  # the same when the partition was chosen
+    "partition_quality",  # det(D P D^T) / det(D D^T), P keeping the dependent columns
+    "partition_best",  # largest one since the partition was chosen; 0 where all coordinates are dependent
+    "partition_last",  # the quality at the accepted state before
+    "partition_sine",  # root of the smallest pivot at the accepted state before
     "power",  # of forces without potential and of drivers, by `residual`
 )
 
@@ -42,6 +44,8 @@ COUNTERS = (
     "law_iterations",  # iterations of an iterated law
     "partitions",  # choices of a partition
     "degrees",  # columns of a tangent basis
+    "dense_solves",  # evaluations by a dense factorisation
+    "dense_rank",  # smallest rank found by them
 )
 
 
@@ -187,7 +191,7 @@ class LawProgram:
     parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
     parameter_offset: int
     hoisted: int
-    form: str  # how v' is found: direct, iterated or tangent
+    form: str  # how v' is found: direct, iterated, dense or tangent
     closed: bool  # whether dependent coordinates are closed before every evaluation
     correction: Correction
     options: Mapping[str, str] = field(default_factory=dict)

@@ -7,7 +7,7 @@ the row's positive direction (the force on the first body is -D^T lambda).
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import ClassVar, Protocol
 
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
@@ -17,9 +17,14 @@ from symgen.registry import Registry
 class JointKind(Protocol):
     """What every joint kind offers."""
 
+    #: Where the kind exists: in planar mechanisms, in spatial ones, or in both.
+    SPACES: ClassVar[tuple[str, ...]]
+
     def build(self, scope: Scope) -> Joint:
         """Resolve the file's keys to rows on measures."""
         ...
 
 
-JOINTS: Registry[type[JointKind]] = Registry(__name__, "joint type", aliases={"prismatic": "translational"})
+JOINTS: Registry[type[JointKind]] = Registry(
+    __name__, "joint type", aliases={"prismatic": "translational", "point-on-line": "pin-in-slot"}
+)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from symgen.describe.fields import BodyPair, PointPair, Scalar
@@ -26,6 +28,8 @@ class Distance(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     -----
     One row [m], (d^2 - L^2) / (2 L). Multiplier ``NAME.distance`` [N]: the tension of the rod (positive: it pulls).
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from symgen.describe.fields import BodyName, Point, Text, TimeFunction
 from symgen.describe.mechanism import Joint
 from symgen.describe.names import quoted
 from symgen.describe.scope import CENTRE, Scope
-from symgen.errors import nearest
 from symgen.vocabulary.expressions import ZERO
-from symgen.vocabulary.measures import GROUND, X_AXIS, Y_AXIS, Angle, Component, Holonomic, Marker, Measure
+from symgen.vocabulary.measures import GROUND, Angle, Component, Holonomic, Marker, Measure, axes
 
 
 class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -25,7 +26,8 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     point : point
         The point of `body` that is driven; its centre of mass unless given.
     coordinate : str
-        Of a body ``"x"``, ``"y"`` or ``"theta"``; of a joint the one it reports, unless it reports several.
+        Of a body ``"x"``, ``"y"`` or ``"theta"``, in space ``"x"``, ``"y"`` or ``"z"``; of a joint the one it reports,
+        unless it reports several.
     value : function of time
         What the coordinate shall be [m or rad], an expression of t and parameters with two derivatives.
 
@@ -34,6 +36,8 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     One row. Multiplier ``NAME.driver`` [N or N m]: acts on the first body of the joint (on the ground for a driven
     body) along the coordinate, so the driven body receives its opposite.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     value: TimeFunction
     joint: Text | None = None
@@ -46,39 +50,29 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
         if (self.joint is None) == (self.body is None):
             got = "neither" if self.joint is None else "both"
             raise scope.error("", "either the key joint or the key body", got)
-        bodies, measure = self._of_joint(scope) if self.joint is not None else self._of_body(scope)
-        unit = "rad" if isinstance(measure, Angle) else "m"
+        bodies, measure, unit = self._of_joint(scope) if self.joint is not None else self._of_body(scope)
         row = Holonomic("driver", measure, scope.of_time("value", self.value), unit)
         return Joint(name=scope.name, kind=scope.kind, bodies=bodies, rows=(row,))
 
-    def _of_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
+    def _of_joint(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         if self.point is not None:
             raise scope.error("point", "no such key, as a joint is driven", "a point")
-        joint = scope.joint("joint", self.joint or "")
-        known = dict(joint.coordinates)
-        if not known:
-            raise scope.error("joint", "a joint that has a coordinate", f"'{joint.name}', a {joint.kind} joint without")
-        name = self.coordinate
-        if name is None:
-            if len(known) > 1:
-                raise scope.error("coordinate", f"one of {', '.join(known)}", "no such key")
-            name = next(iter(known))
-        if name not in known:
-            expected = f"a coordinate of joint '{joint.name}'"
-            raise scope.error("coordinate", expected, quoted(name), nearest(name, known))
-        return joint.bodies, known[name]
+        joint, label, measure = scope.joint_coordinate(self.joint or "", self.coordinate)
+        return joint.bodies, measure, Joint.unit(label)
 
-    def _of_body(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:
+    def _of_body(self, scope: Scope) -> tuple[tuple[str, ...], Measure, str]:
         body = scope.body("body", self.body or "", ground=False)
-        known = ("x", "y", "theta") if scope.turns(body) and self.point is None else ("x", "y")
+        known = ("x", "y", "z") if scope.spatial else ("x", "y")
+        if not scope.spatial and scope.turns(body) and self.point is None:
+            known = ("x", "y", "theta")
         if self.coordinate not in known:
             got = "no such key" if self.coordinate is None else quoted(self.coordinate)
             raise scope.error("coordinate", " or ".join(f"'{name}'" for name in known), got)
         if self.coordinate == "theta":
-            return (GROUND, body), Angle(GROUND, body)
+            return (GROUND, body), Angle(GROUND, body), "rad"
         point = scope.marker("point", body, CENTRE if self.point is None else self.point)
-        axis = X_AXIS if self.coordinate == "x" else Y_AXIS
-        return (GROUND, body), Component(Marker(GROUND, (ZERO, ZERO)), point, axis)
+        axis = axes(GROUND, scope.dimension)[known.index(self.coordinate)]
+        return (GROUND, body), Component(Marker(GROUND, (ZERO,) * scope.dimension), point, axis), "m"
 
 
 KIND = Driver

@@ -1,12 +1,12 @@
-"""Gear pair: the turns of two bodies against a carrier keep a ratio."""
+"""Gear pair: the turns of two bodies against a carrier, or two joint coordinates, keep a ratio."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import msgspec
 
-from symgen.describe.fields import BodyName, BodyPair, Pair, Scalar
+from symgen.describe.fields import BodyName, BodyPair, Pair, Scalar, TextPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.vocabulary.expressions import ONE, Expr, call
@@ -16,14 +16,19 @@ from symgen.vocabulary.measures import GROUND, Angle, Holonomic, Sum
 class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """Two toothed wheels a, b in mesh on a carrier c: r_a (theta_a - theta_c) + r_b (theta_b - theta_c) = offset.
 
-    The wheels' axes are held by other joints; turns are counted, so nothing jumps after a revolution.
+    The wheels' axes are held by other joints; turns are counted, so nothing jumps after a revolution. In space the two
+    angles are those of two joints, which hold the wheels on whatever carries them.
 
     Parameters
     ----------
     between : pair of body names
-        The wheels.
+        In the plane: the wheels.
     carrier : body name
-        The body that holds both axes; the ground unless given.
+        In the plane: the body that holds both axes; the ground unless given.
+    joints : pair of joint names
+        In space: the joints that hold the wheels, r_a angle_a + r_b angle_b = offset.
+    coordinates : pair of str
+        In space: which coordinate of each, where a joint has several. With `ratio` displacements may be among them.
     radii : pair
         Pitch radii r_a and r_b [m], above 0.
     ratio : scalar
@@ -36,11 +41,16 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     Notes
     -----
     One row. Multiplier ``NAME.mesh``: the tooth force [N] with radii, so that r_a times it is the torque on the first
-    wheel; that torque [N m] with a ratio. The carrier receives what balances both.
+    wheel; that torque [N m] with a ratio. The carrier receives what balances both. In space the torque is that on the
+    first body of the first joint.
     """
 
-    between: BodyPair
-    carrier: BodyName = GROUND
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
+
+    between: BodyPair | None = None
+    carrier: BodyName | None = None
+    joints: TextPair | None = None
+    coordinates: TextPair | None = None
     radii: Pair | None = None
     ratio: Scalar | None = None
     mesh: Literal["external", "internal"] = "external"
@@ -48,8 +58,11 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to a weighted sum of two angles."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        carrier = scope.body("carrier", self.carrier, turns=True)
+        if scope.spatial:
+            return self._on_joints(scope)
+        scope.only("between", between=self.between, joints=self.joints, coordinates=self.coordinates)
+        a, b = scope.pair("between", self.between or ("", ""), turns=(True, True))
+        carrier = scope.body("carrier", self.carrier or GROUND, turns=True)
         if carrier in (a, b):
             raise scope.error("carrier", "a body that is neither wheel", f"'{carrier}'")
         weight_a, weight_b, unit = self._weights(scope)
@@ -60,6 +73,26 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
         value = call("neg", scope.constant("offset", self.offset))
         bodies = (a, b) if carrier == GROUND else (a, b, carrier)
         return Joint(scope.name, scope.kind, bodies, (Holonomic("mesh", measure, value, unit),))
+
+    def _on_joints(self, scope: Scope) -> Joint:
+        scope.only("joints", joints=self.joints, between=self.between, carrier=self.carrier)
+        names, labels = self.joints or ("", ""), self.coordinates or (None, None)
+        angular = "rad" if self.radii is not None else ""
+        found = [
+            scope.joint_coordinate(name, label, ("joints", "coordinates"), angular)
+            for name, label in zip(names, labels, strict=True)
+        ]
+        (first, label_a, turn_a), (second, label_b, turn_b) = found
+        if (first.name, label_a) == (second.name, label_b):
+            raise scope.error("joints", "two different coordinates", f"'{first.name}.{label_a}' twice")
+        weight_a, weight_b, unit = self._weights(scope)
+        if self.mesh == "internal":
+            weight_b = call("neg", weight_b)
+        measure = Sum(((weight_a, turn_a), (weight_b, turn_b)))
+        bodies = tuple(dict.fromkeys((*first.bodies, *second.bodies)))
+        unit = Joint.unit(label_a) if self.radii is None else unit
+        row = Holonomic("mesh", measure, scope.constant("offset", self.offset), unit)
+        return Joint(scope.name, scope.kind, bodies, (row,))
 
     def _weights(self, scope: Scope) -> tuple[Expr, Expr, str]:
         if self.radii is not None and self.ratio is None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from symgen.describe.fields import Axis, BodyPair, PointPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.joints._space import on_axis
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
 
@@ -19,23 +22,33 @@ class PinInSlot(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         The body with the pin, which may be a point mass, and the body with the slot.
     at : pair of points
         The pin, and a point on the slot's centre line.
-    axis : pair
-        Direction of the slot in the frame of the second body; its length does not matter.
+    axis : direction
+        Of the slot, in the frame of the second body; its length does not matter.
 
     Notes
     -----
-    One row [m]. Multiplier ``NAME.normal`` [N]: force on the pin along the axis turned left by 90 degrees. Reports
-    ``NAME.displacement``, of the pin along the axis [m], and, where both bodies have one, ``NAME.angle`` [rad].
+    In the plane one row [m]. Multiplier ``NAME.normal`` [N]: force on the pin along the axis turned left by 90
+    degrees. Reports ``NAME.displacement``, of the pin along the axis [m], and, where both bodies have one,
+    ``NAME.angle`` [rad].
+
+    In space two rows [m], ``NAME.across1`` and ``.across2`` [N]: forces on the pin across the slot.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair
     axis: Axis
 
     def build(self, scope: Scope) -> Joint:
-        """Resolve to the distance of the pin from the centre line."""
+        """Resolve to the distance of the pin from the centre line, in space to two."""
         a, b = scope.pair("between", self.between, turns=(False, True))
         pin, slot = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        if scope.spatial:
+            triad = scope.triad(b, self.axis)
+            displacement = Component(slot, pin, triad.axis)
+            rows = on_axis(pin, slot, triad)
+            return Joint(scope.name, scope.kind, (a, b), rows, (("displacement", displacement),))
         along, normal = scope.axis("axis", b, self.axis)
         angle = (("angle", Angle(a, b)),) if scope.turns(a) else ()
         return Joint(

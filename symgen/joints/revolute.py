@@ -1,36 +1,53 @@
-"""Revolute joint: two points coincide."""
+"""Revolute joint: two points coincide; in space two axes do."""
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
-from symgen.describe.fields import BodyPair, PointPair
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.joints._space import angle, coincident, parallel
 from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
 
 
 class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A pin that holds a point of one body on a point of the other.
+    """A pin that holds a point of one body on a point of the other; in space it has an axis.
 
     Parameters
     ----------
     between : pair of body names
-        The two bodies; a point mass may be one of them.
+        The two bodies; in the plane a point mass may be one of them.
     at : pair of points
         The pin, as a point of the first and of the second body.
+    axis : direction, or pair of directions
+        In space: the axis in the first body's frame, or in the frame of each body.
+    reference : pair of directions
+        In space: directions across the axis that coincide at angle 0; as the bodies start unless given.
 
     Notes
     -----
     Two rows [m]. Multipliers ``NAME.x``, ``NAME.y`` [N]: the force of the pin on the first body, in ground axes.
     Reports ``NAME.angle``, the second body's angle less the first's [rad].
+
+    In space five rows: ``NAME.x``, ``.y``, ``.z`` [N], and ``NAME.first``, ``.second`` [N m], torques on the first body
+    about two directions across the axis. Reports ``NAME.angle`` about the axis, turns counted.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair
+    axis: AxisPair | None = None
+    reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
-        """Resolve to the two components of the vector between the points."""
+        """Resolve to the components of the vector between the points, and in space to two angles."""
+        if scope.spatial:
+            return self._spatial(scope)
+        scope.only(axis=self.axis, reference=self.reference)
         a, b = scope.pair("between", self.between)
         pin_a, pin_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         return Joint(
@@ -42,6 +59,22 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
                 Holonomic("y", Component(pin_a, pin_b, Y_AXIS)),
             ),
             coordinates=(("angle", Angle(a, b)),) if scope.turns(a) and scope.turns(b) else (),
+        )
+
+    def _spatial(self, scope: Scope) -> Joint:
+        if self.axis is None:
+            raise scope.error("axis", "an axis, as a revolute joint in space has one", "no such key")
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        triad_a, triad_b = scope.triads((a, b), self.axis, self.reference)
+        return Joint(
+            name=scope.name,
+            kind=scope.kind,
+            bodies=(a, b),
+            rows=(
+                *coincident(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])),
+                *parallel(triad_a, triad_b),
+            ),
+            coordinates=(("angle", angle(triad_a, triad_b)),),
         )
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
-from symgen.describe.fields import BodyPair, PointPair, Scalar
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
 from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
+from symgen.joints._space import coincident, not_turned, parallel
 from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
 
 
@@ -16,26 +19,42 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     Parameters
     ----------
     between : pair of body names
-        The two bodies; a point mass is welded by a revolute joint, as it has no angle.
+        The two bodies; a point mass is welded by a revolute joint, in space by a spherical one, as it has no angle.
     at : pair of points
         The weld, as a point of the first and of the second body.
     angle : scalar
-        Angle of the second body less that of the first [rad]; 0 unless given.
+        In the plane: angle of the second body less that of the first [rad]; 0 unless given.
+    axis, reference : direction, or pairs of directions
+        In space: two directions of each body that coincide, the second across the first; as the bodies start unless
+        given.
 
     Notes
     -----
-    Three rows. Multipliers ``NAME.x``, ``NAME.y`` [N] and ``NAME.angle`` [N m]: force, in ground axes, and torque on
-    the first body.
+    In the plane three rows. Multipliers ``NAME.x``, ``NAME.y`` [N] and ``NAME.angle`` [N m]: force, in ground axes, and
+    torque on the first body.
+
+    In space six rows: ``NAME.x``, ``.y``, ``.z`` [N], and ``NAME.first``, ``.second``, ``.angle`` [N m], torques on the
+    first body about its x, y and z axis, or about the axes that `axis` (third) and `reference` (first) give.
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
     between: BodyPair
     at: PointPair
-    angle: Scalar = 0.0
+    angle: Scalar | None = None
+    axis: AxisPair | None = None
+    reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
-        """Resolve to the two components of the vector between the points and the angle."""
+        """Resolve to the components of the vector between the points and the angle, in space three angles."""
         a, b = scope.pair("between", self.between, turns=(True, True))
         weld_a, weld_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        if scope.spatial:
+            scope.only(angle=self.angle)
+            triads = scope.triads((a, b), self.axis or (0.0, 0.0, 1.0), self.reference, fixed=True)
+            rows = (*coincident(weld_a, weld_b), *parallel(*triads), not_turned(*triads))
+            return Joint(scope.name, scope.kind, (a, b), rows)
+        scope.only(axis=self.axis, reference=self.reference)
         return Joint(
             name=scope.name,
             kind=scope.kind,
@@ -43,7 +62,7 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
             rows=(
                 Holonomic("x", Component(weld_a, weld_b, X_AXIS)),
                 Holonomic("y", Component(weld_a, weld_b, Y_AXIS)),
-                Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle), "rad"),
+                Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad"),
             ),
         )
 

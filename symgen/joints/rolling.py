@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import msgspec
 
 from symgen.describe.fields import Axis, BodyPair, Point, Scalar
@@ -35,6 +37,8 @@ class Rolling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     would have to pull: contact is not released). ``NAME.roll`` [N]: friction on the disc along the axis. Reports
     ``NAME.displacement``, of the centre along the axis [m].
     """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("planar",)
 
     between: BodyPair
     radius: Scalar

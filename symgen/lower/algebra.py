@@ -115,20 +115,30 @@ class System:
         diagonal = [b.entries[i][i] for b in self.equations.mass for i in range(len(b.columns))]
         return Scalar(g, g.mul(g.constant(1e5 / max(1, len(diagonal))), g.total(diagonal)))
 
-    @property
-    def inverse_mass_root(self) -> Vector:
-        """Return the diagonal of M^-1/2.
+    @cached_property
+    def inverse_mass_root(self) -> Sparse:
+        """Return L^-T with M = L L^T: the inverse root of M, diagonal where M is; by rows of the transposed, L^-1.
 
-        Raises
-        ------
-        ValueError
-            If M is not diagonal.
+        Any root serves a least-squares solution in the metric of M; Cholesky's is the cheapest.
         """
         g = self.graph
-        if any(len(block.columns) > 1 for block in self.equations.mass):
-            raise ValueError("the square root of a mass matrix that is not diagonal is not formed")
-        diagonal = {block.columns[0]: block.entries[0][0] for block in self.equations.mass}
-        return Vector(g, tuple(g.div(g.one, g.call("sqrt", diagonal[j])) for j in range(self.equations.nv)))
+        rows: list[tuple[tuple[int, int], ...]] = [()] * self.equations.nv
+        for block in self.equations.mass:
+            n = len(block.columns)
+            lower: dict[tuple[int, int], int] = {}
+            inverse: dict[tuple[int, int], int] = {}
+            for i in range(n):
+                for j in range(i + 1):
+                    rest = g.sub(block.entries[i][j], g.total(g.mul(lower[i, k], lower[j, k]) for k in range(j)))
+                    lower[i, j] = g.call("sqrt", rest) if i == j else g.div(rest, lower[j, j])
+            for i in range(n):
+                inverse[i, i] = g.div(g.one, lower[i, i])
+                for j in range(i):
+                    rest = g.total(g.mul(lower[i, k], inverse[k, j]) for k in range(j, i))
+                    inverse[i, j] = g.neg(g.mul(rest, inverse[i, i]))
+                entries = ((block.columns[j], inverse[i, j]) for j in range(i + 1))
+                rows[block.columns[i]] = tuple((j, node) for j, node in entries if node != g.zero)
+        return Sparse(g, tuple(rows), self.equations.nv)
 
     def inverse(self, x: Scalar) -> Scalar:
         """Return 1 / x."""
@@ -230,8 +240,17 @@ class System:
                 result[i] = g.total(g.mul(e, x.nodes[j]) for j, e in zip(block.columns, row, strict=True))
         return Vector(g, tuple(result))
 
-    def augmented_factor(self, penalty: Scalar) -> Factor:
-        """Return the factor of ``M + a D^T D``, which is positive definite whatever the rank of D."""
+    def penalties(self, penalty: Scalar) -> Vector:
+        """Return the penalty of each row, 0 for rows that the runtime leaves out.
+
+        A row that depends on others where the constraints hold does so no more at the stages of a step, where they hold
+        to the integrator's error only: a penalty on what it adds there would pull at the motion itself.
+        """
+        g = self.graph
+        return Vector(g, tuple(g.mul(penalty.node, g.call("step", g.one, mask)) for mask in self.mask))
+
+    def augmented_factor(self, penalties: Vector) -> Factor:
+        """Return the factor of ``M + D^T a D``, a by rows, which is positive definite whatever the rank of D."""
         g = self.graph
         matrix: dict[tuple[int, int], int] = {}
         for block in self.equations.mass:
@@ -239,9 +258,9 @@ class System:
                 for j, node in zip(block.columns, row, strict=True):
                     if node != g.zero or i == j:
                         matrix[i, j] = node
-        for entries in self.D.rows:
+        for entries, penalty in zip(self.D.rows, penalties, strict=True):
             for i, a in entries:
-                scaled = g.mul(penalty.node, a)
+                scaled = g.mul(penalty, a)
                 for j, b in entries:
                     if j >= i:
                         matrix[i, j] = g.add(matrix.get((i, j), g.zero), g.mul(scaled, b))

@@ -14,7 +14,6 @@ The Jacobian with respect to k and to y = (q, v) is differentiated on the graph 
 
 from __future__ import annotations
 
-from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import STATUS, Block, Target
 from symgen.lower.algebra import System
@@ -73,7 +72,7 @@ def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
     velocity = system.D @ system.v - system.nu
     if stabilised:
         eta = Vector(g, tuple(g.input("k", e.nq + e.nv + e.m + i) for i in range(e.m)))
-        kinematic = kinematic + _through_kinematic_map(e, system.D.transposed(eta))
+        kinematic = kinematic + _through_kinematic_map(system, system.D.transposed(eta))
         holonomic = [_select(r.phi, eta.nodes[i]) for i, r in enumerate(e.rows)]
         constraints = [*velocity, *holonomic]
     elif descriptor.level in ("position", "projected"):
@@ -102,7 +101,6 @@ def _select(phi: int | None, otherwise: int) -> int:
     return otherwise if phi is None else phi
 
 
-def _through_kinematic_map(e: Equations, change: Vector) -> Vector:
-    """Return N times a change of v; planar coordinates change as the velocities do."""
-    assert e.nq == e.nv, "planar mechanisms have as many velocities as coordinates"
-    return change
+def _through_kinematic_map(system: System, change: Vector) -> Vector:
+    """Return N times a change of v: the rates q' with that change in place of v."""
+    return system.at_velocity(system.q_rates, change)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
-from symgen.lower.algebra import SKIP, System
+from symgen.lower.algebra import System
 from symgen.lower.descriptor import descriptor_blocks
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
@@ -21,7 +21,7 @@ from symgen.lower.parts import (
     transposed_product,
 )
 from symgen.lower.vectors import Sparse, Vector
-from symgen.methods._base import Acceleration, Iteration, Method, multiplier_law
+from symgen.methods._base import Acceleration, Dense, Iteration, Method, multiplier_law
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
@@ -55,6 +55,9 @@ def lower_law(
     elif isinstance(law, Iteration):
         form = "iterated"
         builder.iterated(law)
+    elif isinstance(law, Dense):
+        form = "dense"
+        builder.orthogonal(law)
     else:
         form = "tangent"
         builder.tangent()
@@ -194,8 +197,33 @@ class _Builder:
             add("finish", "q', power and multipliers", finish, ("t", "y", "p", "w", "ydot")),
         ]
 
+    def orthogonal(self, law: Dense) -> None:
+        """Add what a law on an orthogonal factorisation of D^T is put together from."""
+        e, g, system = self.equations, self.system.graph, self.system
+        self._dense()
+        for name, size in {
+            **{"row_length": e.m, "row_chosen": e.m, "row_corner": e.m, "row_factor": e.m},
+            **{"basis": e.nv * e.nv, "small": e.nv * e.nv, "reduced": e.nv, "force": e.nv, "weighed": e.nv},
+        }.items():
+            self.section(name, size)
+        change = system.variable("change", e.nv)
+        multipliers = system.variable("multipliers", e.m)
+        add = self.hoister.block
+        finish = [
+            *((Target("ydot", i), n) for i, n in enumerate(e.q_rates)),
+            (Target("ydot", e.nq + e.nv), g.sub(e.power, multipliers.dot(system.nu).node)),
+        ]
+        aim = [*_to("residual", law.target), *_to("force", system.f)]
+        self.blocks += [
+            add("aim", "the section `residual` = what D v' shall be, `force` = f", aim, ("t", "y", "p", "w")),
+            add("weigh", "the section `weighed` = M times `change`", _to("weighed", system.mass(change)), ("p", "w")),
+            add("finish", "q' and power", finish, ("t", "y", "p", "w", "ydot")),
+        ]
+
     def _dense(self) -> None:
-        """Add D as a dense matrix, for the choice of independent columns by complete pivoting."""
+        """Add D as a dense matrix, for the choice of independent columns, or for an orthogonal factorisation."""
+        if "dense" in self.sections:
+            return
         e, dense = self.equations, list[tuple[Target, int]]()
         self.section("dependent", e.nv)
         self.section("dense", e.m * e.nv)
@@ -218,17 +246,17 @@ class _Builder:
         weight = [{j: g.input("dependent", j)} for j in range(e.nv)]
         rank = system.gram_factor()
         factor = system.factor_with(rank, system.gram(weight))
-        worst = g.one
+        # det(D P D^T) / det(D D^T): squared cosines of the angles between tangent space and independent coordinates
+        quality = g.one
         for i in factor.order:
-            relative = g.div(factor.pivots[i], rank.diagonal[i])
-            # rows that D D^T skips say nothing about the partition
-            skipped = g.call("step", g.mul(g.constant(SKIP), rank.diagonal[i]), rank.pivots[i])
-            worst = g.call("min", worst, g.add(relative, skipped))
+            kept = g.mul(rank.pivots[i], rank.reciprocal[i])  # 0 for rows that D D^T skips: they say nothing
+            ratio = g.mul(factor.pivots[i], rank.reciprocal[i])
+            quality = g.mul(quality, g.add(ratio, g.sub(g.one, kept)))
 
         def project(x: Vector) -> Vector:
             return Vector(g, tuple(g.mul(weight[j][j], n) for j, n in enumerate(x)))
 
-        self._weighted(rank, factor, project, "D P D^T", [to_status("partition_pivot", worst)])
+        self._weighted(rank, factor, project, "D P D^T", [to_status("partition_quality", quality)])
 
     def _weighted(
         self, rank: Factor, factor: Factor, weight: Callable[[Vector], Vector], matrix: str, more: Outputs
@@ -257,8 +285,8 @@ class _Builder:
         lambda before it solves, so lambda begins at -a r.
         """
         e, g, system = self.equations, self.system.graph, self.system
-        penalty = system.parameter("penalty")
-        rank, factor = system.gram_factor(), system.augmented_factor(penalty)
+        penalties = system.penalties(system.parameter("penalty"))
+        rank, factor = system.gram_factor(), system.augmented_factor(penalties)
         stored = Stored(g, factor)
         self.section("law_lower", len(stored.lower))
         self.section("law_reciprocal", len(stored.reciprocal))
@@ -272,8 +300,8 @@ class _Builder:
         residual = Vector(g, tuple(g.input("residual", i) for i in range(e.m)))
         moved = Vector(g, tuple(g.input("moved", j) for j in range(e.nv)))
         forces = Vector(g, tuple(g.input("force_of_constraints", i) for i in range(e.m)))
-        raised = forces + penalty * residual
-        pressed = raised + penalty * residual
+        raised = forces + penalties.times(residual)
+        pressed = raised + penalties.times(residual)
         right = system.mass(moved) + Vector(g, tuple(transposed_product(g, self.model.jacobian, pressed.nodes, e.nv)))
         x = stored.loaded("law_lower", "law_reciprocal").solve(g, [g.neg(n) for n in right])
         changes = [

@@ -8,6 +8,7 @@ from symgen.formulate.equations import Equations
 from symgen.ir.program import STATUS, Block, Entry, Layout, ModelProgram, Target
 from symgen.lower.algebra import System
 from symgen.lower.hoist import Hoister
+from symgen.lower.manifold import manifold_blocks
 from symgen.lower.parts import (
     Outputs,
     Stored,
@@ -40,6 +41,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     offset = 0
     sizes = {
         "status": len(STATUS),
+        "winding": len(equations.windings),  # right behind the status: both are kept with every output
         "multipliers": m,
         "mask": m,
         "saved": m,
@@ -53,6 +55,8 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         "reciprocal": len(stored.reciprocal),
     }
     for name, size in sizes.items():
+        if name == "winding" and not size:
+            continue
         sections[name] = (offset, size)
         offset += size
     layout = Layout(equations.nq, equations.nv, m, len(equations.parameters), sections)
@@ -77,6 +81,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
             [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)],
             ("p", "w"),
         ),
+        *manifold_blocks(hoister, equations),
     ]
     blocks.insert(0, hoister.prepare())
     return ModelProgram(
@@ -108,6 +113,7 @@ def measure(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -
         outputs.append((Target("residual", i), total))
     outputs.append(to_status("velocity_violation", g.call("sqrt", g.dot(residuals, residuals))))
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
+    outputs += [(Target("winding", i), node) for i, node in enumerate(equations.windings)]
     purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
     return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
 

@@ -16,6 +16,11 @@ class Vector:
     graph: Graph
     nodes: tuple[int, ...]
 
+    @property
+    def size(self) -> int:
+        """Number of elements; formulas name sizes by it, since whole vectors have theirs at run time only."""
+        return len(self.nodes)
+
     def __add__(self, other: Vector) -> Vector:
         g = self.graph
         return Vector(g, tuple(g.add(a, b) for a, b in zip(self.nodes, other.nodes, strict=True)))
@@ -83,11 +88,17 @@ class Sparse:
         g = self.graph
         return Vector(g, tuple(g.total(g.mul(e, x.nodes[j]) for j, e in row) for row in self.rows))
 
-    def scaled_columns(self, factors: Vector) -> Sparse:
-        """Return D with column j multiplied by factor j."""
+    def times_transposed(self, other: Sparse) -> Sparse:
+        """Return this matrix times the transposed of another one."""
         g = self.graph
-        rows = tuple(tuple((j, g.mul(e, factors.nodes[j])) for j, e in row) for row in self.rows)
-        return Sparse(g, rows, self.columns)
+        rows = []
+        for row in self.rows:
+            own = dict(row)
+            entries = (
+                (k, g.total(g.mul(own[j], e) for j, e in right if j in own)) for k, right in enumerate(other.rows)
+            )
+            rows.append(tuple((k, node) for k, node in entries if node != g.zero))
+        return Sparse(g, tuple(rows), len(other.rows))
 
     def transposed(self, y: Vector) -> Vector:
         """Return D^T y."""

@@ -16,21 +16,26 @@ GROUND = "ground"
 
 
 class Marker(msgspec.Struct, frozen=True):
-    """A point fixed in `body`: coordinates in the body frame (ground: in the ground frame) [m]."""
+    """A point fixed in `body`: two or three coordinates in the body frame (ground: in the ground frame) [m]."""
 
     body: str
-    point: tuple[Expr, Expr]
+    point: tuple[Expr, ...]
 
 
 class Direction(msgspec.Struct, frozen=True):
     """A vector of length 1 fixed in `body` (ground: in the ground frame)."""
 
     body: str
-    vector: tuple[Expr, Expr]
+    vector: tuple[Expr, ...]
 
 
 X_AXIS = Direction(GROUND, (ONE, ZERO))
 Y_AXIS = Direction(GROUND, (ZERO, ONE))
+
+
+def axes(body: str, dimension: int) -> tuple[Direction, ...]:
+    """Return the axes of a body's frame, two in the plane, three in space."""
+    return tuple(Direction(body, tuple(ONE if i == j else ZERO for j in range(dimension))) for i in range(dimension))
 
 
 class Component(msgspec.Struct, frozen=True, tag="component"):
@@ -42,14 +47,14 @@ class Component(msgspec.Struct, frozen=True, tag="component"):
 
 
 class Distance(msgspec.Struct, frozen=True, tag="distance"):
-    """s = |r_b - r_a| [m]; singular where the markers meet."""
+    """``s = |r_b - r_a|`` [m]; singular where the markers meet."""
 
     a: Marker
     b: Marker
 
 
 class LinkStretch(msgspec.Struct, frozen=True, tag="link-stretch"):
-    """s = (|r_b - r_a|^2 - L^2) / (2 L) [m]: zero, with unit gradient, where the distance is `length`."""
+    """``s = (|r_b - r_a|^2 - L^2) / (2 L)`` [m]: zero, with unit gradient, where the distance is `length`."""
 
     a: Marker
     b: Marker
@@ -63,13 +68,105 @@ class Angle(msgspec.Struct, frozen=True, tag="angle"):
     b: str
 
 
+class Dot(msgspec.Struct, frozen=True, tag="dot"):
+    """s = u . v of two directions in space: 0 where they are perpendicular."""
+
+    u: Direction
+    v: Direction
+
+
+class Turn(msgspec.Struct, frozen=True, tag="turn"):
+    """Angle in space from direction `zero` to `pointer` about the axis zero x quarter [rad], turns counted.
+
+    ``s = atan2(pointer . quarter, pointer . zero)``, continued over whole turns; `zero` and `quarter` are perpendicular
+    and belong to one body. Singular where `pointer` is parallel to the axis.
+    """
+
+    zero: Direction
+    quarter: Direction
+    pointer: Direction
+
+
+class Spin(msgspec.Struct, frozen=True, tag="spin"):
+    """Component of the angular velocity of `b` relative to `a` along a direction [rad/s]: a rate without a value.
+
+    What torques in space work on; as a measure its value is 0.
+    """
+
+    a: str
+    b: str
+    along: Direction
+
+
+class Bearing(msgspec.Struct, frozen=True, tag="bearing"):
+    """Angle in space of the vector from marker `a` to marker `b` about the axis zero x quarter [rad], turns counted.
+
+    ``s = atan2((r_b - r_a) . quarter, (r_b - r_a) . zero)``, continued over whole turns; `zero` and `quarter` are
+    perpendicular and belong to the body of `a`. Singular where `b` lies on the axis through `a`.
+    """
+
+    a: Marker
+    b: Marker
+    zero: Direction
+    quarter: Direction
+
+
+class RimHeight(msgspec.Struct, frozen=True, tag="rim-height"):
+    """s = n . (c - p) - R sqrt(1 - (n . k)^2) [m]: height of a thin disc's lowest point over a plane of the ground.
+
+    Singular where the disc lies flat.
+    """
+
+    plane: Marker
+    normal: Direction
+    centre: Marker
+    axis: Direction
+    radius: Expr
+
+
 class Sum(msgspec.Struct, frozen=True, tag="sum"):
     """s = sum of coefficient times measure."""
 
     terms: tuple[tuple[Expr, Measure], ...]
 
 
-Measure = Component | Distance | LinkStretch | Angle | Sum
+Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum
+
+
+class PointSpeed(msgspec.Struct, frozen=True, tag="point-speed"):
+    """Velocity of marker `at` along a body-fixed direction, e . v_P [m/s]."""
+
+    at: Marker
+    along: Direction
+
+
+class RollingSpeed(msgspec.Struct, frozen=True, tag="rolling-speed"):
+    """Velocity along a direction of the ground of the material point that touches a plane of the ground [m/s].
+
+    ``e . (v_c + omega x r)`` with ``r = -R n`` for a sphere; for a thin disc with axis k, ``r = -R (n - (n . k) k) /
+    sqrt(1 - (n . k)^2)``.
+    """
+
+    centre: Marker
+    along: Direction
+    normal: Direction
+    radius: Expr
+    axis: Direction | None = None
+
+
+class BladeSpeed(msgspec.Struct, frozen=True, tag="blade-speed"):
+    """Velocity of marker `at` of a body across its blade, in a plane of the ground [m/s].
+
+    ``v_P . (n x d) / |n x d|`` with the plane's normal n and the direction d of the blade, fixed in the body: to the
+    left of the blade, seen from the normal's tip. Singular where the blade stands on end.
+    """
+
+    at: Marker
+    normal: Direction
+    blade: Direction
+
+
+Speed = PointSpeed | RollingSpeed | BladeSpeed
 
 
 class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
@@ -82,11 +179,10 @@ class Holonomic(msgspec.Struct, frozen=True, tag="holonomic"):
 
 
 class Nonholonomic(msgspec.Struct, frozen=True, tag="nonholonomic"):
-    """One row e . v_P = value(t, parameters): velocity of marker `at` along the body-fixed direction `along` [m/s]."""
+    """One row u = value(t, parameters) on a velocity u = J v that is no rate of a measure [m/s]."""
 
     label: str
-    at: Marker
-    along: Direction
+    speed: Speed
     value: Expr = ZERO
     unit: str = "m/s"
 
@@ -97,11 +193,12 @@ Row = Holonomic | Nonholonomic
 class Effort(msgspec.Struct, frozen=True):
     """A force along a measure: generalised force J_s^T (-dU/ds + F).
 
+    The measure may be a velocity without a value (`Spin`, `PointSpeed`), which has no potential and no ``s``.
     In `potential` the placeholder ``s`` is the measure's value; in `magnitude` ``s`` and ``rate`` (its rate s') may be
     used besides t, parameters and body coordinates and velocities. `potential` [J] may use ``s`` and parameters only.
     """
 
     label: str
-    measure: Measure
+    measure: Measure | PointSpeed
     magnitude: Expr = ZERO
     potential: Expr = ZERO

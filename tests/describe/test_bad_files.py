@@ -64,7 +64,8 @@ CASES = [
     ("mechanism.name", "Four Bar", "such as 'four-bar', got 'Four Bar'; for example 'four-bar'"),
     ("mechanism.name", "../x", "expected lower-case words joined by dashes, such as 'four-bar', got '../x'"),
     ("mechanism.name", "a" * 65, "expected lower-case words joined by dashes"),
-    ("mechanism.space", "spatial", "mechanism.space: expected 'planar', got 'spatial'"),
+    ("mechanism.space", "spatal", "mechanism.space: expected 'planar' or 'spatial', got 'spatal'"),
+    ("mechanism.space", "spatial", "mechanism.gravity: expected three numbers or expressions of parameters [x, y, z]"),
     (
         "mechanism.gravity",
         [0.0],
@@ -74,7 +75,7 @@ CASES = [
     (
         "mechanism.gravity",
         9.81,
-        "mechanism.gravity: expected two numbers or expressions of parameters [x, y], got 9.81",
+        "mechanism.gravity: expected two numbers or expressions of parameters [x, y], in space three",
     ),
     ("mechanism.nam", "x", "got the unknown key 'nam'; did you mean 'name'?"),
     ("parameters", 3, "parameters: expected a table of parameters, one entry a name, got 3"),
@@ -159,7 +160,7 @@ CASES = [
     (
         "bodies.rod.points",
         [1],
-        "bodies.rod.points: expected a table of points, name = [x, y] in the body's frame, got [1]",
+        "bodies.rod.points: expected a table of points, name = [x, y] or [x, y, z] in the body's frame, got [1]",
     ),
     ("bodies.rod.angle", "1/(rod_mass - 2)", "bodies.rod.angle: expected a finite number, got '1.0/(rod_mass - 2.0)'"),
     (
@@ -193,7 +194,7 @@ CASES = [
     (
         "joints.pin.att",
         1,
-        "joints.pin: expected the keys type, between, at, got the unknown key 'att'; did you mean 'at'?",
+        "joints.pin: expected the keys type, between, at, axis, reference, got the unknown key",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.length", "-length", "joints.string.length: expected a value above 0, got -1.0"),
@@ -203,7 +204,8 @@ CASES = [
     (
         "joints.slide",
         SLIDE | {"axis": 1.0},
-        "joints.slide.axis: expected a direction [x, y] in the body's frame, got 1.0",
+        "joints.slide.axis: expected a direction [x, y], in space [x, y, z] or two such, one in the frame of "
+        "each body, got 1.0",
     ),
     ("joints.gears", GEARS, "joints.gears.carrier: expected a body that is neither wheel, got 'ground'"),
     ("joints.gears", GEARS | {"radii": [1.0, 1.0]}, "joints.gears.carrier: expected a body that is neither wheel"),
@@ -348,7 +350,7 @@ def test_files_that_cannot_be_read(tmp_path, content, sentence):
         ),
         ("n-four-bar:0", "model: expected a size of 'n-four-bar' from 1 to 5000, got 0"),
         ("n-four-bar:999999", "model: expected a size of 'n-four-bar' from 1 to 5000, got 999999"),
-        ("n-four-bar:x", "got 'n-four-bar:x'; a size is written as in 'n-four-bar:2'"),
+        ("n-four-bar:x", "got 'n-four-bar:x'; a size is written as in 'chain:4'"),
         ("four-bar:3", "model: expected 'four-bar' without a size, got 'four-bar:3'"),
         (
             "nowhere/rod.toml",

@@ -18,10 +18,20 @@ from symgen.describe.template import template
 from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError
+from symgen.forces import FORCES
+from symgen.joints import JOINTS
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FILES = sorted(EXAMPLES.glob("*.toml"))
 SIZES = {"pendulum": (1, 1), "four-bar": (3, 8), "slider-crank": (3, 8), "andrews": (7, 20), "driven-four-bar": (3, 9)}
+
+#: Spatial entries: their data are checked where they are simulated.
+SPATIAL = {
+    **{"bricard": (5, 30), "flyball-governor": (4, 20), "free-rigid-body": (1, 0), "front-suspension": (7, 39)},
+    **{"heavy-top": (1, 3), "rolling-disc": (1, 3), "spatial-slider-crank": (3, 17)},
+    **{"spherical-double-pendulum": (2, 6), "stewart-platform": (13, 78)},
+}
+SIZED = ["chain", "n-four-bar"]
 
 
 def rows(mechanism):
@@ -30,9 +40,9 @@ def rows(mechanism):
 
 def test_the_catalogue_lists_what_it_holds():
     entries = catalogue.entries()
-    assert [entry.name for entry in entries] == list(catalogue.names()) == sorted({*SIZES, "n-four-bar"})
+    assert [entry.name for entry in entries] == list(catalogue.names()) == sorted({*SIZES, *SPATIAL, *SIZED})
     assert all(entry.title and entry.source for entry in entries)
-    assert [entry.name for entry in entries if entry.sized] == ["n-four-bar"]
+    assert [entry.name for entry in entries if entry.sized] == SIZED
 
 
 @pytest.mark.parametrize("name", catalogue.names())
@@ -42,11 +52,11 @@ def test_every_entry_says_how_it_runs(name):
     assert load(name).defaults.source
 
 
-@pytest.mark.parametrize("name", sorted(SIZES))
+@pytest.mark.parametrize("name", sorted(SIZES | SPATIAL))
 def test_names_and_sizes(name):
     mechanism = load(name)
     assert mechanism.name == name
-    assert (len(mechanism.bodies), len(rows(mechanism))) == SIZES[name]
+    assert (len(mechanism.bodies), len(rows(mechanism))) == (SIZES | SPATIAL)[name]
 
 
 @pytest.mark.parametrize("model", [*sorted(SIZES), "n-four-bar", "n-four-bar:7", *FILES], ids=str)
@@ -138,17 +148,21 @@ def test_the_script_writes_a_file_that_describes_a_closed_chain(tmp_path):
     assert module.chain(9).build() == mechanism
 
 
-def test_the_template_is_a_mechanism_with_every_key_explained():
-    text = template("my-crane")
+@pytest.mark.parametrize("space", ["planar", "spatial"])
+def test_the_template_is_a_mechanism_with_every_key_explained(space):
+    text = template("my-crane", space)
     raw = tomllib.loads(text)
     mechanism = validate(raw, "my-crane.toml")
-    assert mechanism.name == "my-crane"
+    assert (mechanism.name, mechanism.space) == ("my-crane", space)
     uncommented = "\n".join(line.removeprefix("# ") if " = " in line else line for line in text.splitlines())
     full = uncommented.replace("# [", "[")
     assert {"bob"} <= set(tomllib.loads(full)["bodies"])
     assert validate(tomllib.loads(full), "full.toml").tables[0].name == "profile"
-    for word in ("pin-in-slot", "knife-edge", "spring-damper", "predictable_until", "centre_of_mass"):
+    kinds = [k for registry in (JOINTS, FORCES) for k, kind in registry.items() if space in kind.SPACES]
+    for word in (*kinds, "predictable_until", "centre_of_mass"):
         assert word in text
+    others = [k for registry in (JOINTS, FORCES) for k, kind in registry.items() if space not in kind.SPACES]
+    assert not [k for k in others if f" {k}," in text]
     with pytest.raises(InputError, match="lower-case words joined by dashes"):
         template("My crane")
 

@@ -147,7 +147,7 @@ def test_knife_edge():
     (row,) = found.rows
     assert isinstance(row, Nonholonomic)
     assert (row.label, row.unit, found.bodies) == ("normal", "m/s", ("a",))
-    assert tuple(map(to_text, row.along.vector)) in {("0.0", "-1.0"), ("-0.0", "-1.0")}
+    assert tuple(map(to_text, row.speed.along.vector)) in {("0.0", "-1.0"), ("-0.0", "-1.0")}
 
 
 def test_driver_of_a_joint_named_later():
@@ -294,6 +294,8 @@ def test_every_kind_documents_its_keys(registry):
 
 def test_all_kinds_are_there():
     assert set(JOINTS) == {
-        "distance", "driver", "gear", "knife-edge", "pin-in-slot", "revolute", "rigid", "rolling", "translational"
+        "constant-velocity", "cylindrical", "distance", "driver", "gear", "knife-edge", "pin-in-slot", "planar",
+        "point-on-plane", "rack-and-pinion", "revolute", "revolute-spherical", "rigid", "rolling", "rolling-disc",
+        "rolling-sphere", "screw", "spherical", "translational", "universal",
     }  # fmt: skip
-    assert set(FORCES) == {"force", "spring-damper", "torque", "torsional-spring-damper"}
+    assert set(FORCES) == {"bushing", "force", "spring-damper", "torque", "torsional-spring-damper"}

@@ -48,6 +48,16 @@ class Numbers:
     power: float = 0.0
 
 
+class Interpreted:
+    """An emitted function as the plain Python it is written in."""
+
+    def __init__(self, function: Any) -> None:
+        self.py_func = function
+
+    def __call__(self, *arguments: Any) -> Any:
+        return self.py_func(*arguments)
+
+
 class Emitted:
     """The emitted modules of one mechanism in a package of their own, in memory only.
 
@@ -77,6 +87,11 @@ class Emitted:
         model, law = (self.generated.modules[s][1] for s in ("model", choice.stem))
         self.info, self.law_info = msgspec.convert(model, ModelInfo), msgspec.convert(law, LawInfo)
         self.model, self.law = self.modules["model"], self.modules[choice.stem]
+        if not compiled:  # functions that call others find them in their module: there, too, as plain Python
+            for module in self.modules.values():
+                for name, function in list(vars(module).items()):
+                    if hasattr(function, "py_func"):
+                        setattr(module, name, Interpreted(function.py_func))
         for name in [package.__name__, *(f"{package.__name__}.{stem}" for stem in self.modules)]:
             del sys.modules[name]
 

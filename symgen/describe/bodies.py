@@ -1,0 +1,235 @@
+"""Bodies of a mechanism file: sections in, frozen bodies out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from symgen.describe.fields import found, read
+from symgen.describe.mechanism import Body, SpatialBody, Vec
+from symgen.describe.names import check_identifier, quoted
+from symgen.describe.orientation import CONVENTIONS, IDENTITY, Matrix, Orientation, euler_parameters, matrix
+from symgen.describe.scope import CENTRE
+from symgen.describe.sections import BodySection, OrientationSection, SpatialBodySection
+from symgen.errors import nearest
+from symgen.vocabulary.expressions import ZERO, Expr, call, number
+
+if TYPE_CHECKING:
+    from symgen.describe.scope import Scope
+
+Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
+
+
+def planar_body(scope: Scope, raw: object) -> Body:
+    """Return the planar body that a table describes."""
+    section = read(BodySection, raw, scope.where(""))
+    _check_type(scope, section, ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"))
+    position, centre, velocity, points = _common(scope, section)
+    return Body(
+        name=scope.name,
+        mass=scope.constant("mass", section.mass, positive=True, or_zero=True),
+        inertia=None
+        if section.inertia is None
+        else scope.constant("inertia", section.inertia, positive=True, or_zero=True),
+        centre_of_mass=centre,
+        points=points,
+        position=position,
+        angle=ZERO if section.angle is None else scope.constant("angle", section.angle),
+        velocity=velocity,
+        angular_velocity=scope.optional("angular_velocity", section.angular_velocity),
+    )
+
+
+def spatial_body(scope: Scope, raw: object) -> SpatialBody:
+    """Return the spatial body that a table describes."""
+    section = read(SpatialBodySection, raw, scope.where(""))
+    keys = ("inertia", "inertia_at", "inertia_axes", "orientation", "angular_velocity", "points", "centre_of_mass")
+    _check_type(scope, section, keys)
+    position, centre, velocity, points = _common(scope, section)
+    mass = scope.constant("mass", section.mass, positive=True, or_zero=True)
+    return SpatialBody(
+        name=scope.name,
+        mass=mass,
+        inertia=None if section.inertia is None else _inertia(scope, section, mass, centre, dict(points)),
+        centre_of_mass=centre,
+        points=points,
+        position=position,
+        orientation=_orientation(scope, "orientation", section.orientation),
+        velocity=velocity,
+        angular_velocity=_optional(scope, "angular_velocity", section.angular_velocity),
+    )
+
+
+def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: tuple[str, ...]) -> None:
+    if section.type == "point":
+        for key in keys:
+            if getattr(section, key) is not None:
+                raise scope.error(key, "no such key, as a point mass has none", found(getattr(section, key)))
+    elif section.inertia is None:
+        hint = 'a body without one is written type = "point"'
+        raise scope.error("inertia", "the inertia about the centre of mass", "no such key", hint)
+
+
+_Common = tuple[Vec, Vec, tuple[Expr | None, ...], tuple[tuple[str, Vec], ...]]
+
+
+def _common(scope: Scope, section: BodySection | SpatialBodySection) -> _Common:
+    """Return position, centre of mass, velocity and points."""
+    nothing = (0.0,) * scope.dimension
+    points = []
+    for point, coordinates in (section.points or {}).items():
+        check_identifier(point, scope.where("points"), "point")
+        if point == CENTRE:
+            raise scope.error("points", "another name", f"'{CENTRE}', which is the centre of mass")
+        points.append((point, scope.vector(f"points.{point}", coordinates)))
+    return (
+        scope.vector("position", nothing if section.position is None else section.position),
+        scope.vector("centre_of_mass", nothing if section.centre_of_mass is None else section.centre_of_mass),
+        _optional(scope, "velocity", section.velocity),
+        tuple(points),
+    )
+
+
+def _optional(scope: Scope, key: str, vector: tuple[float | str, ...] | None) -> tuple[Expr | None, ...]:
+    return (None,) * scope.dimension if vector is None else scope.vector(key, vector)
+
+
+# -- orientation and inertia in space --------------------------------------------------------------------------------
+
+
+def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> Orientation:
+    if section is None:
+        return IDENTITY
+    ways = ("quaternion", "rotation_vector", "euler_angles", "x_axis", "start")
+    given = [way for way in ways if getattr(section, way) is not None]
+    if len(given) != 1:
+        got = "none" if not given else " and ".join(given)
+        raise scope.error(key, f"one of the keys {', '.join(ways)}", got)
+    way = given[0]
+    needs = {"euler_angles": ("convention",), "x_axis": ("y_axis",), "start": ("end", "y_axis")}.get(way, ())
+    for other in ("convention", "y_axis", "end"):
+        if (getattr(section, other) is None) == (other in needs):
+            got = "no such key" if other in needs else found(getattr(section, other))
+            raise scope.error(f"{key}.{other}", "a value" if other in needs else f"no such key beside {way}", got)
+    if way == "quaternion":
+        four = section.quaternion or ()
+        if len(four) != 4 or any(isinstance(e, tuple) for e in four):
+            raise scope.error(f"{key}.quaternion", "four numbers [e0, e1, e2, e3]", found(four))
+        values = tuple(scope.constant(f"{key}.quaternion", e) for e in four if not isinstance(e, tuple))
+    else:
+        parts = [(way, getattr(section, way)), *((n, getattr(section, n)) for n in needs if n != "convention")]
+        values = tuple(e for name, part in parts for e in scope.vector(f"{key}.{name}", part))
+    convention = section.convention or ""
+    if way == "euler_angles" and convention not in CONVENTIONS:
+        got = quoted(convention)
+        raise scope.error(f"{key}.convention", "three axes such as 'zxz'", got, nearest(convention, CONVENTIONS))
+    kind = {"x_axis": "axes", "start": "line"}.get(way, way.replace("_", "-"))
+    orientation = Orientation(kind, values, convention)
+    # says at once, and not at the first run, if it stands for nothing
+    euler_parameters(orientation, lambda e: scope.value(e, key), scope.where(key))
+    return orientation
+
+
+def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec, points: dict[str, Vec]) -> Tensor:
+    """Return the tensor about the centre of mass in body axes."""
+    tensor = _entries(scope, section.inertia or ())
+    if section.inertia_axes is not None:
+        axes = _orientation(scope, "inertia_axes", section.inertia_axes)
+        if not axes.is_numeric:
+            raise scope.error("inertia_axes", "numbers, no expressions of parameters", "an expression")
+        e = euler_parameters(axes, lambda x: scope.value(x, "inertia_axes"), scope.where("inertia_axes"))
+        tensor = _turned(tensor, matrix(e))
+    if section.inertia_at is not None:
+        tensor = _shifted(tensor, mass, _difference(_point(scope, section.inertia_at, points, centre), centre))
+    for name, entry in zip(("Ixx", "Iyy", "Izz"), tensor, strict=False):
+        value = scope.value(entry, "inertia")
+        if not value > 0 and entry != ZERO:
+            raise scope.error("inertia", f"{name} about the centre of mass above 0", repr(value))
+    _check_definite(scope, tensor)
+    return tensor
+
+
+def _check_definite(scope: Scope, tensor: Tensor) -> None:
+    xx, yy, zz, xy, xz, yz = (scope.value(e, "inertia") for e in tensor)
+    second = xx * yy - xy * xy
+    third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    if any(e != 0.0 for e in (xy, xz, yz)) and not (xx > 0.0 and second > 0.0 and third > 0.0):
+        raise scope.error("inertia", "a positive definite tensor about the centre of mass", "one that is not")
+
+
+def _entries(scope: Scope, given: tuple[float | str | tuple[float | str, ...], ...]) -> Tensor:
+    rows = [e for e in given if isinstance(e, tuple)]
+    flat = [scope.constant("inertia", e) for e in given if not isinstance(e, tuple)]
+    if not rows and len(flat) == 3:
+        return flat[0], flat[1], flat[2], ZERO, ZERO, ZERO
+    if not rows and len(flat) == 6:
+        return flat[0], flat[1], flat[2], flat[3], flat[4], flat[5]
+    if len(rows) == 3 and not flat and all(len(row) == 3 for row in rows):
+        m = [[scope.constant("inertia", e) for e in row] for row in rows]
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            if scope.value(m[i][j], "inertia") != scope.value(m[j][i], "inertia"):
+                raise scope.error(
+                    "inertia", "a symmetric matrix", f"different entries {i + 1}{j + 1} and {j + 1}{i + 1}"
+                )
+        return m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]
+    expected = "[Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] or three rows of three"
+    raise scope.error("inertia", expected, found(given))
+
+
+def _point(scope: Scope, point: str | tuple[float | str, ...], points: dict[str, Vec], centre: Vec) -> Vec:
+    if not isinstance(point, str):
+        return scope.vector("inertia_at", point)
+    if point != CENTRE and point not in points:
+        hint = nearest(point, [*points, CENTRE])
+        raise scope.error("inertia_at", "the name of a point", f"{quoted(point)}, which is none", hint)
+    return centre if point == CENTRE else points[point]
+
+
+def _difference(a: Vec, b: Vec) -> Vec:
+    return tuple(call("sub", x, y) for x, y in zip(a, b, strict=True))
+
+
+def _sum(terms: list[Expr]) -> Expr:
+    total: Expr = ZERO
+    for term in terms:
+        if term != ZERO:
+            total = term if total == ZERO else call("add", total, term)
+    return total
+
+
+def _times(*factors: Expr) -> Expr:
+    product: Expr = number(1.0)
+    for factor in factors:
+        if factor == ZERO:
+            return ZERO
+        product = factor if product == number(1.0) else call("mul", product, factor)
+    return product
+
+
+def _turned(tensor: Tensor, a: Matrix) -> Tensor:
+    """Return A I A^T."""
+    xx, yy, zz, xy, xz, yz = tensor
+    rows = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+
+    def entry(i: int, j: int) -> Expr:
+        pairs = [(k, n) for k in range(3) for n in range(3) if a[i][k] * a[j][n] != 0.0]
+        return _sum([_times(number(a[i][k] * a[j][n]), rows[k][n]) for k, n in pairs])
+
+    return entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)
+
+
+def _shifted(tensor: Tensor, mass: Expr, d: Vec) -> Tensor:
+    """Return the tensor about the centre of mass, given about a point at distance d from it (Huygens, Steiner)."""
+
+    def entry(i: int, j: int) -> Expr:
+        if i == j:
+            part = _sum([_times(d[k], d[k]) for k in range(3) if k != i])
+            return _times(mass, part)
+        return call("neg", _times(mass, d[i], d[j]))
+
+    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+    changes = [entry(i, j) for i, j in pairs]
+    a, b, c, e, f, g = (
+        value if change in (ZERO, number(-0.0)) else call("sub", value, change)
+        for value, change in zip(tensor, changes, strict=True)
+    )
+    return a, b, c, e, f, g

@@ -1,0 +1,151 @@
+"""How a spatial body is turned at the start, in the ways people write it down; Euler parameters for all of them.
+
+Euler parameters (e0, e1, e2, e3) have length 1; the rotation matrix A that they stand for takes body to ground axes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import msgspec
+
+from symgen.errors import InputError
+from symgen.vocabulary.expressions import ONE, ZERO, Expr, Number
+
+#: Four Euler parameters.
+EulerParameters = tuple[float, float, float, float]
+#: Rows of a rotation matrix.
+Matrix = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+
+#: Orders of axes that Euler angles may be taken about: all twelve.
+CONVENTIONS = tuple(a + b + c for a in "xyz" for b in "xyz" for c in "xyz" if a != b and b != c)
+
+
+class Orientation(msgspec.Struct, frozen=True):
+    """An orientation as it was written.
+
+    Attributes
+    ----------
+    kind : {"quaternion", "rotation-vector", "euler-angles", "axes", "line"}
+        How `values` are meant: Euler parameters; axis times angle [rad]; angles [rad] about the moving axes that
+        `convention` names, in that order; the body's x axis and a vector towards its y axis, in the ground frame; two
+        points that the x axis leads from and to, and a vector towards the y axis.
+    """
+
+    kind: str
+    values: tuple[Expr, ...]
+    convention: str = ""
+
+    @property
+    def is_numeric(self) -> bool:
+        """Whether it depends on no parameter."""
+        return all(isinstance(e, Number) for e in self.values)
+
+
+IDENTITY = Orientation("quaternion", (ONE, ZERO, ZERO, ZERO))
+
+
+def euler_parameters(orientation: Orientation, value: Callable[[Expr], float], where: str) -> EulerParameters:
+    """Return the Euler parameters of an orientation.
+
+    Parameters
+    ----------
+    orientation : Orientation
+        As written.
+    value : callable
+        Evaluates a formula with the parameters' values.
+    where : str
+        For the message.
+
+    Raises
+    ------
+    InputError
+        If it says nothing: a quaternion of length 0, an axis of length 0, two parallel axes.
+    """
+    x = tuple(value(e) for e in orientation.values)
+    if orientation.kind == "quaternion":
+        length = math.sqrt(sum(e * e for e in x))
+        if not length > 0.0:
+            raise InputError(where, "a quaternion", "one of length 0")
+        return x[0] / length, x[1] / length, x[2] / length, x[3] / length
+    if orientation.kind == "rotation-vector":
+        angle = math.sqrt(sum(e * e for e in x))
+        factor = math.sin(angle / 2.0) / angle if angle > 0.0 else 0.5
+        return math.cos(angle / 2.0), factor * x[0], factor * x[1], factor * x[2]
+    if orientation.kind == "euler-angles":
+        result: EulerParameters = (1.0, 0.0, 0.0, 0.0)
+        for axis, angle in zip(orientation.convention, x, strict=True):
+            turn = [math.cos(angle / 2.0), 0.0, 0.0, 0.0]
+            turn["xyz".index(axis) + 1] = math.sin(angle / 2.0)
+            result = multiply(result, (turn[0], turn[1], turn[2], turn[3]))
+        return result
+    if orientation.kind == "line":
+        along, towards = (x[3] - x[0], x[4] - x[1], x[5] - x[2]), (x[6], x[7], x[8])
+    else:
+        along, towards = (x[0], x[1], x[2]), (x[3], x[4], x[5])
+    return from_matrix(_axes(along, towards, where))
+
+
+def _axes(along: tuple[float, float, float], towards: tuple[float, float, float], where: str) -> Matrix:
+    """Return the matrix whose first column points along a vector and whose second lies towards another one."""
+    length = math.sqrt(sum(e * e for e in along))
+    if not length > 0.0:
+        raise InputError(where, "a direction of the x axis", "a vector of length 0")
+    a = tuple(e / length for e in along)
+    part = sum(e * f for e, f in zip(a, towards, strict=True))
+    b = tuple(f - part * e for e, f in zip(a, towards, strict=True))
+    rest = math.sqrt(sum(e * e for e in b))
+    if not rest > 1e-9 * math.sqrt(sum(e * e for e in towards)):
+        raise InputError(where, "a second direction that is not parallel to the first", "a parallel one")
+    b = tuple(e / rest for e in b)
+    c = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+    return (a[0], b[0], c[0]), (a[1], b[1], c[1]), (a[2], b[2], c[2])
+
+
+def multiply(a: EulerParameters, b: EulerParameters) -> EulerParameters:
+    """Return the orientation of a turn `b` about axes that `a` has turned already."""
+    return (
+        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
+    )
+
+
+def matrix(e: EulerParameters) -> Matrix:
+    """Return the rotation matrix of Euler parameters of length 1, numbers or arrays of them."""
+    a, b, c, d = e
+    return (
+        (a * a + b * b - c * c - d * d, 2.0 * (b * c - a * d), 2.0 * (b * d + a * c)),
+        (2.0 * (b * c + a * d), a * a - b * b + c * c - d * d, 2.0 * (c * d - a * b)),
+        (2.0 * (b * d - a * c), 2.0 * (c * d + a * b), a * a - b * b - c * c + d * d),
+    )
+
+
+def from_matrix(m: Matrix) -> EulerParameters:
+    """Return the Euler parameters of a rotation matrix, from its largest diagonal term as Shepperd (1978) does."""
+    (a, b, c), (d, e, f), (g, h, i) = m
+    squares = (1.0 + a + e + i, 1.0 + a - e - i, 1.0 - a + e - i, 1.0 - a - e + i)
+    k = max(range(4), key=squares.__getitem__)
+    rows = (
+        (squares[0], h - f, c - g, d - b),
+        (h - f, squares[1], b + d, c + g),
+        (c - g, b + d, squares[2], f + h),
+        (d - b, c + g, f + h, squares[3]),
+    )
+    size = math.sqrt(sum(x * x for x in rows[k]))
+    sign = -1.0 if rows[k][0] < 0.0 else 1.0
+    return tuple(sign * x / size for x in rows[k])  # type: ignore[return-value]  # four of them
+
+
+def rotate(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
+    """Return the matrix times a vector."""
+    x, y, z = (sum(a * b for a, b in zip(row, v, strict=True)) for row in m)
+    return x, y, z
+
+
+def rotate_back(m: Matrix, v: tuple[float, ...]) -> tuple[float, float, float]:
+    """Return the transposed matrix times a vector."""
+    x, y, z = (sum(m[i][j] * v[i] for i in range(3)) for j in range(3))
+    return x, y, z

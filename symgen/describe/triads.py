@@ -1,0 +1,214 @@
+"""Axes of a joint in space: a right-handed triad of directions in each of its two bodies.
+
+The third direction of a triad is the joint's axis. The first ones coincide where the joint's angle is 0: as the bodies
+are described to start, unless reference directions are given.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from symgen.describe.evaluate import orientation
+from symgen.describe.fields import found
+from symgen.describe.mechanism import SpatialBody
+from symgen.describe.orientation import matrix, rotate, rotate_back
+from symgen.vocabulary.expressions import Number, number
+from symgen.vocabulary.measures import GROUND, Direction
+
+if TYPE_CHECKING:
+    from symgen.describe.scope import Scope
+
+_Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Triad:
+    """Three perpendicular directions of one body; `axis` is the joint's."""
+
+    first: Direction
+    second: Direction
+    axis: Direction
+
+    @property
+    def body(self) -> str:
+        """The body."""
+        return self.axis.body
+
+
+def make_triads(
+    scope: Scope,
+    bodies: tuple[str, str],
+    axis: tuple[float | str | tuple[float | str, ...], ...],
+    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None,
+    keys: tuple[str, str],
+    fixed: bool = False,
+) -> tuple[Triad, Triad]:
+    """Return the triads of two bodies.
+
+    Parameters
+    ----------
+    scope : Scope
+        The joint.
+    bodies : pair of str
+        Its bodies.
+    axis : three numbers, or two directions
+        The axis in the first body's frame, and from there in the second's as both are described to start; or in the
+        frame of each body.
+    reference : pair of directions, optional
+        Directions of each body that coincide where the angle is 0.
+    keys : pair of str
+        What these are called in the file.
+    fixed : bool
+        Whether the joint holds the first directions together, so that these must not be arbitrary.
+    """
+    a, b = bodies
+    if len(axis) == 2 and isinstance(axis[0], tuple) and isinstance(axis[1], tuple):
+        along_a, along_b = _unit(scope, keys[0], axis[0]), _unit(scope, keys[0], axis[1])
+    elif len(axis) == 3 and not any(isinstance(e, tuple) for e in axis):
+        along_a = _unit(scope, keys[0], tuple(e for e in axis if not isinstance(e, tuple)))
+        along_b = _carried(scope, keys[0], a, b, along_a)
+    else:
+        expected = "a direction [x, y, z] in the first body's frame, or two, one in the frame of each body"
+        raise scope.error(keys[0], expected, found(axis))
+    if reference is not None:
+        first_a = _across(scope, keys[1], _unit(scope, keys[1], reference[0]), along_a)
+        first_b = _across(scope, keys[1], _unit(scope, keys[1], reference[1]), along_b)
+    else:
+        first_a = _any_across(along_a)
+        guess = _swung(scope, keys[0], (a, b), (first_a, along_a), along_b)
+        if guess is not None:
+            first_b = _across(scope, keys[0], guess, along_b)
+        elif fixed:
+            expected = "two directions that coincide, as the start does not say how the bodies are turned"
+            raise scope.error(keys[1], expected, "no such key")
+        else:
+            first_b = _any_across(along_b)
+    return _triad(a, first_a, along_a), _triad(b, first_b, along_b)
+
+
+def make_triad(
+    scope: Scope,
+    body: str,
+    axis: tuple[float | str | tuple[float | str, ...], ...],
+    reference: tuple[float | str, ...] | None,
+    keys: tuple[str, str],
+) -> Triad:
+    """Return a triad of one body about an axis given in its frame, its first direction near `reference`, if given."""
+    key = keys[0]
+    if any(isinstance(e, tuple) for e in axis):
+        raise scope.error(key, f"one direction [x, y, z] in the frame of '{body}'", found(axis))
+    along = _unit(scope, key, tuple(e for e in axis if not isinstance(e, tuple)))
+    if reference is None:
+        return _triad(body, _any_across(along), along)
+    return _triad(body, _across(scope, keys[1], _unit(scope, keys[1], reference), along), along)
+
+
+def make_cross(
+    scope: Scope,
+    bodies: tuple[str, str],
+    axes: tuple[tuple[float | str, ...], tuple[float | str, ...]],
+    reference: tuple[tuple[float | str, ...], tuple[float | str, ...]] | None,
+    keys: tuple[str, str],
+) -> tuple[Triad, Triad]:
+    """Return the triads about the two axes of a cross, one of each body.
+
+    The first direction of either lies where the other body's axis is while the joint's angle about it is 0: as both
+    are described to start, unless `reference` gives these two directions.
+    """
+    triads = []
+    for i, (body, other) in enumerate((bodies, bodies[::-1])):
+        along = _unit(scope, keys[0], axes[i])
+        if reference is not None:
+            first = _across(scope, keys[1], _unit(scope, keys[1], reference[i]), along)
+        elif _known(scope, body) and _known(scope, other):
+            towards = _carried(scope, keys[0], other, body, _unit(scope, keys[0], axes[1 - i]))
+            if abs(_dot(towards, along)) > 0.99:
+                raise scope.error(keys[0], "two axes that cross", "two that start parallel")
+            first = _across(scope, keys[0], towards, along)
+        else:
+            first = _any_across(along)
+        triads.append(_triad(body, first, along))
+    return triads[0], triads[1]
+
+
+def _unit(scope: Scope, key: str, vector: tuple[float | str, ...]) -> _Triple:
+    parts = scope.direction(key, GROUND, vector).vector
+    if not all(isinstance(e, Number) for e in parts):
+        raise scope.error(key, "numbers, no expressions of parameters", "an expression")
+    x, y, z = (e.value for e in parts if isinstance(e, Number))
+    return x, y, z
+
+
+def _known(scope: Scope, body: str) -> bool:
+    """Whether the body's orientation at the start depends on no parameter."""
+    found_body = scope.model.bodies.get(body)
+    return body == GROUND or (isinstance(found_body, SpatialBody) and found_body.orientation.is_numeric)
+
+
+def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple:
+    """Return a direction of body `a` in the frame of body `b`, as both start."""
+    for body in (a, b):
+        if not _known(scope, body):
+            got = f"one, while the orientation of '{body}' at the start is a formula"
+            raise scope.error(key, "two directions, one in the frame of each body", got)
+    for body, turn in ((a, rotate), (b, rotate_back)):
+        described = scope.model.bodies.get(body)
+        if isinstance(described, SpatialBody):
+            vector = turn(matrix(orientation(described, scope.model.values, scope.model.source)), vector)
+    return _tidy(vector)
+
+
+def _swung(
+    scope: Scope, key: str, bodies: tuple[str, str], directions: tuple[_Triple, _Triple], axis: _Triple
+) -> _Triple | None:
+    """Return the first of two directions of a body in another one's frame, turned as brings the second to its axis.
+
+    None where the start says nothing: an orientation that depends on parameters, opposite axes.
+    """
+    if not all(_known(scope, body) for body in bodies):
+        return None
+    x, along = (_carried(scope, key, *bodies, vector) for vector in directions)
+    lean = 1.0 + _dot(along, axis)
+    if lean < 1e-3:
+        return None
+    part = _dot(x, axis) / lean
+    return x[0] - part * (along[0] + axis[0]), x[1] - part * (along[1] + axis[1]), x[2] - part * (along[2] + axis[2])
+
+
+def _across(scope: Scope, key: str, vector: _Triple, axis: _Triple) -> _Triple:
+    """Return the part of a vector that is perpendicular to the axis, of length 1."""
+    part = _dot(vector, axis)
+    rest = tuple(v - part * a for v, a in zip(vector, axis, strict=True))
+    size = math.hypot(*rest)
+    if not size > 1e-6:
+        raise scope.error(key, "a direction across the axis", "one along it")
+    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+
+
+def _any_across(axis: _Triple) -> _Triple:
+    """Return a direction perpendicular to the axis: the next axis of the frame, made perpendicular."""
+    k = max(range(3), key=lambda i: abs(axis[i]))
+    x = [0.0, 0.0, 0.0]
+    x[(k + 1) % 3] = 1.0
+    part = _dot((x[0], x[1], x[2]), axis)
+    rest = tuple(e - part * a for e, a in zip(x, axis, strict=True))
+    size = math.hypot(*rest)
+    return _tidy((rest[0] / size, rest[1] / size, rest[2] / size))
+
+
+def _triad(body: str, first: _Triple, axis: _Triple) -> Triad:
+    (a, b, c), (d, e, f) = axis, first
+    second = _tidy((b * f - c * e, c * d - a * f, a * e - b * d))
+    return Triad(*(Direction(body, tuple(number(x) for x in v)) for v in (first, second, axis)))
+
+
+def _dot(a: _Triple, b: _Triple) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def _tidy(v: _Triple) -> _Triple:
+    """Return the vector without what is rounding of 0 or 1, so that nothing is emitted for it."""
+    x, y, z = (round(e) + 0.0 if abs(e - round(e)) < 1e-15 else e for e in v)
+    return x, y, z

@@ -1,0 +1,60 @@
+"""Constant-velocity joint: two shafts that meet turn alike, whatever the angle between them."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import msgspec
+
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.mechanism import Joint
+from symgen.describe.scope import Scope
+from symgen.joints._space import coincident
+from symgen.vocabulary.expressions import number
+from symgen.vocabulary.measures import Dot, Holonomic, Sum
+
+
+class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A homokinetic joint: the second body may lean against the first in any direction, but not twist; in space only.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies.
+    at : pair of points
+        Where the shafts meet, as a point of the first and of the second body.
+    axis : direction, or pair of directions
+        Of the shafts: in the first body's frame, where they start in line, or of each in the frame of its body. Both
+        point the same way through the joint.
+    reference : pair of directions
+        Directions across the shafts that coincide where these are in line; as the bodies start unless given.
+
+    Notes
+    -----
+    Four rows. Multipliers ``NAME.x``, ``.y``, ``.z`` [N]: the force on the first body, in ground axes; ``NAME.twist``
+    [N m]: the torque on it about half the sum of the shafts' directions. The shafts must lean by less than 180 degrees.
+    """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
+
+    between: BodyPair
+    at: PointPair
+    axis: AxisPair
+    reference: DirectionPair | None = None
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve to the components of the vector between the points and the twist.
+
+        The relative rotation R is one about an axis across the shaft exactly where its antisymmetric part has no
+        component along the shaft.
+        """
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        of_a, of_b = scope.triads((a, b), self.axis, self.reference, fixed=True)
+        half = number(0.5), number(-0.5)
+        twist = Sum(((half[0], Dot(of_a.second, of_b.first)), (half[1], Dot(of_a.first, of_b.second))))
+        rows = (*coincident(*centres), Holonomic("twist", twist, unit="rad"))
+        return Joint(scope.name, scope.kind, (a, b), rows)
+
+
+KIND = ConstantVelocity

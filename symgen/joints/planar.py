@@ -1,0 +1,63 @@
+"""Planar joint: a plane of one body slides on a plane of the other."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import msgspec
+
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.mechanism import Joint
+from symgen.describe.scope import Scope
+from symgen.joints._space import angle, parallel
+from symgen.vocabulary.measures import Component, Holonomic
+
+
+class Planar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A plane of the second body lies on a plane of the first, slides and turns on it; in space only.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies.
+    at : pair of points
+        A point of either plane.
+    normal : direction, or pair of directions
+        Normal of the plane in the first body's frame, or of each plane in the frame of its body.
+    reference : pair of directions
+        Directions in the planes that coincide at angle 0; as the bodies start unless given.
+
+    Notes
+    -----
+    Three rows. Multipliers ``NAME.normal`` [N]: force on the first body along the normal; ``NAME.first``, ``.second``
+    [N m]: torques on it about two directions in the plane, the first one that of `reference`. Reports
+    ``NAME.displacement1`` and ``.displacement2``, from the first body's point to the second's along these [m], and
+    ``NAME.angle`` about the normal [rad], turns counted.
+    """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
+
+    between: BodyPair
+    at: PointPair
+    normal: AxisPair
+    reference: DirectionPair | None = None
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve to the distance from the plane and two angles."""
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        ends = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        triad_a, triad_b = scope.triads((a, b), self.normal, self.reference, ("normal", "reference"))
+        return Joint(
+            name=scope.name,
+            kind=scope.kind,
+            bodies=(a, b),
+            rows=(Holonomic("normal", Component(*ends, triad_a.axis)), *parallel(triad_a, triad_b)),
+            coordinates=(
+                ("displacement1", Component(*ends, triad_a.first)),
+                ("displacement2", Component(*ends, triad_a.second)),
+                ("angle", angle(triad_a, triad_b)),
+            ),
+        )
+
+
+KIND = Planar

@@ -1,0 +1,65 @@
+"""Universal joint: a cross turns about an axis of either body."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+import msgspec
+
+from symgen.describe.fields import BodyPair, DirectionPair, PointPair
+from symgen.describe.mechanism import Joint
+from symgen.describe.scope import Scope
+from symgen.joints._space import coincident
+from symgen.vocabulary.expressions import number
+from symgen.vocabulary.measures import Dot, Holonomic, Sum, Turn
+
+
+class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A Cardan or Hooke joint: its massless cross turns about an axis of either body; in space only.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies.
+    at : pair of points
+        The centre of the cross, as a point of the first and of the second body.
+    axes : pair of directions
+        The first body's axis of the cross in the first body's frame, and the second body's in the second's.
+    reference : pair of directions
+        Where the second axis lies in the first body's frame at ``angle1`` 0, and the first axis in the second body's
+        frame at ``angle2`` 0; as the bodies start unless given.
+
+    Notes
+    -----
+    Four rows. Multipliers ``NAME.x``, ``.y``, ``.z`` [N]: the force on the first body, in ground axes; ``NAME.cross``
+    [N m]: the torque on it about second axis x first axis. Reports ``NAME.angle1``, how far the cross has turned about
+    the first body's axis, and ``NAME.angle2``, how far the second body has turned against the cross about its own axis
+    [rad], turns counted.
+    """
+
+    SPACES: ClassVar[tuple[str, ...]] = ("spatial",)
+
+    between: BodyPair
+    at: PointPair
+    axes: DirectionPair
+    reference: DirectionPair | None = None
+
+    def build(self, scope: Scope) -> Joint:
+        """Resolve to the components of the vector between the points and the product of the axes."""
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        centres = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        of_a, of_b = scope.cross((a, b), self.axes, self.reference)
+        return Joint(
+            name=scope.name,
+            kind=scope.kind,
+            bodies=(a, b),
+            rows=(*coincident(*centres), Holonomic("cross", Dot(of_a.axis, of_b.axis), unit="rad")),
+            coordinates=(
+                ("angle1", Turn(of_a.first, of_a.second, of_b.axis)),
+                # seen from the second body the cross turns backwards
+                ("angle2", Sum(((number(-1.0), Turn(of_b.first, of_b.second, of_a.axis)),))),
+            ),
+        )
+
+
+KIND = Universal

@@ -1,0 +1,101 @@
+"""Reference motions of mechanisms whose second derivation is not compiled: two formulations that agree.
+
+The second derivation of a spatial mechanism (`symgen.study.independent_space`) is interpreted: too slow for the many
+motions of a stress study. What can differ at the speed of compiled code is how the equations are formulated and
+integrated. The motion is that of `direct-correction` with Runge-Kutta steps at a tight tolerance; its error is
+estimated from `index1-augmented-lagrangian`, which solves another system for the accelerations, with Adams steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.api import Model
+from symgen.errors import SimulationError
+from symgen.model import CompiledModel
+from symgen.plan import Settings, make_plan
+from symgen.runtime import abi
+from symgen.runtime.assembly import Start
+from symgen.runtime.probe import call_measure
+from symgen.runtime.run import integrate
+from symgen.study.points import Points
+from symgen.study.reference import Reference
+
+Array = NDArray[np.float64]
+
+#: Method, integrator, options and tolerance of the two routes; the first is the reference.
+ROUTES: tuple[tuple[str, str, dict[str, str | float], float], ...] = (
+    ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
+    ("index1-augmented-lagrangian", "abm", {}, 1e-11),
+)
+#: Evaluations after which a route is given up.
+BUDGET = 2_000_000
+
+
+class EmittedGeometry:
+    """Phi, D and nu of a compiled model as numbers.
+
+    Parameters
+    ----------
+    compiled, start : CompiledModel, Start
+        Model and method, and a start with the parameters prepared.
+    """
+
+    def __init__(self, compiled: CompiledModel, start: Start) -> None:
+        self.compiled, self.start = compiled, start
+        self.m, self.n = compiled.info.m, compiled.info.nv
+
+    def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array]:
+        """Return Phi, D and nu at a state."""
+        w, y = self.start.w.copy(), np.concatenate([q, v, [0.0]])
+        call_measure(self.compiled.model.geometry, t, y, self.start.p, w)
+        section = self.compiled.section
+        return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
+
+
+def agreed(model: Model, parameters: Mapping[str, float], times: Array) -> Reference:
+    """Return the motion by the first of `ROUTES`, its error estimated by the second.
+
+    Parameters
+    ----------
+    model : Model
+        What moves.
+    parameters : mapping
+        Values that differ from the mechanism's own.
+    times : Array
+        Where the motion is wanted [s], increasing from 0.
+
+    Raises
+    ------
+    SimulationError
+        If a route does not come to its end.
+    """
+    found = []
+    for method, integrator, options, rtol in ROUTES:
+        settings = Settings(
+            method=method,
+            integrator=integrator,
+            options=options,
+            rtol=rtol,
+            atol=1e-2 * rtol,
+            until=float(times[-1]),
+            times=list(times),
+            parameters=parameters,
+        )
+        plan = make_plan(model, settings)
+        compiled, start = model.ready(plan, parameters)
+        outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=BUDGET))
+        if outcome.interrupted:
+            raise KeyboardInterrupt
+        if outcome.code != abi.DONE:
+            reason = f"it takes more than {BUDGET:g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
+            raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
+        found.append(outcome.states[:, : compiled.info.nq])
+    apart = Points.of(model.mechanism, model.parameters(parameters)).distance(*found)
+    (method, integrator, _, rtol), (other, with_other, _, _) = ROUTES
+    how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
+    return Reference(how, max(apart, 1e-14), times, found[0])

@@ -1,0 +1,33 @@
+"""Every method on a spatial mechanism, with the integrator it is meant for, against one run at a tight tolerance."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from support.spatial_runs import columns, run
+
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
+from symgen.study.points import Points
+
+TIMES = np.linspace(0.0, 0.3, 7)
+#: Of second order, or with an error of its own as the penalty has: they need more room [m].
+ROUGH = {"generalized-alpha": 3e-5, "index3-augmented-lagrangian": 3e-5, "penalty": 1e-6}
+
+
+@cache
+def expected():
+    model, result = run("spatial-slider-crank", until=0.3, times=TIMES)
+    return model, columns(result, model.mechanism)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", METHODS.names)
+def test_every_method_moves_the_slider_crank(method):
+    model, q = expected()
+    integrator = METHODS.get(method).default_integrator
+    settings = {"rtol": 1e-9, "atol": 1e-11} if INTEGRATORS.get(integrator).adaptive else {"step": 5e-4}
+    result = model.simulate(method=method, integrator=integrator, until=0.3, times=TIMES, **settings)
+    assert result.status in ("ok", "unverified"), result.reason
+    apart = Points.of(model.mechanism, {}).distance(columns(result, model.mechanism), q)
+    assert apart < ROUGH.get(method, 1e-8)

@@ -1,0 +1,48 @@
+"""Sizes and ranks of the spatial entries at their starts, by emitted functions run as plain Python."""
+
+import numpy as np
+import pytest
+from support.emitted import Emitted
+
+from symgen.describe import load
+from symgen.describe.evaluate import evaluate, orientation
+from symgen.describe.orientation import matrix
+
+#: Entry -> bodies, coordinates, velocities, rows, rank.
+SIZES = {
+    "bricard": (5, 35, 30, 30, 29),
+    "chain:4": (4, 28, 24, 18, 18),
+    "flyball-governor": (4, 28, 24, 20, 20),
+    "free-rigid-body": (1, 7, 6, 0, 0),
+    "front-suspension": (7, 49, 42, 39, 39),
+    "heavy-top": (1, 7, 6, 3, 3),
+    "rolling-disc": (1, 7, 6, 3, 3),
+    "spatial-slider-crank": (3, 21, 18, 17, 17),
+    "spherical-double-pendulum": (2, 14, 12, 6, 6),
+    "stewart-platform": (13, 91, 78, 78, 78),
+}
+
+
+def described(mechanism, values):
+    """Coordinates as the file describes them: centres of mass and Euler parameters."""
+    q = []
+    for body in mechanism.bodies:
+        position, offset = ([evaluate(e, values) for e in vector] for vector in (body.position, body.centre_of_mass))
+        e = orientation(body, values, mechanism.name)
+        q += [*(position + np.array(matrix(e)) @ offset), *e]
+    return np.array(q)
+
+
+@pytest.mark.parametrize("name", SIZES)
+def test_sizes_and_ranks(name):
+    mechanism = load(name)
+    emitted = Emitted(mechanism)
+    values = {p.name: p.value for p in mechanism.parameters}
+    q = described(mechanism, values)
+    found = emitted.at(0.0, q, np.zeros(emitted.info.nv), emitted.parameters(values), law=False)
+    values = np.linalg.svd(found.d, compute_uv=False) if len(found.d) else np.zeros(0)
+    rank = int(np.sum(values > 1e-9))
+    sizes = (len(mechanism.bodies), emitted.info.nq, emitted.info.nv, emitted.info.m, rank)
+    assert sizes == SIZES[name]
+    assert np.abs(found.phi).max(initial=0.0) < 2e-15, "the description closes all joints"
+    assert values[rank - 1] > 0.01 if rank else True

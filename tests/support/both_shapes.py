@@ -1,0 +1,160 @@
+"""Every emitted function of both shapes at one state, in a process of its own in which nothing is compiled.
+
+``python -m support.both_shapes`` writes JSON: case -> quantity -> largest difference over its scale.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+
+import numpy as np
+
+from support.emitted import mechanism_of
+from support.models import EVERYTHING, ROUGH, parallelogram
+from symgen import catalogue
+from symgen.api import Model, load
+from symgen.describe.builder import MechanismBuilder
+from symgen.errors import AssemblyError
+from symgen.ir.program import COUNTERS, STATUS
+from symgen.lower.looped.law import is_loopable
+from symgen.methods import METHODS
+from symgen.runtime.abi import N_COUNTERS
+
+#: Methods that solve with large penalties amplify rounding by them.
+PENALTY = {"penalty": 1e3}
+
+
+def spatial() -> Model:
+    """A body with products of inertia on a ball joint, one hinged to it, and a free one."""
+    builder = MechanismBuilder("spatial", space="spatial", gravity=[0.0, 0.4, -9.81])
+    tensor = [[0.02, 0.001, 0.002], [0.001, 0.03, 0.0], [0.002, 0.0, 0.01]]
+    for name, inertia in zip("abc", (tensor, np.diag([0.02, 0.01, 0.03]), tensor), strict=True):
+        builder.body(
+            *(name,),
+            **{"mass": 1.3, "inertia": inertia, "position": [0.1, 0.5, 0.2], "angular_velocity": [0.3, 0.2, -0.4]},
+            **{"points": {"O": [0.0, -0.5, 0.1], "P": [0.0, 0.5, 0.0]}, "centre_of_mass": [0.01, 0.0, 0.02]},
+        )
+    builder.joint("ball", "spherical", between=["ground", "a"], at=[[0.0, 0.0, 0.0], "O"])
+    builder.joint("hinge", "revolute", between=["a", "b"], at=["P", "O"], axis=[1.0, 0.3, 0.0])
+    return load(builder.build())
+
+
+def models() -> dict[str, Model]:
+    """Return the mechanisms that are tried, by name."""
+    found = {name: load(name) for name in (*catalogue.names(), "n-four-bar:3", "chain:3")}
+    for description in (EVERYTHING, ROUGH, parallelogram()):
+        mechanism = mechanism_of(description)
+        found[mechanism.name] = load(mechanism)
+    found["spatial"] = spatial()
+    return found
+
+
+def choices() -> Iterator[tuple[str, dict[str, str]]]:
+    """Yield every method and option that has a looped shape."""
+    for name in METHODS.names:
+        method = METHODS.get(name)
+        variants = [{}] + [{o.name: value} for o in method.options for value in o.values[1:]]
+        for given in variants:
+            options = method.complete_options(given)
+            if {"ode", "one-step"} & set(method.forms) and is_loopable(method, options, False):
+                yield name, given
+
+
+def evaluate(model: Model, name: str, options: dict[str, str], shape: str) -> dict[str, np.ndarray]:
+    """Return what every function of a compiled model leaves, at a state off the constraints."""
+    compiled = model.compile(name, options, shape)
+    info, law = compiled.info, compiled.law_module
+    known = {p for p, _ in compiled.law.parameters}
+    values = model.parameters()
+    q, v = model.initial_state(values)
+    y = np.zeros(info.ny)
+    y[: info.nq] = q
+    y[info.nq : -1] = [0.0 if x is None else x for x in v]
+    rng = np.random.default_rng(3)
+    y[:-1] += 0.2 * rng.standard_normal(info.ny - 1)
+    p = compiled.parameter_array(values, {k: x for k, x in PENALTY.items() if k in known})
+    compiled.model.prepare(p)
+    law.prepare(p)
+    w, t = compiled.scratch(), 0.3
+    compiled.section(w, "status")[[STATUS.index("length_scale"), STATUS.index("speed_scale")]] = 1.0
+    w[STATUS.index("step")] = 1e-3
+    iw, rate = np.zeros(N_COUNTERS, dtype=np.int64), np.zeros_like(y)
+    found: dict[str, np.ndarray] = {}
+
+    def keep(name: str, *sections: str) -> None:
+        for section in sections:
+            if section == "winding" and not info.windings:
+                continue
+            found[f"{name} {section}"] = compiled.section(w, section).copy()
+
+    compiled.model.masses(p, w)
+    keep("masses", "mass")
+    for where in (compiled.model, law):
+        if hasattr(where, "geometry"):
+            kind = "law" if where is law else "model"
+            where.geometry(t, y.copy(), p, w)
+            keep(f"{kind} geometry", "residual", "nu", "pivot")
+            found[f"{kind} geometry D"] = compiled.jacobian(w)
+            found[f"{kind} geometry status"] = w[[0, STATUS.index("smallest_pivot"), STATUS.index("rank")]]
+            compiled.model.measure(t, y.copy(), p, w)
+            keep(f"{kind} measure", "residual", "winding")
+            found[f"{kind} measure status"] = w[1:4].copy()
+            if hasattr(where, "spread"):
+                where.spread(p, w)
+                keep(f"{kind} spread", "change")
+    d = compiled.jacobian(w)
+    flag = law.rhs(t, y.copy(), p, w, iw, rate)
+    found["rhs"], found["rhs flag"] = rate.copy(), np.array([float(bool(flag))])
+    found["rhs D^T lambda"] = d.T @ compiled.section(w, "multipliers")
+    if hasattr(law, "confirm"):
+        law.confirm(t, y.copy(), p, w, iw, rate)
+        found["confirm"] = np.array([*rate, iw[COUNTERS.index("suspects")], iw[COUNTERS.index("light")]])
+    out = np.zeros(info.m + 2 * len(info.joint_coordinates))
+    compiled.model.observe(t, y.copy(), p, w, rng.standard_normal(info.ny), out)
+    found["observe"] = out
+    try:
+        start = model.assemble(compiled, None, {k: x for k, x in PENALTY.items() if k in known})
+    except AssemblyError:
+        start = None  # made to hold every kind, not to be closed
+    if start is not None:
+        near, iw[:] = start.y.copy(), 0
+        near[: info.nq] += 1e-4 * rng.standard_normal(info.nq)
+        bits = law.accept(t, near, start.p, start.w, iw)
+        found["accept"], found["accept bits"] = near, np.array([float(bits)])
+        found["counters"] = iw[[COUNTERS.index(c) for c in ("iterations", "law_iterations")]] * 1.0
+    if info.spins:
+        turned = y.copy()
+        compiled.section(w, "change")[:] = 0.1 * rng.standard_normal(info.nv)
+        compiled.model.turn(turned, w)
+        found["turn"] = turned
+    return found
+
+
+def differences(model: Model, name: str, options: dict[str, str]) -> dict[str, float]:
+    """Return the largest difference between the shapes in each quantity, over its size or 1."""
+    straight, looped = (evaluate(model, name, options, shape) for shape in ("straight", "looped"))
+    # one row alone has no pivot to be suspicious of, which straight code knows and looped code does not ask
+    assert straight.keys() ^ looped.keys() <= {"confirm"}, straight.keys() ^ looped.keys()
+    return {
+        key: float(
+            np.max(np.abs(straight[key] - looped[key]), initial=0.0) / np.max(np.abs(straight[key]), initial=1.0)
+        )
+        for key in straight.keys() & looped.keys()
+    }
+
+
+#: Mechanisms that every method is tried on; the others see those that every part of the code is in.
+DEEP = ("slider-crank", "everything", "rough", "spatial", "n-four-bar:3")
+FEW = ({"lagrange": {}}, {"direct-correction": {"weight": "mass"}}, {"penalty": {}}, {"mass-orthogonal-projection": {}})
+
+if __name__ == "__main__":
+    wanted = set(sys.argv[1:])
+    results = {}
+    for label, model in models().items():
+        for method, options in choices():
+            key = " ".join([label, method, *(f"{k}={x}" for k, x in options.items())])
+            if wanted & {label, method} if wanted else label in DEEP or {method: options} in FEW:
+                results[key] = differences(model, method, options)
+    json.dump(results, sys.stdout)
