@@ -16,7 +16,7 @@ from jinja2 import meta
 from symgen.emit.printer import ElementAccess, Lines, print_block
 from symgen.formulate.equations import Equations
 from symgen.ir.program import COUNTERS, FORMAT, STATUS, Block, LawProgram, Layout, ModelProgram
-from symgen.lower.algebra import SKIP
+from symgen.lower.algebra import SKIP, WARN
 
 
 def templates_folder() -> Path:
@@ -75,7 +75,10 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
     wanted -= {"nq", "nv", "m"} if parts else set()  # set by the parent for its parts
     if parts:
         # what a part could ask for belongs to the interface even if the parts at hand do not
-        wanted |= {"skip", "counters", "status", "tolerance", "iteration_tolerance", "penalty"}
+        wanted |= {
+            *("skip", "warn", "spatial", "counters", "status"),
+            *("tolerance", "iteration_tolerance", "penalty"),
+        }
     if wanted != set(values):
         missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
         raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
@@ -119,6 +122,9 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
     shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
     if program.unknowns:  # exact Jacobians need the slopes of tables
         shared |= {f"table_{name}_slope" for name, _, _ in model.tables}
+    spatial = bool(equations.spins)
+    if spatial:
+        shared |= {"normalise", "move"} if correction.any else {"normalise"}
     if correction.any:
         shared.add("spread")
     parts = _parts(program)
@@ -133,6 +139,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "templates_digest": templates_digest(),
             "layout": layout,
             "program": program,
+            "spatial": spatial,
             "summary": summary,
             "reference": reference,
             "shared": sorted(shared - own),
@@ -144,6 +151,7 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "iteration_tolerance": place.get("iteration_tolerance", "1e-13"),
             "penalty": place.get("penalty", "0.0"),
             "skip": SKIP,
+            "warn": WARN,
             "functions": _functions(program.blocks, layout, equations),
         },
         (*parts, _CLOSING),
@@ -159,6 +167,8 @@ def _parts(program: LawProgram) -> list[str]:
     correction, parts = program.correction, list[str]()
     if program.form == "iterated":
         parts.append("rhs_iterated")
+    if program.form == "dense":
+        parts.append("rhs_dense")
     if program.closed:
         parts += ["choose", "rhs_closed"]
     if program.form == "tangent":

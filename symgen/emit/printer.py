@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Protocol
 
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Layout, Target
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
-_MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh".split())
+_MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh floor".split())
 #: Arrays that functions get as arguments of their own; every other space is a section of ``w``.
-_ARRAYS = frozenset(("p", "ydot", "out", "k", "r", "j"))
+_ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
 #: A term used once is written where it is used, up to this many characters.
 _INLINE = 90
 
@@ -25,6 +26,19 @@ class Lines:
     terms: tuple[str, ...]
     outputs: tuple[str, ...]
     flag: str | None
+
+
+class Access(Protocol):
+    """How elements are written in a target."""
+
+    def read(self, space: str, index: int) -> tuple[str, str]:
+        """Return (local name, expression) of an input."""
+
+    def write(self, target: Target) -> str:
+        """Return the left-hand side of an output."""
+
+    def note(self, space: str, index: int) -> str:
+        """Return the name of an element in the model, empty where it has none."""
 
 
 @dataclass(frozen=True)
@@ -67,17 +81,20 @@ def print_block(block: Block, access: ElementAccess) -> Lines:
     access : ElementAccess
         How its elements are read and written.
     """
-    return _Printer(block, access).lines()
+    return Printer(block, access).lines()
 
 
-class _Printer:
-    def __init__(self, block: Block, access: ElementAccess) -> None:
+class Printer:
+    """Prints one block; after `lines`, `text` holds text and precedence of every node."""
+
+    def __init__(self, block: Block, access: Access) -> None:
         self.block, self.access, self.graph = block, access, block.graph
         self.needed = self.graph.needed(block.nodes)
         self.uses = _count_uses(self.graph, self.needed, block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
 
     def lines(self) -> Lines:
+        """Return the lines of the block."""
         inputs: list[str] = []
         terms: list[str] = []
         for node in self.needed:

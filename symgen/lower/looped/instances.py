@@ -1,0 +1,254 @@
+"""Bodies, joints and forces as instances of kernels: what is special about a kind apart from what is a number.
+
+Every element of a mechanism is rewritten as the only one of an abstract mechanism: bodies become ``f0``, ``f1``, ...,
+numbers and formulas of parameters become the parameters ``k0``, ``k1``, .... Elements with equal abstract mechanisms
+share a kernel, within a mechanism and between mechanisms. Kept as they are: zeros, unit directions, whole coefficients
+of sums, exponents, and everything that depends on time or state.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import msgspec
+
+from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, call, names
+from symgen.vocabulary.measures import GROUND, Bearing, Direction, Effort, Marker, Measure, Sum, Turn
+
+#: Fields of the vocabulary's structs that hold the name of a body.
+_BODY_FIELDS = frozenset(("body", "a", "b"))
+#: Fields that are names for people.
+_LABELS = frozenset(("label", "unit"))
+_UNITS = (Number(0.0), Number(1.0), Number(-1.0))
+
+
+@dataclass(frozen=True)
+class Instance:
+    """An element of a mechanism as an instance of a kernel.
+
+    Parameters
+    ----------
+    kind : {"body", "joint", "force"}
+        What the element is.
+    name, label : str
+        The element's name, and the name of its kind for people.
+    abstract : Mechanism
+        The abstract mechanism with this element only.
+    key : bytes
+        Its canonical text: equal where the kernel is the same.
+    frames : tuple of str
+        Bodies in the places of ``f0``, ``f1``, ....
+    constants : tuple of Expr
+        Formulas of parameters in the places of ``k0``, ``k1``, ....
+    angles : tuple of Measure
+        Measures whose turns are counted, in the order in which they are derived; equal ones are one angle.
+    """
+
+    kind: str
+    name: str
+    label: str
+    abstract: Mechanism
+    key: bytes
+    frames: tuple[str, ...]
+    constants: tuple[Expr, ...]
+    angles: tuple[Measure, ...] = ()
+
+
+def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
+    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    """
+    bodies = {b.name: b for b in mechanism.bodies}
+    parameters = frozenset(p.name for p in mechanism.parameters)
+    tables = {t.name: t for t in mechanism.tables}
+    found: list[Instance] = []
+    for body in mechanism.bodies:
+        found.append(_Rewriting(mechanism, bodies, parameters, tables).body(body))
+    for joint in kept_rows(mechanism)[0]:
+        found.append(_Rewriting(mechanism, bodies, parameters, tables).element("joint", joint))
+    for force in mechanism.forces:
+        found.append(_Rewriting(mechanism, bodies, parameters, tables).element("force", force))
+    return tuple(found)
+
+
+def kept_rows(mechanism: Mechanism) -> tuple[tuple[Joint, ...], tuple[str, ...]]:
+    """Return the joints without rows that repeat another one, and the repeated ones as ``ROW = ROW``."""
+    seen: dict[object, str] = {}
+    joints: list[Joint] = []
+    dropped: list[str] = []
+    for joint in mechanism.joints:
+        rows = []
+        for row in joint.rows:
+            content = msgspec.structs.replace(row, label="", unit="")
+            name = f"{joint.name}.{row.label}"
+            if content in seen:
+                dropped.append(f"{name} = {seen[content]}")
+            else:
+                seen[content] = name
+                rows.append(row)
+        joints.append(joint if len(rows) == len(joint.rows) else msgspec.structs.replace(joint, rows=tuple(rows)))
+    return tuple(joints), tuple(dropped)
+
+
+def _angles(element: Joint | Force) -> tuple[Measure, ...]:
+    """Return the measures of an element whose turns are counted, in the order in which they are derived."""
+    measures: list[Any]
+    if isinstance(element, Joint):
+        measures = [getattr(row, "measure", None) for row in element.rows] + [m for _, m in element.coordinates]
+    else:
+        measures = [effort.measure for effort in element.efforts]
+    found: dict[Measure, None] = {}
+    while measures:
+        measure = measures.pop(0)
+        if isinstance(measure, Sum):
+            measures = [part for _, part in measure.terms] + measures
+        elif isinstance(measure, Turn | Bearing):
+            found[measure] = None
+    return tuple(found)
+
+
+class _Rewriting:
+    """Rewrites one element."""
+
+    def __init__(
+        self, mechanism: Mechanism, bodies: Mapping[str, Any], parameters: frozenset[str], tables: Mapping[str, Any]
+    ) -> None:
+        self.mechanism, self.bodies, self.parameters, self.tables = mechanism, bodies, parameters, tables
+        self.frames: dict[str, str] = {}
+        self.constants: list[Expr] = []
+        self.used_tables: dict[str, Any] = {}
+        self.memo: dict[object, object] = {}
+        self.own: frozenset[str] = frozenset()  # words of the element itself, which are no parameters
+
+    def body(self, body: Any) -> Instance:
+        """Return a body as an instance: its inertia, its weight and its frame."""
+        self.frames[body.name] = "f0"
+        mass = self.formula(body.mass)
+        inertia = None if body.inertia is None else self.walk(body.inertia)
+        gravity = tuple(self.formula(e) for e in self.mechanism.gravity)
+        abstract = type(body)(name="f0", mass=mass, inertia=inertia)
+        return self.instance("body", body.name, "point" if body.is_point else "body", gravity, (abstract,))
+
+    def element(self, kind: str, element: Joint | Force) -> Instance:
+        """Return a joint or force as an instance."""
+        content: Any
+        if isinstance(element, Joint):
+            rows = tuple(self.walk(row) for row in element.rows)
+            coordinates = tuple(
+                (f"{'angle' if label == 'angle' else 'c'}{i}", self.walk(m))
+                for i, (label, m) in enumerate(element.coordinates)
+            )
+            content = Joint("e", "", (), rows, coordinates)
+        else:
+            content = Force("e", "", (), tuple(self.walk(e) for e in element.efforts))
+        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        nothing = (ZERO,) * len(self.mechanism.gravity)
+        found = self.instance(kind, element.name, element.kind, nothing, frames, content)
+        return found if self.mechanism.space == "planar" else replace(found, angles=_angles(element))
+
+    def instance(
+        self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None
+    ) -> Instance:
+        """Return the instance with its abstract mechanism."""
+        abstract = Mechanism(
+            name="element",
+            title="",
+            space=self.mechanism.space,
+            gravity=gravity,
+            parameters=tuple(Parameter(f"k{i}", 1.0) for i in range(len(self.constants))),
+            tables=tuple(self.used_tables[n] for n in sorted(self.used_tables)),
+            bodies=frames,
+            joints=(content,) if isinstance(content, Joint) else (),
+            forces=(content,) if isinstance(content, Force) else (),
+        )
+        key = kind.encode() + msgspec.json.encode(abstract)
+        return Instance(kind, name, label, abstract, key, tuple(self.frames), tuple(self.constants))
+
+    def frame(self, body: Any, alias: str) -> Any:
+        """Return a body of which only the frame matters; its markers are relative to the centre of mass already."""
+        inertia: Any = None
+        if body.inertia is not None:
+            unit = (ONE, ONE, ONE, ZERO, ZERO, ZERO)
+            inertia = ONE if isinstance(body, Body) else unit
+        return type(body)(name=alias, mass=ONE, inertia=inertia)
+
+    # -- rewriting ---------------------------------------------------------------------------------------------------
+
+    def walk(self, value: Any, field: str = "") -> Any:
+        """Return a value of the vocabulary with bodies and numbers replaced."""
+        if isinstance(value, Number | Name | Call):
+            return self.formula(value)
+        if isinstance(value, str):
+            return self.alias(value) if field in _BODY_FIELDS else "" if field in _LABELS else value
+        if isinstance(value, tuple):
+            return tuple(self.walk(item) for item in value)
+        if not isinstance(value, msgspec.Struct):
+            return value
+        if isinstance(value, Marker | Direction):
+            found = self.memo.get(value)
+            if found is None:
+                rewrite = self.marker if isinstance(value, Marker) else self.direction
+                found = self.memo[value] = rewrite(value)
+            return found
+        if isinstance(value, Sum):
+            return Sum(tuple((k if k in _UNITS else self.formula(k), self.walk(m)) for k, m in value.terms))
+        before, self.own = self.own, frozenset(("s", "rate")) if isinstance(value, Effort) else self.own
+        result = type(value)(**{f: self.walk(getattr(value, f), f) for f in value.__struct_fields__})
+        self.own = before
+        return result
+
+    def alias(self, body: str) -> str:
+        """Return what a body is called in the abstract mechanism."""
+        return body if body == GROUND else self.frames.setdefault(body, f"f{len(self.frames)}")
+
+    def marker(self, marker: Any) -> Marker:
+        """Return a marker: at the centre of mass, on the x axis, or anywhere; on the ground anywhere."""
+        alias = self.alias(marker.body)
+        if alias == GROUND:
+            return Marker(alias, tuple(self.constant(e) for e in marker.point))
+        centre = self.bodies[marker.body].centre_of_mass
+        point = [call("sub", x, c) for x, c in zip(marker.point, centre, strict=True)]
+        last = max((i for i, e in enumerate(point) if e != ZERO), default=-1)
+        return Marker(alias, tuple(self.constant(e) if i <= last else ZERO for i, e in enumerate(point)))
+
+    def direction(self, direction: Any) -> Direction:
+        """Return a direction: along an axis, or any."""
+        alias, vector = self.alias(direction.body), direction.vector
+        if not all(e in _UNITS for e in vector):
+            vector = tuple(self.constant(e) for e in vector)
+        return Direction(alias, vector)
+
+    def constant(self, e: Expr) -> Expr:
+        """Return the abstract parameter that stands for a formula of parameters."""
+        self.constants.append(e)
+        return Name(f"k{len(self.constants) - 1}")
+
+    def formula(self, e: Expr) -> Expr:
+        """Return a formula with its constant parts replaced; zeros stay."""
+        if e == ZERO:
+            return ZERO
+        if self.is_constant(e):
+            return self.constant(e)
+        if isinstance(e, Name):
+            body, dot, coordinate = e.name.partition(".")
+            return Name(f"{self.alias(body)}.{coordinate}") if dot else e
+        assert isinstance(e, Call), "a literal is constant"
+        if e.function.startswith("table:"):
+            name = e.function.removeprefix("table:")
+            self.used_tables[name] = self.tables[name]
+        if e.function == "pow" and isinstance(e.arguments[1], Number):
+            return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
+        return Call(e.function, tuple(self.formula(a) for a in e.arguments))
+
+    def is_constant(self, e: Expr) -> bool:
+        """Whether a formula depends on parameters alone."""
+        if isinstance(e, Number):
+            return True
+        return all(name in self.parameters and name not in self.own for name in names(e))

@@ -1,0 +1,88 @@
+"""Where things stand in the looped shape: the numbers at the head of the tables, sections of ``w`` and parts of ``p``.
+
+Generic code knows no size: it reads sizes and offsets from the head of the tables, which stand at the
+end of ``w`` as unsigned 32-bit numbers; the last element of ``w`` says, as an integer, where they begin.
+"""
+
+from __future__ import annotations
+
+#: Numbers at the head of the tables: sizes, sections of ``w``, parts of ``p``, then where tables begin.
+HEAD = (
+    "nq",
+    "nv",
+    "m",
+    # parts of p
+    "method_parameters",
+    "mass_diagonal",
+    "inverse_mass",
+    "mean_mass",
+    "gram_base",
+    # sections of w
+    "multipliers",
+    "mask",
+    "saved",
+    "residual",
+    "nu",
+    "pivot",
+    "change",
+    "mass",
+    "jacobian",
+    "lower",
+    "records",
+    "force",
+    "gamma",
+    "phi",
+    "left",
+    "diagonal",
+    "panel",
+    "kept_rows",
+    "vectors",  # scratch vectors of a law, each as long as the longer of v and lambda
+    "vector_size",
+    # tables
+    "frames",
+    "speeds",
+    "rates",
+    "move",
+    "turn",
+    "normalise",
+    "wind",
+    "geometry",
+    "motion",
+    "full",
+    "energy",
+    "report",
+    "jacobian_rows",
+    "jacobian_columns",
+    "jacobian_size",
+    "weights",
+    "mass_blocks",
+    "gram_terms",
+    "gram_factor",
+    "gram_size",
+    "augmented_terms",
+    "augmented_factor",
+    "augmented_size",
+    "driven",
+    "joint_coordinates",
+    "tables",  # where the tables begin in w
+    "generic",  # where the addresses of generic code begin, in 64-bit numbers
+)
+
+#: Lists of kernels that are called one after the other, and the functions of kernels that each calls, by kind.
+STAGES: dict[str, tuple[tuple[str, str], ...]] = {
+    "frames": (("body", "frame"),),
+    "speeds": (("body", "speeds"),),
+    "rates": (("body", "rates"),),
+    "move": (("body", "move"),),
+    "turn": (("body", "turn"),),
+    "normalise": (("body", "normalise"),),
+    "wind": (("joint", "wind"), ("force", "wind")),
+    "geometry": (("joint", "geometry"),),
+    "motion": (("body", "motion"), ("joint", "motion"), ("force", "motion")),
+    "full": (("body", "motion"), ("joint", "full"), ("force", "motion")),
+    "energy": (("body", "energy"), ("force", "energy")),
+    "report": (("joint", "report"),),
+}
+
+#: Generic functions that are called through the tables, in the order of their addresses.
+GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gram", "augment", "factorise", "solve")

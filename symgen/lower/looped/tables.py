@@ -1,0 +1,270 @@
+"""Tables of a mechanism: the numbers that generic code and kernels read."""
+
+from __future__ import annotations
+
+from array import array
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from symgen.ir.program import STATUS
+from symgen.lower.looped.layout import GENERIC, HEAD, STAGES
+from symgen.lower.looped.shape import Group, RowBlock, Shape
+
+#: Sections of ``w`` that every law has, with their sizes in words of `Shape.sizes`.
+SECTIONS = (
+    ("multipliers", "m"),
+    ("mask", "m"),
+    ("saved", "m"),
+    ("residual", "m"),
+    ("nu", "m"),
+    ("pivot", "m"),
+    ("change", "nv"),
+    ("mass", "nv"),
+    ("jacobian", "jacobian"),
+    ("lower", "gram"),
+    ("records", "records"),
+    ("force", "nv"),
+    ("gamma", "m"),
+    ("phi", "m"),
+    ("left", "jacobian"),
+    ("diagonal", "longest"),
+    ("panel", "panel"),
+    ("kept_rows", "m"),
+)
+
+
+@dataclass(frozen=True)
+class Tables:
+    """What generic code reads: numbers, and which functions of kernels their addresses are wanted of.
+
+    Parameters
+    ----------
+    numbers : array of uint32
+        The tables, room for addresses left.
+    functions : tuple of (module, function)
+        Functions whose addresses stand from `addresses` on, as 64-bit numbers.
+    addresses : int
+        Index of the first address, in 64-bit numbers from the beginning of the tables: generic code, then functions.
+    sections : mapping
+        Sections of ``w``: offset and size.
+    nw : int
+        Length of ``w``.
+    groups : tuple of (module, function ``prepare`` or not, index of its table)
+        In the order in which numbers are prepared.
+    """
+
+    numbers: array[int]
+    functions: tuple[tuple[str, str], ...]
+    addresses: int
+    sections: Mapping[str, tuple[int, int]]
+    nw: int
+    groups: tuple[tuple[str, bool, int], ...]
+
+
+def build_tables(
+    shape: Shape, more: Sequence[tuple[str, str]], vectors: int, augmented: bool, stages: Sequence[str] = tuple(STAGES)
+) -> Tables:
+    """Build the tables for a law.
+
+    Parameters
+    ----------
+    shape : Shape
+        The mechanism.
+    more : sequence of (section, size)
+        Sections that the law adds; their offsets stand behind the head.
+    vectors : int
+        Scratch vectors of the law.
+    augmented : bool
+        Whether the law factorises M + a D^T D.
+    stages : sequence of str
+        Stages that are called; the others are empty.
+    """
+    return _Builder(shape, more, vectors, augmented, stages).tables()
+
+
+class _Builder:
+    def __init__(
+        self, shape: Shape, more: Sequence[tuple[str, str]], vectors: int, augmented: bool, stages: Sequence[str]
+    ) -> None:
+        self.shape, self.more, self.vectors, self.augmented = shape, more, vectors, augmented
+        self.head: dict[str, int] = {}
+        self.stages = {name: stage if name in stages else () for name, stage in STAGES.items()}
+        self.functions = tuple(
+            dict.fromkeys(
+                (group.stem, function)
+                for stage in self.stages.values()
+                for kind, function in stage
+                for group in shape.groups
+                if group.info.kind == kind and function in group.info.functions
+            )
+        )
+        length = len(HEAD) + len(more)
+        length += length % 2
+        self.addresses = length // 2
+        self.numbers = [0] * (length + 2 * (len(GENERIC) + len(self.functions)))
+
+    def tables(self) -> Tables:
+        """Return the finished tables."""
+        shape, head = self.shape, self.head
+        head |= {"nq": shape.nq, "nv": shape.nv, "m": shape.m}
+        head |= {"jacobian_size": shape.jacobian, "gram_size": shape.gram.size}
+        head |= {"driven": shape.driven, "joint_coordinates": shape.coordinates}
+        head["method_parameters"] = shape.parameters + shape.hoisted
+        head["mass_diagonal"] = shape.mass_diagonal
+        head["inverse_mass"] = shape.mass_diagonal + shape.nv
+        head["mean_mass"] = shape.mass_diagonal + 2 * shape.nv
+        head["gram_base"] = shape.gram_base
+        head["generic"] = self.addresses
+        places = {group.stem: self.group(group) for group in shape.groups}
+        for name, stage in self.stages.items():
+            self.stage(name, stage, places)
+        self.matrices()
+        sizes = shape.sizes(self.augmented)
+        sections: dict[str, tuple[int, int]] = {"status": (0, len(STATUS))}
+        offset = len(STATUS) + shape.windings
+        sections["winding"] = (len(STATUS), shape.windings)
+        for name, size in (*SECTIONS, *self.more):
+            sections[name] = (offset, sizes[size])
+            offset += sizes[size]
+        sections["vectors"] = (offset, self.vectors * sizes["longest"])
+        head["vectors"], head["vector_size"] = offset, sizes["longest"]
+        offset += self.vectors * sizes["longest"]
+        head["tables"] = offset
+        for i, name in enumerate(HEAD):
+            self.numbers[i] = head[name] if name in head else sections[name][0]
+        for i, (name, _) in enumerate(self.more):
+            self.numbers[len(HEAD) + i] = sections[name][0]
+        self.numbers += [0] * (len(self.numbers) % 2)
+        sections["tables"] = (offset, len(self.numbers) // 2 + 1)
+        offset += len(self.numbers) // 2 + 1
+        groups = tuple((g.stem, "prepare" in g.info.functions, places[g.stem]) for g in shape.groups)
+        return Tables(array("I", self.numbers), self.functions, self.addresses, sections, offset, groups)
+
+    def begin(self, name: str) -> None:
+        """Let a table begin here."""
+        self.head[name] = len(self.numbers)
+
+    def group(self, group: Group) -> int:
+        """Write the table of a kernel's instances; return where it begins."""
+        shape, info, at = self.shape, group.info, len(self.numbers)
+        self.numbers.append(len(group.members))
+        constants, computed = shape.first_constant, shape.first_computed
+        index = shape.constant_index
+        for k in group.members:
+            instance = shape.instances[k]
+            names = (instance.name,) if info.kind == "body" else instance.frames
+            bodies = [shape.body[name] for name in names]
+            self.numbers += [b[2] for b in bodies]
+            if info.kind == "body":
+                self.numbers += bodies[0][:2]
+            elif info.kind == "joint":
+                self.numbers += [shape.row_of[k], shape.entry_of[k], shape.coordinate_of[k]]
+            else:
+                self.numbers += [b[1] for b in bodies]
+            self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers.append(computed + shape.computed_of[k])
+            self.numbers += [constants + index[c] for c in instance.constants]
+        return at
+
+    def stage(self, name: str, stage: Sequence[tuple[str, str]], places: Mapping[str, int]) -> None:
+        """Write the list of kernels of a stage: how many, then address and table of each."""
+        self.begin(name)
+        calls = [
+            (self.addresses + len(GENERIC) + self.functions.index((group.stem, function)), places[group.stem])
+            for kind, function in stage
+            for group in self.shape.groups
+            if (group.stem, function) in self.functions and group.info.kind == kind
+        ]
+        self.numbers.append(len(calls))
+        for address, place in calls:
+            self.numbers += [address, place]
+
+    def matrices(self) -> None:
+        """Write the tables of D, of D W D^T, of M and, where wanted, of M + a D^T D."""
+        shape = self.shape
+        self.rows()
+        self.begin("jacobian_columns")
+        self.numbers.append(len(shape.by_body))
+        for first, blocks in shape.by_body.items():
+            self.numbers += [first, shape.width[first], len(blocks)]
+            for b in blocks:
+                self.numbers += [b.row, b.offset]
+        self.mass_blocks()
+        self.begin("gram_terms")
+        runs = shape.products.runs
+        self.numbers.append(len(runs))
+        for width, terms in runs.items():
+            self.numbers += [width, len(terms) // (3 if width else 8), *terms]
+        self.begin("gram_factor")
+        self.numbers += shape.gram.table()
+        if self.augmented:
+            self.augmented_matrix()
+        else:
+            self.head |= {"augmented_terms": 0, "augmented_factor": 0, "augmented_size": 0}
+
+    def rows(self) -> None:
+        """Write the rows of D by the widths of their blocks: how many blocks, their width (0: not alike), then rows."""
+        shape, classes = self.shape, dict[tuple[int, ...], list[list[RowBlock]]]()
+        position = 0
+        for row in range(shape.m):
+            first = position
+            while position < len(shape.blocks) and shape.blocks[position].row == row:
+                position += 1
+            blocks = shape.blocks[first:position]
+            classes.setdefault(tuple(b.width for b in blocks), []).append(blocks)
+            assert blocks, "a row has entries"
+        self.begin("jacobian_rows")
+        self.numbers.append(len(classes))
+        for widths, rows in classes.items():
+            alike = widths[0] if len(set(widths)) == 1 else 0
+            self.numbers += [len(widths), alike, len(rows)]
+            for blocks in rows:
+                self.numbers += [blocks[0].row, blocks[0].offset]
+                for b in blocks:
+                    self.numbers += [b.first] if alike else [b.first, b.width]
+
+    def mass_blocks(self) -> None:
+        """Write where the blocks of M are that are larger than one entry, and which blocks of D they act on."""
+        shape = self.shape
+        found: list[tuple[int, int, int]] = []  # size, first velocity, place in p of M, that of M^-1 behind it
+        for k, (instance, stem) in enumerate(zip(shape.instances, shape.stems, strict=True)):
+            info = shape.infos[stem]
+            first = shape.first_computed + shape.computed_of[k] + info.hoisted
+            for block in info.mass:
+                if len(block) > 1:
+                    found.append((len(block), shape.body[instance.name][1] + block[0], first))
+                    first += 2 * len(block) ** 2
+        self.begin("mass_blocks")
+        self.numbers.append(len(found))
+        for each in found:
+            self.numbers += each
+        self.begin("weights")
+        plain = [x for slot, velocity in shape.products.slots.items() for x in (slot, velocity)]
+        self.numbers += [len(plain) // 2, *plain]
+        weights: list[int] = []
+        owner = {v: first for first, width in shape.width.items() for v in range(first, first + width)}
+        for size, velocity, place in found:
+            for b in shape.by_body[owner[velocity]]:
+                weights += [size, b.offset + velocity - b.first, place + size * size]
+        self.numbers += [len(weights) // 3, *weights]
+
+    def augmented_matrix(self) -> None:
+        """Write the tables of M + D^T a D: diagonal, blocks of M, then rows of D with the targets of their products."""
+        shape, elimination = self.shape, self.shape.augmented
+        self.head["augmented_size"] = elimination.size
+        self.begin("augmented_terms")
+        self.numbers += [elimination.target(j, j) for j in range(shape.nv)]
+        beside: list[int] = []
+        at = self.head["mass_blocks"]
+        for k in range(self.numbers[at]):
+            size, velocity, place = self.numbers[at + 1 + 3 * k : at + 4 + 3 * k]
+            for i in range(size):
+                beside += [
+                    x for j in range(i) for x in (place + size * i + j, elimination.target(velocity + i, velocity + j))
+                ]
+        self.numbers += [len(beside) // 2, *beside]
+        for row in shape.rows:
+            self.numbers += [len(row), *(slot for _, slot in row)]
+            self.numbers += [elimination.target(i, j) for k, (i, _) in enumerate(row) for j, _ in row[: k + 1]]
+        self.begin("augmented_factor")
+        self.numbers += elimination.table()

@@ -1,0 +1,81 @@
+"""Shapes on the command line: asked for, chosen, shown, written out, refused."""
+
+from __future__ import annotations
+
+import ast
+import json
+
+import pytest
+
+from symgen.api import load
+from symgen.cli import main
+from symgen.ensemble.sweep import sweep
+from symgen.errors import InputError
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line; return exit code, standard output and standard error."""
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+def test_a_run_says_its_shape(cli):
+    ends = {}
+    for shape in ("straight", "looped"):
+        code, out, _ = cli("run", "slider-crank", "--until", "0.02", "--shape", shape, "--json")
+        found = json.loads(out)
+        assert code == 0
+        assert found["shape"] == shape
+        ends[shape] = found["final"]["q"]
+    assert ends["looped"] == pytest.approx(ends["straight"], abs=1e-12)
+
+
+def test_wrong_shapes_are_refused_in_a_sentence(cli):
+    code, out, err = cli("run", "four-bar", "--shape", "lopped")
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1 and "one of auto, straight, looped" in err
+    code, out, err = cli("run", "four-bar", "--shape", "looped", "--integrator", "radau5")
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1 and "Newton matrices are dense" in err
+
+
+def test_inspect_says_which_shape_and_why(cli):
+    code, out, _ = cli("inspect", "four-bar", "--shape", "looped", "--json")
+    shape = json.loads(out)["shape"]
+    assert code == 0
+    assert (shape["shape"], shape["reason"]) == ("looped", "it was asked for")
+    assert sorted(shape["kernels"].values()) == [2, 2, 3]  # pins on the ground, pins between links, links
+    code, out, _ = cli("inspect", "four-bar")
+    assert code == 0
+    assert "\nshape: " in out and "9 coordinates, about 5e+04 evaluations" in out
+
+
+def test_generated_loops_stand_alone(cli, tmp_path):
+    folder = tmp_path / "out"
+    code, out, err = cli("generate", "four-bar", "--shape", "looped", "--method", "lagrange", "-o", folder)
+    assert (code, err) == (0, "")
+    stems = {p.stem for p in folder.glob("*.py")}
+    assert {"machine", "model", "law_lagrange", "mechanism"} < stems
+    assert len(out.splitlines()) == 2 * len(stems) == 14
+    for path in folder.glob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Import):
+                assert {alias.name for alias in node.names} <= {"math", "numpy"}
+            elif isinstance(node, ast.ImportFrom) and not node.level:
+                assert (node.module or "").split(".")[0] == "numba"
+    tables = json.loads((folder / "mechanism.json").read_text())["law_lagrange"]
+    assert tables["numbers"][:3] == [9, 9, 8]
+    first = {p.name: p.read_bytes() for p in folder.iterdir()}
+    assert cli("generate", "four-bar", "--shape", "looped", "--method", "lagrange", "-o", folder)[0] == 0
+    assert {p.name: p.read_bytes() for p in folder.iterdir()} == first
+
+
+def test_ensembles_have_straight_code():
+    with pytest.raises(InputError, match="straight code for an ensemble"):
+        sweep(load("four-bar"), {"crank_mass": [1.0, 2.0]}, shape="looped")

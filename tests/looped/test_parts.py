@@ -1,0 +1,267 @@
+"""Parts of the looped shape: instances, elimination, sharing, choice of the shape, starts of large mechanisms."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from symgen import auto
+from symgen.api import load
+from symgen.errors import InputError
+from symgen.looped import generate_looped, law_stem, shared_folder
+from symgen.lower.factor import minimum_degree
+from symgen.lower.looped.instances import instances
+from symgen.lower.looped.law import is_loopable, refuse_dense
+from symgen.lower.looped.pattern import Elimination, eliminate
+from symgen.methods import METHODS
+from symgen.methods._base import MultiplierMethod
+from symgen.pipeline import choose_method, generator_digest
+from symgen.plan import Settings, make_plan
+from symgen.runtime import large
+from symgen.shapes import choose_shape
+from symgen.store.entries import Entries
+from symgen.store.jit import cache_stats
+
+DATA = Path(__file__).parents[1] / "data"
+
+
+# -- elimination -------------------------------------------------------------------------------------------------------
+
+
+@st.composite
+def patterns(draw):
+    n = draw(st.integers(1, 14))
+    pairs = draw(st.sets(st.tuples(st.integers(0, n - 1), st.integers(0, n - 1))))
+    near = [set() for _ in range(n)]
+    for i, j in pairs:
+        if i != j:
+            near[i].add(j)
+            near[j].add(i)
+    return [frozenset(s) for s in near]
+
+
+@given(patterns())
+def test_the_order_is_that_of_straight_code(neighbours):
+    assert tuple(eliminate(neighbours)[0]) == minimum_degree(neighbours)
+
+
+@given(patterns(), st.integers(0, 10**6))
+def test_panels_hold_a_factor(neighbours, seed):
+    """Read as their table says, the panels factorise a matrix: checked against NumPy's solution."""
+    n = len(neighbours)
+    values = np.random.default_rng(seed).uniform(-1.0, 1.0, (n, n))
+    matrix = np.diag([n + 1.0] * n)
+    for i, near in enumerate(neighbours):
+        for j in near:
+            matrix[i, j] = values[min(i, j), max(i, j)]
+    elimination = Elimination.of(neighbours)
+    panels = np.zeros(elimination.size)
+    for i in range(n):
+        for j in (i, *sorted(neighbours[i])):
+            panels[elimination.target(i, j)] = matrix[i, j]
+    table = elimination.table()
+    right = np.arange(1.0, n + 1.0)
+    x, starts = right.copy(), table[2 + n : 2 + n + table[0]]
+    nodes = []
+    for at in starts:
+        c, r, first = table[at : at + 3]
+        rows = table[at + 3 : at + 3 + c + r]
+        targets = iter(table[at + 3 + c + r :])
+        block = panels[first : first + (c + r) * c].reshape(c + r, c)
+        lower, pivots = np.eye(c + r)[:, :c], np.zeros(c)
+        rest = block.copy()
+        for k in range(c):
+            pivots[k] = rest[k, k]
+            lower[k:, k] = rest[k:, k] / pivots[k]
+            rest[k:, k:] -= np.outer(lower[k:, k], pivots[k] * lower[k:c, k])
+        for i in range(r):
+            for j in range(i + 1):
+                panels[next(targets)] -= lower[c + i] * pivots @ lower[c + j]
+        for k in range(c):
+            for i in range(k + 1, c + r):
+                x[rows[i]] -= lower[i, k] * x[rows[k]]
+        nodes.append((rows, c, r, lower, pivots))
+    for rows, c, r, lower, pivots in reversed(nodes):
+        for k in range(c - 1, -1, -1):
+            x[rows[k]] = x[rows[k]] / pivots[k] - sum(lower[i, k] * x[rows[i]] for i in range(k + 1, c + r))
+    np.testing.assert_allclose(x, np.linalg.solve(matrix, right), rtol=1e-9, atol=1e-12)
+
+
+# -- sharing -----------------------------------------------------------------------------------------------------------
+
+
+def test_kernels_do_not_know_their_mechanism():
+    methods = [(METHODS.get("lagrange"), METHODS.get("lagrange").complete_options({}))]
+    few, many = (
+        generate_looped(load(name).mechanism, methods, generator_digest()) for name in ("four-bar", "n-four-bar:7")
+    )
+    common = few.keys() & many.keys() - {"mechanism"}
+    assert {"machine", "model", "law_lagrange"} <= common
+    assert sum(stem.startswith("joint_revolute") for stem in common) == 2
+    for stem in common:
+        assert few[stem] == many[stem]
+
+
+def test_numbers_are_data_and_zeros_are_kinds():
+    keys = {}
+    for name in ("four-bar", "n-four-bar:3"):
+        for instance in instances(load(name).mechanism):
+            keys.setdefault(instance.kind, set()).add(instance.key)
+    assert len(keys["body"]) == 1
+    assert len(keys["joint"]) == 2  # on the ground, and between bodies
+
+
+def test_a_new_mechanism_of_known_kinds_compiles_nothing():
+    load("n-four-bar:2").simulate(method="lagrange", until=0.01, shape="looped")
+    before = cache_stats()["misses"]
+    result = load("n-four-bar:5").simulate(method="lagrange", until=0.01, shape="looped")
+    assert result.status == "ok"
+    assert cache_stats()["misses"] == before
+
+
+# -- which shape -------------------------------------------------------------------------------------------------------
+
+
+def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(tmp_path):
+    entries, choice = Entries(tmp_path), choose_method("direct-correction")
+    small, large_one = load("four-bar").mechanism, load("n-four-bar:150").mechanism
+    assert choose_shape(small, choice, "auto", 1e9, entries).shape == "straight"
+    assert choose_shape(large_one, choice, "auto", 1.0, entries).shape == "looped"
+    chosen = choose_shape(load("n-four-bar:40").mechanism, choice, "auto", 1e4, entries)
+    assert chosen.shape == "looped"
+    assert "243 coordinates" in chosen.reason
+
+
+def test_short_runs_are_looped_once_the_shared_code_is_there(tmp_path):
+    entries, choice = Entries(tmp_path), choose_method("lagrange")
+    mechanism = load("four-bar").mechanism
+    folder = shared_folder(generator_digest())
+    assert choose_shape(mechanism, choice, "auto", 1e4, entries).shape == "straight"
+    for stem, (source, data) in generate_looped(
+        mechanism, [(choice.method, choice.options)], generator_digest()
+    ).items():
+        entries.put(folder, stem, source, data)
+    assert entries.path(folder, law_stem(choice.method, choice.options)).exists()
+    assert choose_shape(mechanism, choice, "auto", 1e4, entries).shape == "looped"
+    assert choose_shape(mechanism, choice, "auto", 1e12, entries).shape == "straight"
+
+
+@pytest.mark.parametrize("method", ["null-space", "coordinate-partitioning", "augmented-hamiltonian"])
+def test_dense_methods_have_no_loops_and_a_largest_size(method, tmp_path):
+    choice, small = choose_method(method), load("four-bar").mechanism
+    assert choose_shape(small, choice, "auto", 1e4, Entries(tmp_path)).shape == "straight"
+    with pytest.raises(InputError, match=f"'{method}', .*; the straight shape is for it"):
+        choose_shape(small, choice, "looped", 1e4, Entries(tmp_path))
+    with pytest.raises(InputError, match="at most 400 coordinates"):
+        choose_shape(load("n-four-bar:80").mechanism, choice, "auto", 1e4, Entries(tmp_path))
+
+
+def test_implicit_integrators_and_unknown_shapes_are_refused():
+    model = load("four-bar")
+    with pytest.raises(InputError, match="implicit integrators, whose Newton matrices are dense"):
+        make_plan(model, Settings(integrator="radau5", shape="looped"))
+    with pytest.raises(InputError, match="one of auto, straight, looped, got 'lopped'"):
+        make_plan(model, Settings(shape="lopped"))
+    with pytest.raises(InputError, match="with an implicit integrator"):
+        make_plan(load("n-four-bar:80"), Settings(integrator="radau5"))
+
+
+class Smooth(MultiplierMethod):
+    """Drift fed back: nothing but products and sums of whole vectors."""
+
+    name = "smooth"
+    summary = reference = "a method of a test"
+
+    def target(self, system):
+        drift = system.D @ system.v - system.nu
+        return system.gamma - drift - drift
+
+
+class Picky(Smooth):
+    """Takes the first element out of a vector."""
+
+    name = "picky"
+
+    def target(self, system):
+        return replace(system.gamma, nodes=(system.graph.zero, *system.gamma.nodes[1:]))
+
+
+def test_a_method_from_outside_has_both_shapes_if_its_formula_is_one_on_vectors():
+    smooth, picky = Smooth(), Picky()
+    assert is_loopable(smooth, smooth.complete_options({}), False)
+    assert not is_loopable(picky, picky.complete_options({}), False)
+    with pytest.raises(InputError, match="'picky', whose formula asks for single elements"):
+        refuse_dense(picky, picky.complete_options({}), False)
+
+
+def test_auto_takes_large_mechanisms_without_their_eigenvalues(monkeypatch):
+    def refused(*_):
+        raise AssertionError("eigenvalues of a large mechanism were asked for")
+
+    monkeypatch.setattr(auto, "linearised", refused)
+    settings, reasons = auto.resolve(load("n-four-bar:60"), Settings(method="auto", integrator="auto"))
+    assert (settings.method, settings.integrator) == ("direct-correction", "dop853")
+    assert "1088 unknowns a stage are too many for dense Newton matrices" in reasons[-1]
+
+
+# -- large mechanisms --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("given_velocities", ["all", "some", "contradicting"])
+def test_sparse_starts_are_the_dense_ones(monkeypatch, given_velocities):
+    model = load("n-four-bar:4")
+    mechanism = model.mechanism
+    if given_velocities != "all":
+        bodies = list(mechanism.bodies)
+        nothing = (None, None)
+        for i in range(1, len(bodies)):
+            bodies[i] = structs_replace(bodies[i], velocity=nothing, angular_velocity=None)
+        if given_velocities == "contradicting":
+            bodies[3] = structs_replace(bodies[3], velocity=mechanism.bodies[1].velocity)
+            bodies[3] = structs_replace(bodies[3], angular_velocity=mechanism.bodies[0].angular_velocity)
+        model = replace(model, mechanism=structs_replace(mechanism, bodies=tuple(bodies)))
+    compiled = model.compile("lagrange", shape="looped")
+    dense = model.assemble(compiled)
+    monkeypatch.setattr(large, "LARGEST_DENSE", 0)
+    sparse = model.assemble(compiled)
+    np.testing.assert_allclose(sparse.y, dense.y, atol=1e-10)
+    assert (sparse.rank, sparse.redundant_rows) == (dense.rank, dense.redundant_rows)
+
+
+def structs_replace(struct, **changes):
+    import msgspec
+
+    return msgspec.structs.replace(struct, **changes)
+
+
+def test_sparse_starts_find_lasting_redundancy(monkeypatch):
+    from support.emitted import mechanism_of
+    from support.models import parallelogram
+
+    model = load(mechanism_of(parallelogram()))
+    compiled = model.compile("direct-correction", shape="looped")
+    dense = model.assemble(compiled)
+    monkeypatch.setattr(large, "LARGEST_DENSE", 0)
+    sparse = model.assemble(compiled)
+    assert len(dense.redundant_rows) == 1
+    assert sparse.redundant_rows == dense.redundant_rows
+    assert sparse.rank == dense.rank == 11
+    np.testing.assert_allclose(sparse.y, dense.y, atol=1e-9)
+
+
+def test_forty_windows_stay_on_the_official_solution():
+    """IFToMM benchmark A02: 20 s through twenty singular positions; the file has six digits, its bound is 1e-3."""
+    official = np.loadtxt(DATA / "a02_official_n40.csv", delimiter=",")
+    result = load("n-four-bar:40").simulate(
+        **{"integrator": "dop853", "rtol": 1e-9, "atol": 1e-9, "until": 20.0, "times": official[:, 0]},
+        **{"shape": "looped", "options": {"method.weight": "mass"}},
+    )
+    assert result.status == "ok"
+    theta = result["vertical0.theta"]
+    x, y = result["vertical0.x"] + 0.5 * np.cos(theta), result["vertical0.y"] + 0.5 * np.sin(theta)
+    assert np.hypot(x - official[:, 1], y - official[:, 2]).max() < 2e-5
