@@ -45,6 +45,7 @@ class AlphaFamily:
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
         from symgen.runtime.alpha import alpha_steps
+        from symgen.runtime.manifold import stay
 
         law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
         width, size = info.nq + info.nv, n - info.nq
@@ -52,9 +53,12 @@ class AlphaFamily:
         assert spec.step is not None, "a constant step is given"
         before = (
             *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
+            getattr(compiled.model, "turn", stay),
             *self.coefficients(values),
-            *(info.nq, info.nv, n, info.sections["multipliers"][0]),
+            *(info.nq, info.nv, info.m, n),
+            *(info.sections["multipliers"][0], info.sections["mask"][0], info.sections["change"][0]),
             *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
         )
-        room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + n * n + n * width + size * size + size)
-        return LoopCall(alpha_steps, before, (room, np.zeros(size, dtype=np.int64)))
+        spins = np.array([j for _, j in info.spins], dtype=np.int64)
+        room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + n * n + n * width + size * size + 2 * size)
+        return LoopCall(alpha_steps, before, (room, np.zeros(size, dtype=np.int64), spins))

@@ -49,6 +49,25 @@ class LoopCall:
     after: tuple[Any, ...]
 
 
+@dataclass(frozen=True)
+class BatchCall:
+    """A loop over many runs, as in `symgen.runtime.batch`: what stands between functions and rows, and working memory.
+
+    Attributes
+    ----------
+    loop : compiled function
+        ``loop(*functions, *arguments, sizes, selected, ...)``.
+    arguments : tuple
+        The scheme and the steps.
+    room : int
+        Numbers of working memory that one run needs.
+    """
+
+    loop: Any
+    arguments: tuple[Any, ...]
+    room: int
+
+
 class Integrator(Protocol):
     """The interface of all integrators."""
 
@@ -82,3 +101,10 @@ class Integrator(Protocol):
 
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
+
+
+class BatchIntegrator(Integrator, Protocol):
+    """An integrator that may have a loop over many runs."""
+
+    def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
+        """Return the loop over many runs with states of length `ny`, None where the scheme has none."""

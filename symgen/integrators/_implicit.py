@@ -83,13 +83,14 @@ class ImplicitTableau:
         law, info, s = compiled.law_module, compiled.info, self.stages
         n, width, ny = compiled.law.unknowns, info.nq + info.nv, info.ny
         size = s * n if self.together else n
-        room = np.zeros(2 * ny + n + s * n + 2 * size + s + n * n + n * width + size * size + size)
+        room = np.zeros(2 * ny + n + s * n + 2 * size + s + n * n + n * width + size * size + 2 * size)
         step = spec.step if spec.step is not None else 1e-4 * spec.until
         before = (
             *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
             *(np.ascontiguousarray(self.a).ravel(), self.b, self.c, s, int(self.together)),
             *(np.zeros(s + 1) if self.errors is None else self.errors, self.filter_factor, self.error_order),
-            *(info.nq, info.nv, info.m, n, info.sections["multipliers"][0]),
+            *(info.nq, info.nv, info.m, n),
+            *(info.sections["multipliers"][0], info.sections["mask"][0]),
             *(state.y, state.p, state.w, state.iw, int(spec.adaptive), 0.0, step),
             *(spec.largest_step, spec.until, spec.rtol, spec.atol),
         )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.integrators._base import Array, IntegratorParameter, LoopCall, State
+from symgen.integrators._base import Array, BatchCall, IntegratorParameter, LoopCall, State
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -106,7 +106,7 @@ class Tableau:
         confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
         y, p, w, iw = state.y, state.p, state.w, state.iw
         common = (law.rhs, confirm, law.accept, *self.packed(), self.stages, compiled.info.nq)
-        room = np.zeros((self.stages + 5 + len(self.extra_c)) * len(y))  # all stages, two states, two error sums
+        room = np.zeros(self._room(len(y)))
         if not spec.adaptive:
             from symgen.runtime.explicit import fixed_steps
 
@@ -114,8 +114,30 @@ class Tableau:
             return LoopCall(fixed_steps, (*common, y, p, w, iw, 0.0, spec.step, spec.until), (room,))
         from symgen.runtime.explicit import adaptive_steps
 
-        assert self.dense is not None, "every adaptive tableau has dense output"
-        pair = (np.concatenate(self.errors), len(self.errors), self.error_order)
         control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
-        dense = np.ascontiguousarray(self.dense).ravel()
-        return LoopCall(adaptive_steps, (*common, *pair, dense, y, p, w, iw, *control), (room,))
+        return LoopCall(adaptive_steps, (*common, *self._pair(), y, p, w, iw, *control), (room,))
+
+    def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
+        """Return the loop over many runs."""
+        if not spec.adaptive:
+            from symgen.runtime.batch import fixed_runs
+
+            assert spec.step is not None, "a constant step is given"
+            return BatchCall(fixed_runs, (*self.packed(), self.stages, spec.step, spec.until), self._room(ny))
+        from symgen.runtime.batch import adaptive_runs
+
+        control = (spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
+        return BatchCall(adaptive_runs, (*self.packed(), self.stages, *self._pair(), *control), self._room(ny))
+
+    def _room(self, ny: int) -> int:
+        return (self.stages + 5 + len(self.extra_c)) * ny  # all stages, two states, two error sums
+
+    def _pair(self) -> tuple[Array, int, int, Array]:
+        """Return what adaptive loops need beyond the scheme: error weights, their number and order, dense output."""
+        assert self.dense is not None, "every adaptive tableau has dense output"
+        return (
+            np.concatenate(self.errors),
+            len(self.errors),
+            self.error_order,
+            np.ascontiguousarray(self.dense).ravel(),
+        )

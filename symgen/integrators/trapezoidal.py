@@ -26,6 +26,7 @@ class Trapezoidal(ImplicitTableau):
         """Return the loop for a run and its arguments."""
         if compiled.law.level != "projected":
             return super().call(compiled, spec, state)
+        from symgen.runtime.manifold import stay
         from symgen.runtime.projected import projected_steps
 
         law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
@@ -33,12 +34,14 @@ class Trapezoidal(ImplicitTableau):
         penalty = state.p[compiled.law.parameter_offset + [q for q, _ in compiled.law.parameters].index("penalty")]
         before = (
             *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
-            *(float(penalty), info.nq, info.nv, info.m, info.sections["multipliers"][0]),
+            getattr(compiled.model, "turn", stay),
+            *(float(penalty), info.nq, info.nv, info.m, info.sections["multipliers"][0], info.sections["change"][0]),
             *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
         )
         width = info.nq + info.nv
-        room = np.zeros(2 * info.ny + 2 * n + 4 * info.m + 3 * info.nv + n * (n + width) + info.nv**2)
-        return LoopCall(projected_steps, before, (room, np.zeros(info.nv, dtype=np.int64)))
+        spins = np.array([j for _, j in info.spins], dtype=np.int64)
+        room = np.zeros(2 * info.ny + 2 * n + 4 * info.m + 5 * info.nv + n * (n + width) + info.nv**2)
+        return LoopCall(projected_steps, before, (room, np.zeros(info.nv, dtype=np.int64), spins))
 
 
 KIND = Trapezoidal(

@@ -6,9 +6,15 @@ serves every layout of the emitted code.
 
 from __future__ import annotations
 
+import hashlib
+import inspect
+import marshal
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 from symgen.errors import InputError, nearest
@@ -98,6 +104,13 @@ class Tangent:
 
 
 @dataclass(frozen=True)
+class Dense:
+    """The law ``M v' + D^T lambda = f``, ``D v' = target`` by a rank-revealing orthogonal factorisation of D^T."""
+
+    target: Vector
+
+
+@dataclass(frozen=True)
 class Descriptor:
     """What implicit integrators solve for a method: the constraints beside ``M v' + D^T lambda = f``.
 
@@ -117,7 +130,7 @@ class Descriptor:
     compliance: Scalar | None = None
 
 
-Law = Acceleration | Iteration | Tangent
+Law = Acceleration | Iteration | Tangent | Dense
 
 
 class Method(ABC):
@@ -136,6 +149,11 @@ class Method(ABC):
         What is used where no integrator is asked for.
     integrates : str
         ``"all"`` coordinates, or only the ``"independent"`` ones of a partition.
+    dense : str
+        What keeps the method from the looped shape, as the rest of a sentence; empty where nothing does.
+    velocities_follow : bool
+        Whether every step holds the positions and velocities follow from them by the integrator's formula: they are off
+        their constraint by its error, which does not grow with time.
     """
 
     name: ClassVar[str]
@@ -146,6 +164,8 @@ class Method(ABC):
     options: ClassVar[tuple[MethodOption, ...]] = ()
     default_integrator: ClassVar[str] = "rk4"
     integrates: ClassVar[str] = "all"
+    dense: ClassVar[str] = ""
+    velocities_follow: ClassVar[bool] = False
 
     @abstractmethod
     def law(self, system: System, options: Mapping[str, str]) -> Law:
@@ -188,9 +208,12 @@ class Method(ABC):
         return options.get("weight") == "mass"
 
     def stem(self, options: Mapping[str, str], implicit: bool = False) -> str:
-        """Return the file stem of the emitted module: the method, options off their defaults, the form if implicit."""
+        """Return the file stem of the emitted module: the method, options off their defaults, the form if implicit.
+
+        That of a method from outside the package also carries a digest of its code.
+        """
         chosen = (options[o.name] for o in self.options if options[o.name] != o.values[0])
-        parts = [self.name, *chosen, *(("implicit",) if implicit else ())]
+        parts = [self.name, *chosen, *(("implicit",) if implicit else ()), *_version(type(self))]
         return "_".join(parts).replace("-", "_")
 
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
@@ -204,6 +227,23 @@ class Method(ABC):
             Where the integrator's region of stability ends on the negative real axis.
         """
         return None
+
+
+@lru_cache(maxsize=32)
+def _version(kind: type[Method]) -> tuple[str, ...]:
+    """Return what tells versions of a method registered by hand apart: the cache knows symgen's sources only."""
+    outside = [base for base in kind.__mro__ if base.__module__.partition(".")[0] not in ("symgen", "builtins", "abc")]
+    if not outside:
+        return ()
+    digest = hashlib.sha256()
+    for base in outside:
+        with suppress(OSError, TypeError):  # a class typed at a prompt has no file
+            digest.update(Path(inspect.getfile(base)).read_bytes())
+        for name, value in sorted(vars(base).items()):
+            code = getattr(value, "__code__", None)
+            text = repr(value).encode() if isinstance(value, str | int | float | tuple) else b""
+            digest.update(name.encode() + (text if code is None else marshal.dumps(code)))
+    return (digest.hexdigest()[:8],)
 
 
 def multiplier_law(system: System, gamma: Vector) -> Acceleration:
@@ -224,17 +264,19 @@ def augmented_iteration(system: System, penalty: Scalar, target: Vector) -> Iter
     Garcia de Jalon, Serna 1988) written for increments, so that rounding is that of the residual and not that of a
     times it.
     """
-    factor = system.keep_factor(system.augmented_factor(penalty))
+    penalties = system.penalties(penalty)
+    factor = system.keep_factor(system.augmented_factor(penalties))
+    penalties = system.keep("kept_penalties", penalties)
     constraints = system.keep_constraints()
     force, target = system.keep("kept_force", system.f), system.keep("kept_target", target)
-    rows, columns = len(target.nodes), len(force.nodes)
+    rows, columns = target.size, force.size
     v = system.variable("kept_acceleration", columns)
     multipliers = system.variable("multipliers", rows)
     residual = constraints @ v - target
-    right = force - system.mass(v) - constraints.transposed(multipliers + penalty * residual)
+    right = force - system.mass(v) - constraints.transposed(multipliers + penalties.times(residual))
     increment = system.solve(factor, right)
     following = v + increment
-    raised = multipliers + penalty * (constraints @ following - target)
+    raised = multipliers + penalties.times(constraints @ following - target)
     return Iteration(
         (
             IterationState("kept_acceleration", system.free_acceleration, following),
@@ -246,8 +288,9 @@ def augmented_iteration(system: System, penalty: Scalar, target: Vector) -> Iter
 
 SOLVER = MethodOption(
     "solver",
-    ("elimination", "augmented"),
-    "how the law is solved: by elimination of v', or with M + W D^T D, for light and massless bodies",
+    ("elimination", "augmented", "dense"),
+    "how the law is solved: by elimination of v'; with M + W D^T D, for light and massless bodies; or by a dense, "
+    "rank-revealing orthogonal factorisation, the last resort",
 )
 
 
@@ -255,7 +298,8 @@ class MultiplierMethod(Method):
     """Base of the methods that solve ``M v' + D^T lambda = f``, ``D v' = target``: all that differs is the target.
 
     Very light bodies spoil the elimination, whose matrix S = D M^-1 D^T mixes 1 / m of all bodies, and massless ones
-    forbid it: then the same equations are solved by the residual form of the augmented iteration.
+    forbid it: then the same equations are solved by the residual form of the augmented iteration. A dense
+    factorisation of D^T that decides rank without squares is there to be asked for.
     """
 
     forms: ClassVar[tuple[str, ...]] = ("ode", "index-1")
@@ -266,9 +310,11 @@ class MultiplierMethod(Method):
         return system.gamma
 
     def law(self, system: System, options: Mapping[str, str]) -> Law:
-        """Return the elimination of v', or the iteration for light bodies."""
+        """Return the elimination of v', the iteration for light bodies, or the dense factorisation."""
         if options["solver"] == "augmented":
             return augmented_iteration(system, system.heavy_penalty, self.target(system))
+        if options["solver"] == "dense":
+            return Dense(self.target(system))
         return multiplier_law(system, self.target(system))
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:

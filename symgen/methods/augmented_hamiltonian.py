@@ -24,6 +24,7 @@ class AugmentedHamiltonian(Method):
     """
 
     name = "augmented-hamiltonian"
+    dense = "which needs the rate of D and forces at other velocities than the state's"
     summary = "momenta are integrated; velocities satisfy their constraint in every evaluation"
     reference = "Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677"
     forms = ("one-step",)
@@ -35,23 +36,25 @@ class AugmentedHamiltonian(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Iteration:
         """Return the iteration for v and sigma, and the rates of q and M^-1 p."""
-        penalty = system.parameter("penalty")
-        factor = system.keep_factor(system.augmented_factor(penalty))
+        penalties = system.penalties(system.parameter("penalty"))
+        factor = system.keep_factor(system.augmented_factor(penalties))
+        penalties = system.keep("kept_penalties", penalties)
         constraints, target = system.keep_constraints(), system.keep("kept_target", system.nu)
         momentum = system.keep("kept_momentum", system.mass(system.v))
-        v = system.variable("kept_velocity", len(momentum.nodes))
-        impulse = system.variable("kept_impulse", len(target.nodes))
-        right = momentum - system.mass(v) - constraints.transposed(impulse + penalty * (constraints @ v - target))
+        v = system.variable("kept_velocity", momentum.size)
+        impulse = system.variable("kept_impulse", target.size)
+        right = momentum - system.mass(v)
+        right = right - constraints.transposed(impulse + penalties.times(constraints @ v - target))
         increment = system.solve(factor, right)
         following = v + increment
-        raised = impulse + penalty * (constraints @ following - target)
+        raised = impulse + penalties.times(constraints @ following - target)
         force = system.at_velocity(system.f, v) + system.constraint_rate_transposed(impulse, v)
         position = system.at_velocity(system.q_rates, v)
         multipliers = system.at_velocity(multiplier_law(system, system.gamma).multipliers, v)
         return Iteration(
             (
                 IterationState("kept_velocity", system.v, following),
-                IterationState("kept_impulse", system.zeros(len(target.nodes)), raised),
+                IterationState("kept_impulse", system.zeros(target.size), raised),
             ),
             increment,
             Rates(position, system.minv(force), multipliers),

@@ -17,11 +17,12 @@ class CoordinatePartitioning(MultiplierMethod):
 
     Before every evaluation u is found by Newton's iteration on the dependent columns of D and u' by one solve, so
     that all states of a step satisfy the constraints. The derivatives that the integrator forms for u serve as
-    prediction only. The partition comes from an elimination of D with complete pivoting; another one is chosen where
-    the smallest pivot of the dependent block has fallen to a tenth of what it was when the partition was chosen.
+    prediction only. The partition comes from an elimination of D with complete pivoting, and exchanges; another one is
+    chosen where the determinant that judges it has fallen below 0.3 of the best since the choice.
     """
 
     name = "coordinate-partitioning"
+    dense = "which chooses its partition on a dense matrix"
     summary = "independent coordinates are integrated, dependent ones follow from the constraints"
     reference = "Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318"
     forms = ("ode",)

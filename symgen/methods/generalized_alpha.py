@@ -15,7 +15,8 @@ class GeneralizedAlpha(MultiplierMethod):
     """``M v' = f - D^T lambda``, ``Phi(t, q) = 0`` at the end of every step, by the integrator `generalized-alpha`.
 
     Positions satisfy their constraints to the tolerance of Newton's iteration; velocities violate theirs by the
-    integrator's error of order two. High frequencies, those of the constraints among them, are damped as `rho` says.
+    integrator's error of order two, which is judged as an error and not as drift. High frequencies, those of the
+    constraints among them, are damped as `rho` says.
     """
 
     name = "generalized-alpha"
@@ -23,6 +24,7 @@ class GeneralizedAlpha(MultiplierMethod):
     reference = "Arnold, Bruls, Multibody Syst. Dyn. 18 (2007) 185-202, doi 10.1007/s11044-007-9084-0"
     forms = ("index-3",)
     default_integrator = "generalized-alpha"
+    velocities_follow = True
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the constraints at position level."""

@@ -22,6 +22,7 @@ class NullSpace(Method):
     """
 
     name = "null-space"
+    dense = "whose basis of the tangent space is dense"
     summary = "accelerations in a tangent basis that is carried on from step to step"
     reference = (
         "Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; "

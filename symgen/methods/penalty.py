@@ -40,10 +40,10 @@ class Penalty(Method):
 
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law: one solve with M + a D^T D."""
-        penalty, target = system.parameter("penalty"), stabilised(system)
-        right = system.f + system.D.transposed(penalty * target)
-        acceleration = system.solve(system.augmented_factor(penalty), right)
-        return Acceleration(acceleration, penalty * (system.D @ acceleration - target))
+        penalties, target = system.penalties(system.parameter("penalty")), stabilised(system)
+        right = system.f + system.D.transposed(penalties.times(target))
+        acceleration = system.solve(system.augmented_factor(penalties), right)
+        return Acceleration(acceleration, penalties.times(system.D @ acceleration - target))
 
     def descriptor(self, system: System, options: Mapping[str, str]) -> Descriptor | None:
         """Return the same equations with lambda = a (D v' - g) kept as an unknown."""

@@ -30,11 +30,11 @@ class UdwadiaKalaba(Method):
     def law(self, system: System, options: Mapping[str, str]) -> Acceleration:
         """Return the law in terms of B = D M^-1/2."""
         root = system.inverse_mass_root
-        weighted = system.D.scaled_columns(root)
+        weighted = system.D.times_transposed(root)
         free = system.minv(system.f)
         factor = system.pseudoinverse_factor(weighted)
         multipliers = system.solve(factor, system.D @ free - system.gamma)
-        change = weighted.transposed(multipliers).times(root)
+        change = root.transposed(weighted.transposed(multipliers))
         return Acceleration(free - change, multipliers)
 
 

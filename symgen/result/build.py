@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces
-from symgen.result.result import Rank, Result, Seconds
+from symgen.result.result import OK, UNVERIFIED, Rank, Result, Seconds
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def build_result(
     compiled: CompiledModel,
     outcome: Outcome,
     run_spread: float = 0.0,
+    doubt: str | None = None,
 ) -> Result:
     """Label and judge the outcome of a run.
 
@@ -40,6 +41,8 @@ def build_result(
         What the loop gave.
     run_spread : float, optional
         Longest minus shortest run time of repeated runs [s].
+    doubt : str, optional
+        Why nothing vouches for the run although the loop saw nothing wrong.
 
     Returns
     -------
@@ -50,7 +53,10 @@ def build_result(
     info, spec, start = compiled.info, plan.spec, outcome.start
     forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in model.mechanism.joints})
     verdict = judge(settings, plan, compiled, outcome)
-    verdict = replace(verdict, notes=(*start.notes, *_redundancy(compiled, outcome, forces), *verdict.notes))
+    notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
+    if doubt is not None and verdict.status == OK:
+        verdict = replace(verdict, status=UNVERIFIED, reason=doubt)
+    verdict = replace(verdict, notes=(*notes, *verdict.notes))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, -1]
     law = compiled.law
@@ -108,3 +114,14 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
+
+
+def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:
+    """Return what the dense factorisation met, where it was used."""
+    count = outcome.counters["dense_solves"]
+    if count == 0:
+        return []
+    rank, rows = outcome.counters["dense_rank"], compiled.info.m
+    return [
+        f"accelerations solved by dense orthogonal factorisation in {count} evaluations, rank {rank} of {rows} rows"
+    ]

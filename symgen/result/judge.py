@@ -8,7 +8,7 @@ not ok unless a second run with other steps agrees.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -17,9 +17,11 @@ from symgen.runtime import abi
 from symgen.runtime.run import WARN, integrate
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from symgen.model import CompiledModel
     from symgen.plan import Plan, Settings
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.run import Outcome, RankEvent
 
 #: Two runs agree when no coordinate differs by more than this, times the largest coordinate (at least 1).
 AGREEMENT = 1e-6
@@ -39,6 +41,42 @@ class Verdict:
     notes: tuple[str, ...] = ()
 
 
+class Seen(Protocol):
+    """What the loop of a run saw: an `Outcome`, or a row of an ensemble."""
+
+    @property
+    def code(self) -> int:
+        """How it ended; see `symgen.runtime.abi`."""
+
+    @property
+    def reason(self) -> str:
+        """Why, in words; empty at its end."""
+
+    @property
+    def smallest_pivot(self) -> float:
+        """Of D D^T with scaled rows."""
+
+    @property
+    def rank_events(self) -> Sequence[RankEvent]:
+        """Passages near singular positions."""
+
+    @property
+    def rank_event_count(self) -> int:
+        """How many there were, listed or not."""
+
+    @property
+    def energy_jump(self) -> float:
+        """Largest change of the energy error over a passage [J]."""
+
+    @property
+    def energy_scale(self) -> float:
+        """Energy in motion [J]."""
+
+    @property
+    def counters(self) -> Mapping[str, int]:
+        """Counts of the emitted code by name."""
+
+
 def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Verdict:
     """Judge a run by what its loop saw; with ``settings.verify``, run again at another step to settle doubts.
 
@@ -51,7 +89,26 @@ def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outc
     outcome : Outcome
         What the loop gave.
     """
-    passed = outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
+    verdict = judge_alone(outcome, compiled.law.position_correction)
+    verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(plan, outcome)))
+    if verdict.status == FAILED or not settings.verify:
+        return verdict
+    if not _passed(outcome):
+        return replace(verdict, notes=("nothing to verify: the run met no position near a singular one",))
+    return _verified(verdict, plan, compiled, outcome)
+
+
+def judge_alone(outcome: Seen, position_correction: bool) -> Verdict:
+    """Judge a run by what its loop saw, without a second opinion.
+
+    Parameters
+    ----------
+    outcome : Seen
+        What the loop gave.
+    position_correction : bool
+        Whether the method corrects positions.
+    """
+    passed = _passed(outcome)
     warnings = tuple(_warnings(outcome, passed))
     if outcome.code == abi.STOPPED:
         return Verdict(FAILED, INTERRUPTED, warnings)
@@ -64,25 +121,25 @@ def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outc
         )
         return Verdict(FAILED, reason, warnings)
     verdict = Verdict(OK, None, warnings)
-    if passed and not compiled.law.position_correction:
+    if passed and not position_correction:
         reason = (
-            f"passed near a singular position{_when(outcome)} and positions are not corrected in all coordinates: "
+            f"passed near a singular position{_when(outcome)} and positions are not corrected: "
             "nothing tells whether the right branch was taken"
         )
         verdict = Verdict(UNVERIFIED, reason, warnings)
-    if not settings.verify:
-        return verdict
-    if not passed:
-        return replace(verdict, notes=("nothing to verify: the run met no position near a singular one",))
-    return _verified(verdict, plan, compiled, outcome)
+    return verdict
 
 
-def relative_jump(outcome: Outcome) -> float:
+def _passed(outcome: Seen) -> bool:
+    return outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
+
+
+def relative_jump(outcome: Seen) -> float:
     """Return the largest change of the energy error over a passage, as a fraction of the energy in motion."""
     return outcome.energy_jump / outcome.energy_scale if outcome.energy_jump > 0.0 else 0.0
 
 
-def _warnings(outcome: Outcome, passed: bool) -> list[str]:
+def _warnings(outcome: Seen, passed: bool) -> list[str]:
     warnings = []
     if passed:
         count = outcome.rank_event_count
@@ -100,12 +157,23 @@ def _warnings(outcome: Outcome, passed: bool) -> list[str]:
     return warnings
 
 
-def _jumped(outcome: Outcome) -> str:
+def _velocity_warning(plan: Plan, outcome: Outcome) -> list[str]:
+    """Say by how much velocities are off that only follow from positions, where it is more than other methods may."""
+    speed, found = float(outcome.w[abi.SPEED]), outcome.velocity_violation_max
+    if not plan.choice.method.velocities_follow or found <= plan.spec.max_violation * speed:
+        return []
+    return [
+        f"velocities are off their constraints by up to {found:.3g}, {found / speed:.2g} of the largest speed: "
+        f"{plan.choice.method.name} holds positions only, and this is an error of order {plan.tableau.order}"
+    ]
+
+
+def _jumped(outcome: Seen) -> str:
     share = relative_jump(outcome)
     return f"energy jumped by {outcome.energy_jump:.3g} J, {share:.2g} of the energy in motion, over a singular passage"
 
 
-def _when(outcome: Outcome) -> str:
+def _when(outcome: Seen) -> str:
     """Return time and pivot of the narrowest passage."""
     if not outcome.rank_events:
         return f": smallest pivot {outcome.smallest_pivot:.2g}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -64,7 +64,7 @@ class Forces:
         """Return lambda at all outputs, of minimum norm where the rows of D are dependent."""
         values = _minimum_norm(self.outcome)
         rows = self.compiled.info.rows
-        return Labelled(values, tuple(r.name for r in rows), tuple(_multiplier_unit(r.unit) for r in rows))
+        return Labelled(values, tuple(r.name for r in rows), tuple(multiplier_unit(r.unit) for r in rows))
 
     def final(self) -> dict[str, float]:
         """Return the multipliers at the last output by name; empty where there is no output."""
@@ -92,7 +92,10 @@ class Forces:
     # -- reactions -----------------------------------------------------------------------------------------------------
 
     def reactions(self, multipliers: Labelled) -> Labelled:
-        """Return -D^T lambda of each joint on its first body, at all outputs."""
+        """Return -D^T lambda of each joint on its first body, at all outputs, as forces and moments in ground axes.
+
+        Moments are about the body's centre of mass, on the ground about the origin.
+        """
         info = self.compiled.info
         columns: dict[str, list[tuple[int, str]]] = {}
         for i, velocity in enumerate(info.velocities):
@@ -111,8 +114,7 @@ class Forces:
             if body == GROUND:
                 found = self._on_ground(generalised, columns)
             else:
-                nothing = np.zeros(len(self.outcome.times))
-                found = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in columns[body]}
+                found = self._on_body(body, generalised, columns[body])
             labels = {label: unit for label, unit in _FORCE.values()}
             for label, value in found.items():
                 names.append(f"{joint}.{label}")
@@ -125,18 +127,40 @@ class Forces:
         self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
     ) -> dict[str, Array]:
         """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
-        states, nothing = self.outcome.states, np.zeros(len(self.outcome.times))
-        total = {"Fx": nothing, "Fy": nothing, "M": nothing}
-        for indices in columns.values():
+        nothing = np.zeros(len(self.outcome.times))
+        spatial = any(name == "vz" for indices in columns.values() for _, name in indices)
+        total = dict.fromkeys(("Fx", "Fy", "Fz", "Mx", "My", "Mz") if spatial else ("Fx", "Fy", "M"), nothing)
+        for body, indices in columns.items():
             if not any(i in generalised for i, _ in indices):
                 continue
-            part = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
-            x, y = states[:, indices[0][0]], states[:, indices[1][0]]  # planar: q and v have the same order
-            moment = part.get("M", nothing) + x * part["Fy"] - y * part["Fx"]
-            total["Fx"] = total["Fx"] - part["Fx"]
-            total["Fy"] = total["Fy"] - part["Fy"]
-            total["M"] = total["M"] - moment
+            part = self._on_body(body, generalised, indices)
+            x, y, *rest = self._coordinates(body, "xyz" if spatial else "xy")
+            part["M" + "z" * spatial] = part.get("M" + "z" * spatial, nothing) + x * part["Fy"] - y * part["Fx"]
+            if spatial:
+                part["Mx"] = part.get("Mx", nothing) + y * part["Fz"] - rest[0] * part["Fy"]
+                part["My"] = part.get("My", nothing) + rest[0] * part["Fx"] - x * part["Fz"]
+            for label in total:
+                total[label] = total[label] - part[label]
         return total
+
+    def _on_body(self, body: str, generalised: Mapping[int, Array], indices: list[tuple[int, str]]) -> dict[str, Array]:
+        """Return force, and moment about the centre of mass, both in ground axes."""
+        nothing = np.zeros(len(self.outcome.times))
+        found = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
+        if "Mx" in found:  # works on angular velocities in body axes
+            real, *vector = self._coordinates(body, ("e0", "e1", "e2", "e3"))
+            e, moment = np.stack(vector, axis=1), np.stack([found[f"M{c}"] for c in "xyz"], axis=1)
+            real = real[:, np.newaxis]
+            square = real**2 + np.sum(e * e, axis=1, keepdims=True)
+            once = np.cross(e, moment)
+            turned = moment + 2.0 * (real * once + np.cross(e, once)) / square
+            found |= dict(zip(("Mx", "My", "Mz"), turned.T, strict=True))
+        return found
+
+    def _coordinates(self, body: str, names: Iterable[str]) -> list[Array]:
+        """Return coordinates of a body at the outputs."""
+        known = {quantity.name: i for i, quantity in enumerate(self.compiled.info.coordinates)}
+        return [self.outcome.states[:, known[f"{body}.{name}"]] for name in names]
 
     def _entries(self) -> list[tuple[int, int, Array]]:
         """Return (row, column, values at all outputs) of D's structural entries."""
@@ -177,6 +201,6 @@ def _minimum_norm(outcome: Outcome) -> Array:
     return values
 
 
-def _multiplier_unit(row_unit: str) -> str:
+def multiplier_unit(row_unit: str) -> str:
     """Return the unit of a multiplier whose row is measured in `row_unit`: lambda times the row is work or power."""
     return {"m": "N", "m/s": "N", "rad": "N m", "rad/s": "N m"}.get(row_unit, f"J/({row_unit})")

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from symgen.result.reactions import Forces
     from symgen.runtime.run import Outcome, RankEvent
 
-_ACCELERATIONS = {
+ACCELERATIONS = {
     "vx": "ax",
     "vy": "ay",
     "vz": "az",
@@ -138,7 +138,7 @@ class Result:
         names, units = [], []
         for name, unit in zip(self.v.names, self.v.units, strict=True):
             body, _, component = name.rpartition(".")
-            names.append(f"{body}.{_ACCELERATIONS[component]}")
+            names.append(f"{body}.{ACCELERATIONS[component]}")
             units.append(f"{unit}^2")
         return Labelled(self.outcome.accelerations, tuple(names), tuple(units))
 
@@ -166,13 +166,14 @@ class Result:
     def reactions(self) -> Labelled:
         """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
 
-        ``-D^T lambda`` of the joint's rows. The moment is about the body's centre of mass; where the first body is the
-        ground, about the ground's origin.
+        In space ``JOINT.Fx`` ... ``.Fz`` and ``JOINT.Mx`` ... ``.Mz``, all in ground axes. ``-D^T lambda`` of the
+        joint's rows; the moment is about the body's centre of mass, where the first body is the ground about the
+        ground's origin.
         """
         return self.forces.reactions(self.lam)
 
     def reaction(self, joint: str) -> Array:
-        """Return the reaction of one joint, shape (k, 3): force [N] and moment [N m]."""
+        """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
         return self.reactions[joint]
 
     @property
@@ -227,6 +228,11 @@ class Result:
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
+    @property
+    def shape(self) -> str:
+        """Return the shape of the code that ran: ``straight`` or ``looped``."""
+        return self.outcome.compiled.shape
+
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
         last = self.t.shape[0] - 1
@@ -235,6 +241,7 @@ class Result:
                 "mechanism": self.mechanism,
                 "method": self.method,
                 "integrator": self.integrator,
+                "shape": self.shape,
                 "step": self.step,
                 "rtol": self.rtol,
                 "atol": self.atol,

@@ -21,6 +21,8 @@ ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
 STAGE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 #: geometry(t, y, p, w).
 MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
+#: move(y, w) or turn(y, w): the section ``change`` applied to the coordinates.
+MOVE = types.FunctionType(types.int64(_A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 
@@ -36,7 +38,10 @@ LENGTH = STATUS.index("length_scale")
 SPEED = STATUS.index("speed_scale")
 STEP_STATUS = STATUS.index("step")
 POWER = STATUS.index("power")
+WINDING = len(STATUS)  # where the section of angles begins that count turns
 PROBING = COUNTERS.index("probing")
+LIGHT = COUNTERS.index("light")
+ITERATIONS = COUNTERS.index("iterations")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers shared with the thread that watches a run

@@ -2,7 +2,8 @@
 
 With the algorithmic acceleration a,
 
-- ``q1 = q0 + h N v0 + h^2 (1/2 - beta) a0 + h^2 beta a1``, ``v1 = v0 + h (1 - gamma) a0 + h gamma a1``,
+- ``q1 = q0 + d`` with ``d = h v0 + h^2 (1/2 - beta) a0 + h^2 beta a1``; in space bodies turn by the exponential of
+  their part of d (Bruls, Cardona 2010); ``v1 = v0 + h (1 - gamma) a0 + h gamma a1``,
 - ``(1 - alpha_m) a1 + alpha_m a0 = (1 - alpha_f) v1' + alpha_f v0'``,
 
 the equations of motion and the constraints, at position or acceleration level, hold at the end of the step (Arnold,
@@ -18,7 +19,8 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.dense import eliminate, substitute
+from symgen.runtime.dense import eliminate, leave_out, leave_out_rest, substitute
+from symgen.runtime.manifold import advance, fold_map, unfold
 from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -36,8 +38,9 @@ _MOST_ITERATIONS = 20
 
 @jit(
     _I8(
-        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _F8, _F8, _F8, _F8, _I8, _I8, _I8, _I8),
-        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
+        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, abi.MOVE),
+        *(_F8, _F8, _F8, _F8, _I8, _I8, _I8, _I8, _I8, _I8, _I8),
+        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I, _I),
     ),
 )
 def alpha_steps(
@@ -46,14 +49,18 @@ def alpha_steps(
     rhs: Any,
     confirm: Any,
     accept: Any,
+    turn: Any,
     alpha_m: float,
     alpha_f: float,
     gamma: float,
     beta: float,
     nq: int,
     nv: int,
+    m: int,
     n: int,
     multipliers: int,
+    mask: int,
+    changes: int,
     y: Any,
     p: Any,
     w: Any,
@@ -69,6 +76,7 @@ def alpha_steps(
     events: Any,
     room: Any,
     rows: Any,
+    spins: Any,
 ) -> int:
     """Integrate with constant steps; an output between two steps is reached by a shortened step of its own.
 
@@ -76,8 +84,11 @@ def alpha_steps(
     ----------
     alpha_m, alpha_f, gamma, beta : float
         The scheme.
-    n, multipliers : int
-        Unknowns of a stage, and where the multipliers begin in `w`.
+    turn : emitted function
+        Moves positions in space; see `symgen.runtime.manifold`.
+    n, multipliers, mask, changes : int
+        Unknowns of a stage, and where the multipliers, the mask of redundant rows and the section ``change`` begin in
+        `w`.
     room, rows : Array
         Working memory.
 
@@ -108,7 +119,7 @@ def alpha_steps(
     at += nv
     slopes = part(room, at, n * n + n * width)
     at += n * n + n * width
-    matrix = part(room, at, size * size + size)
+    matrix = part(room, at, size * size + 2 * size)
 
     t, out, tiny, index = t0, 0, 1e-9 * h, 0
     accept(t, y, p, w, iw)
@@ -157,11 +168,14 @@ def alpha_steps(
         for _ in range(_MOST_ITERATIONS):
             for i in range(nv):
                 a1[i] = ((1.0 - alpha_f) * k[nq + i] + alpha_f * begun[nq + i] - alpha_m * a0[i]) / (1.0 - alpha_m)
-                trial[i] = y[i] + step * y[nq + i] + step * step * ((0.5 - beta) * a0[i] + beta * a1[i])
+                change[i] = step * y[nq + i] + step * step * ((0.5 - beta) * a0[i] + beta * a1[i])
                 trial[nq + i] = y[nq + i] + step * ((1.0 - gamma) * a0[i] + gamma * a1[i])
                 k[i] = trial[nq + i]
+            advance(nq, nv, y, change, trial, w, changes, turn)
             if fresh:
+                unfold(nq, nv, n, slopes)
                 tangent(following, trial, k, p, w, slopes)
+                fold_map(nq, nv, n, slopes, right, spins, change)
                 for r in range(size):
                     row = nq + r
                     for c in range(size):
@@ -169,10 +183,12 @@ def alpha_steps(
                     for c in range(nv):
                         base = n * n + row * width
                         matrix[r * size + c] += by_position * slopes[base + c] + by_velocity * slopes[base + nq + c]
+                leave_out(matrix, size, 0, size, nv, m, w, mask)
                 eliminate(matrix, size, rows)
                 control[_JACOBIANS] += 1
                 fresh = False
             residual(following, trial, k, p, w, right)
+            leave_out_rest(right, nq, size, nv, m, w, mask, k, nq)
             control[_EVALUATIONS] += 1
             substitute(matrix, size, rows, part(right, nq, size), change)
             control[_ITERATIONS] += 1
@@ -198,8 +214,9 @@ def alpha_steps(
             return _NEWTON
         for i in range(nv):
             a1[i] = ((1.0 - alpha_f) * k[nq + i] + alpha_f * begun[nq + i] - alpha_m * a0[i]) / (1.0 - alpha_m)
-            trial[i] = y[i] + step * y[nq + i] + step * step * ((0.5 - beta) * a0[i] + beta * a1[i])
+            change[i] = step * y[nq + i] + step * step * ((0.5 - beta) * a0[i] + beta * a1[i])
             trial[nq + i] = y[nq + i] + step * ((1.0 - gamma) * a0[i] + gamma * a1[i])
+        advance(nq, nv, y, change, trial, w, changes, turn)
         trial[width] = y[width] + 0.5 * step * (power + w[_POWER])
         iw[_PROBING] = 1 if partial else 0
         reached = w[_POWER]

@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError, InputError
 from symgen.runtime.abi import N_COUNTERS
-from symgen.runtime.probe import call_measure, call_rhs, interpreted
+from symgen.runtime.large import SparseRows, is_large, minimum_norm_step, tangent_direction
+from symgen.runtime.probe import call_measure, call_rhs
+from symgen.runtime.turns import choose_turns, follow_angles
+from symgen.store.modules import interpreted
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -104,11 +107,13 @@ def assemble(
     y[: info.nq] = q
     notes: list[str] = []
 
+    choose_turns(compiled, t0, y, p, w)
     moved = _close(compiled, t0, y, p, w)
     if moved > 1e-9 * max(1.0, float(np.abs(q).max(initial=0.0))):
         notes.append(f"initial positions were closed by minimum-norm Newton, moving a coordinate by up to {moved:.3g}")
-    d = compiled.jacobian(w)
-    changed = _complete_velocities(compiled, y, v, d, w)
+    large = is_large(compiled)
+    d = None if large else compiled.jacobian(w)
+    changed = _complete_velocities(compiled, y, v, d, p, w)
     if changed:
         notes.append(changed)
     if notes and strict:
@@ -120,7 +125,8 @@ def assemble(
     status = compiled.section(w, "status")
     status[6] = max(1.0, float(np.abs(y[: info.nq]).max(initial=0.0)))
     status[7] = max(1.0, float(np.abs(y[info.nq : -1]).max(initial=0.0)))
-    return Start(y, p, w, _rank(d), redundant, tuple(notes))
+    rank = int(np.sum(compiled.section(w, "pivot") >= SKIP)) if d is None else _rank(d)
+    return Start(y, p, w, rank, redundant, tuple(notes))
 
 
 def _lasting(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> NDArray[np.bool_]:
@@ -129,12 +135,19 @@ def _lasting(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -
     lasting = np.asarray(compiled.section(w, "pivot") < SKIP)
     if not lasting.any():
         return lasting
-    _, sizes, rows = np.linalg.svd(_scaled(compiled.jacobian(w)))
-    free = rows[int(np.sum(sizes > RANK_CUTOFF)) :]
-    for k in range(3 if len(free) else 0):
-        direction = np.cos((k + 1.0) * np.arange(1, len(free) + 1)) @ free
+    large, free = is_large(compiled), np.zeros((0, 0))
+    if not large:
+        _, sizes, rows = np.linalg.svd(_scaled(compiled.jacobian(w)))
+        free = rows[int(np.sum(sizes > RANK_CUTOFF)) :]
+    for k in range(3 if large or len(free) else 0):
+        if large:
+            direction = tangent_direction(compiled, p, w.copy(), k)
+        else:
+            direction = np.cos((k + 1.0) * np.arange(1, len(free) + 1)) @ free
         probe, probed = y.copy(), w.copy()
-        probe[:nq] += 0.03 * max(1.0, float(np.abs(y[:nq]).max())) * direction / np.abs(direction).max()
+        size = 0.03 * max(1.0, float(np.abs(y[:nq]).max()))
+        compiled.move(probe, size * direction / np.abs(direction).max(), probed)
+        follow_angles(compiled, t0, probe, p, probed)
         try:
             _close(compiled, t0, probe, p, probed)
         except AssemblyError:
@@ -172,20 +185,40 @@ def _close(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> 
             return float(np.abs(y[: info.nq] - first).max(initial=0.0))
         if stalled >= 15:
             break
-        step = np.linalg.lstsq(compiled.jacobian(w), -phi, rcond=RANK_CUTOFF)[0]
+        step = _newton_step(compiled, p, w, phi)
         # far from closed, a full Newton step can turn bodies by several radians
-        y[: info.nq] += step * min(1.0, 1.0 / max(float(np.abs(step).max(initial=0.0)), 1e-300))
+        compiled.move(y, step * min(1.0, 1.0 / max(float(np.abs(step).max(initial=0.0)), 1e-300)), w)
+        follow_angles(compiled, t0, y, p, w)
     open_by: dict[str, float] = {}
     for row, residual in zip(info.rows, phi, strict=True):
         open_by[row.joint] = float(np.hypot(open_by.get(row.joint, 0.0), residual))
     worst = max(open_by, key=lambda joint: open_by[joint] if np.isfinite(open_by[joint]) else np.inf)
-    raise AssemblyError(
-        f"{info.name}: the mechanism cannot be assembled from this start: joint '{worst}' stays open by "
-        f"{open_by[worst]:.3g} m or rad; check its points and the positions of the bodies it joins"
+    raise AssemblyError(stays_open(info.name, worst, open_by[worst]))
+
+
+def stays_open(mechanism: str, joint: str, size: float) -> str:
+    """Return the sentence for positions that cannot be closed."""
+    return (
+        f"{mechanism}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
+        f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
     )
 
 
-def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array, w: Array) -> str:
+def no_velocities(mechanism: str) -> str:
+    """Return the sentence for velocities that cannot be completed."""
+    return f"{mechanism}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+
+
+def _newton_step(compiled: CompiledModel, p: Array, w: Array, phi: Array) -> Array:
+    """Return -D^+ Phi."""
+    if is_large(compiled):
+        return minimum_norm_step(compiled, p, w, phi)
+    return np.asarray(np.linalg.lstsq(compiled.jacobian(w), -phi, rcond=RANK_CUTOFF)[0])
+
+
+def _complete_velocities(
+    compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array | None, p: Array, w: Array
+) -> str:
     """Set the velocities in place; return a sentence if given ones had to be changed."""
     info = compiled.info
     velocity = y[info.nq : info.nq + info.nv]
@@ -194,25 +227,43 @@ def _complete_velocities(compiled: CompiledModel, y: Array, v: Sequence[float | 
     nu = compiled.section(w, "nu")
     if info.m == 0:
         return ""
-    residual = nu - d @ velocity
+    sparse = SparseRows(compiled, w) if d is None else None
+
+    def rest() -> Array:
+        if sparse is not None:
+            return np.asarray(nu - sparse.times(velocity))
+        assert d is not None, "either form of D is there"
+        return np.asarray(nu - d @ velocity)
+
+    def smallest(residual: Array, scale: Array) -> Array:
+        """Return the change with D change = residual whose change / scale is smallest."""
+        if sparse is not None:
+            return sparse.least_norm(residual, scale)
+        used = scale > 0.0
+        change = np.zeros(info.nv)
+        assert d is not None, "either form of D is there"
+        change[used] = scale[used] * np.linalg.lstsq(d[:, used] * scale[used], residual, rcond=RANK_CUTOFF)[0]
+        return change
+
+    residual = rest()
     scale = max(1.0, float(np.abs(velocity).max()))
     if not given.all():
-        velocity[~given] += np.linalg.lstsq(d[:, ~given], residual, rcond=RANK_CUTOFF)[0]
-        residual = nu - d @ velocity
+        velocity += smallest(residual, np.where(given, 0.0, 1.0))
+        residual = rest()
     if np.linalg.norm(residual) <= 1e-9 * scale:
         # what is left is rounding: take it out without touching the given values noticeably
-        velocity += np.linalg.lstsq(d, residual, rcond=RANK_CUTOFF)[0]
+        if sparse is None:
+            velocity += smallest(residual, np.ones(info.nv))
+        else:
+            velocity += minimum_norm_step(compiled, p, w, -residual)
         return ""
     before = velocity.copy()
     for _ in range(2):
         # massless bodies give way first
         masses = compiled.section(w, "mass")
-        root = 1.0 / np.sqrt(np.maximum(masses, 1e-12 * masses.max()))
-        velocity += root * np.linalg.lstsq(d * root, nu - d @ velocity, rcond=RANK_CUTOFF)[0]
-    if np.linalg.norm(nu - d @ velocity) > 1e-8 * scale:
-        raise AssemblyError(
-            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
-        )
+        velocity += smallest(rest(), 1.0 / np.sqrt(np.maximum(masses, 1e-12 * masses.max())))
+    if np.linalg.norm(rest()) > 1e-8 * scale:
+        raise AssemblyError(no_velocities(info.name))
     k = int(np.argmax(np.abs(velocity - before)))
     name = info.velocities[k]
     return (

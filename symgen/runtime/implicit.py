@@ -14,7 +14,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.dense import eliminate, substitute
+from symgen.runtime.dense import eliminate, leave_out, leave_out_rest, substitute
 from symgen.runtime.steps import store
 from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -26,6 +26,7 @@ _STOP, _STEPS, _REJECTED, _EVALUATIONS, _OUTPUTS = abi.STOP, abi.STEPS, abi.REJE
 _JACOBIANS, _ITERATIONS = abi.JACOBIANS, abi.NEWTON_ITERATIONS
 _DONE, _STOPPED, _NOT_FINITE = abi.DONE, abi.STOPPED, abi.NOT_FINITE
 _CORRECTION, _TINY, _NEWTON = abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
+_SCALE = abi.ENERGY_SCALE
 _STEP, _PHI, _STEP_STATUS, _PROBING, _POWER = abi.STEP, abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.POWER
 _MOST_ITERATIONS = 15
 
@@ -56,28 +57,26 @@ def place_block(
             matrix[base + j] += factor * tangent[n * n + i * width + j]
 
 
+@jit()
+def work_error(
+    step: float, errors: Any, begun: Any, powers: Any, y: Any, trial: Any, gauges: Any, rtol: float, atol: float
+) -> float:
+    """Return the weighted error estimate of the work, which enters no rate and so needs no filter.
+
+    Where every coordinate is driven nothing else is integrated: constraints in every stage make the other estimates 0.
+    """
+    last = y.shape[0] - 1
+    total = errors[0] * begun[last]
+    for s in range(powers.shape[0]):
+        total += errors[s + 1] * powers[s]
+    scale = max(gauges[_SCALE], abs(y[last]), abs(trial[last]))
+    return float(abs(step * total) / (atol + rtol * scale))
+
+
 @jit(
     _I8(
-        *(
-            abi.STAGE,
-            abi.STAGE,
-            abi.RHS,
-            abi.RHS,
-            abi.ACCEPT,
-            _A,
-            _A,
-            _A,
-            _I8,
-            _I8,
-            _A,
-            _F8,
-            _I8,
-            _I8,
-            _I8,
-            _I8,
-            _I8,
-            _I8,
-        ),
+        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _A, _A, _A, _I8, _I8, _A, _F8),
+        *(_I8, _I8, _I8, _I8, _I8, _I8, _I8),
         *(_A, _A, _A, _I, _I8, _F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
     ),
 )
@@ -100,6 +99,7 @@ def implicit_steps(
     m: int,
     n: int,
     multipliers: int,
+    mask: int,
     y: Any,
     p: Any,
     w: Any,
@@ -132,8 +132,8 @@ def implicit_steps(
         Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
     filter_factor : float
         The estimate is filtered by ``(dF/dk + h filter_factor dF/dy)^-1 dF/dk``; 0: it is not.
-    n, multipliers : int
-        Unknowns of a stage, and where the multipliers begin in `w`.
+    n, multipliers, mask : int
+        Unknowns of a stage, and where the multipliers and the mask of redundant rows begin in `w`.
     room, rows : Array
         Working memory.
     """
@@ -158,7 +158,7 @@ def implicit_steps(
     at += n_stages
     slopes = part(room, at, n * n + n * width)
     at += n * n + n * width
-    matrix = part(room, at, unknowns * unknowns + unknowns)
+    matrix = part(room, at, unknowns * unknowns + 2 * unknowns)
 
     t, out, tiny = t0, 0, 1e-9 * h
     accept(t, y, p, w, iw)
@@ -217,12 +217,14 @@ def implicit_steps(
                             factor = step * a[s * n_stages + j]
                             diagonal = 1.0 if s == j else 0.0
                             place_block(matrix, unknowns, s - low, j - low, n, width, diagonal, factor, slopes)
+                        leave_out(matrix, unknowns, (s - low) * n, n, width, m, w, mask)
                     eliminate(matrix, unknowns, rows)
                     control[_JACOBIANS] += 1
                     fresh = False
                 for s in range(low, high):
                     stage_state(y, width, n, step, a, s, n_stages, k, trial)
                     residual(t + c[s] * step, trial, part(k, s * n, n), p, w, part(right, (s - low) * n, n))
+                    leave_out_rest(right, (s - low) * n, n, width, m, w, mask, k, s * n)
                     powers[s] = w[_POWER]
                     control[_EVALUATIONS] += 1
                 substitute(matrix, unknowns, rows, right, change)
@@ -285,12 +287,13 @@ def implicit_steps(
                     for j in range(width):
                         right[i] += slopes[i * n + j] * change[j]
                 place_block(matrix, n, 0, 0, n, width, 1.0, step * filter_factor, slopes)
+                leave_out(matrix, n, 0, n, width, m, w, mask)
                 eliminate(matrix, n, rows)
                 substitute(matrix, n, rows, right, change)
             for i in range(width):
                 scale = atol + rtol * max(abs(y[i]), abs(trial[i]))
                 error += (change[i] / scale) ** 2
-            error = math.sqrt(error / width)
+            error = max(math.sqrt(error / width), work_error(step, errors, begun, powers, y, trial, gauges, rtol, atol))
             if not error <= 1.0:
                 control[_REJECTED] += 1
                 h = step * (max(0.2, 0.9 * error ** (-1.0 / (error_order + 1.0))) if math.isfinite(error) else 0.1)

@@ -10,16 +10,18 @@ from numba import types
 from symgen.runtime import abi
 from symgen.store.jit import jit
 
+_WINDING = abi.WINDING
 _A, _I, _M, _I8 = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64
 
 
-@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, _A, _M, _A, _A, _I, _I8, _I8, _M, _M))
+@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, _A, _M, _M, _A, _A, _I, _I8, _I8, _M, _M))
 def observe_rates(
     rhs: Any,
     confirm: Any,
     accept: Any,
     times: Any,
     states: Any,
+    angles: Any,
     p: Any,
     w: Any,
     iw: Any,
@@ -36,6 +38,8 @@ def observe_rates(
         See `symgen.runtime.abi`.
     times, states : Array, shapes (k,), (k, ny)
         The outputs, in the order of time.
+    angles : Array, shape (k, number of angles whose turns are counted)
+        What the section ``winding`` held at the outputs.
     nq, multipliers : int
         Number of coordinates, and where the multipliers begin in `w`.
     accelerations, lam : Array, shapes (k, nv), (k, m)
@@ -46,6 +50,8 @@ def observe_rates(
     for k in range(times.shape[0]):
         for i in range(y.shape[0]):
             y[i] = states[k, i]
+        for i in range(angles.shape[1]):
+            w[_WINDING + i] = angles[k, i]
         accept(times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
         if rhs(times[k], y, p, w, iw, rate) != 0:
             confirm(times[k], y, p, w, iw, rate)
@@ -56,9 +62,17 @@ def observe_rates(
     return 0
 
 
-@jit(_I8(abi.OBSERVE, _A, _M, _M, _A, _A, _I8, _M))
+@jit(_I8(abi.OBSERVE, _A, _M, _M, _M, _A, _A, _I8, _M))
 def observe_rows(
-    observe: Any, times: Any, states: Any, accelerations: Any, p: Any, w: Any, nq: int, observed: Any
+    observe: Any,
+    times: Any,
+    states: Any,
+    accelerations: Any,
+    angles: Any,
+    p: Any,
+    w: Any,
+    nq: int,
+    observed: Any,
 ) -> int:
     """Evaluate D v' - gamma and the joint coordinates with their rates at every output.
 
@@ -68,6 +82,8 @@ def observe_rows(
         See `symgen.runtime.abi`.
     times, states, accelerations : Array, shapes (k,), (k, ny), (k, nv)
         The outputs.
+    angles : Array, shape (k, number of angles whose turns are counted)
+        What the section ``winding`` held at the outputs.
     observed : Array, shape (k, m + 2 n)
         Result, in the order that ``observe`` writes.
     """
@@ -79,6 +95,8 @@ def observe_rows(
             y[i] = states[k, i]
         for i in range(accelerations.shape[1]):
             rate[nq + i] = accelerations[k, i]
+        for i in range(angles.shape[1]):
+            w[_WINDING + i] = angles[k, i]
         observe(times[k], y, p, w, rate, out)
         for i in range(observed.shape[1]):
             observed[k, i] = out[i]

@@ -22,8 +22,3 @@ def call_measure(function: Any, t: float, y: Any, p: Any, w: Any) -> int:
 def call_rhs(function: Any, t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
     """Call ``rhs``."""
     return int(function(t, y, p, w, iw, ydot))
-
-
-def interpreted(function: Any) -> Any:
-    """Return the plain Python form of an emitted function: what runs once a run is not worth compiling."""
-    return getattr(function, "py_func", function)

@@ -1,9 +1,10 @@
 """The loop of the index-3 augmented Lagrangian method with projections: trapezoidal rule in positions.
 
-With ``v1 = 2/h (q1 - q0) - v0`` and ``a1 = 4/h^2 (q1 - q0) - 4/h v0 - a0`` the equations of motion at the end of the
-step are solved for q1 with the leading matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised
-by a Phi in every iteration. Then velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4
-a D^T D) v* + h^2/4 a D^T nu``, iterated, since one pass leaves a residual.
+With ``v1 = 2/h d - v0`` and ``a1 = 4/h^2 d - 4/h v0 - a0``, d = q1 - q0 or in space the displacements and rotation
+vectors of the bodies over the step, the equations of motion at the end of the step are solved for q1 with the leading
+matrix ``W = M + h/2 C + h^2/4 (a D^T D + K)``, the multipliers being raised by a Phi in every iteration. Then
+velocities and accelerations are projected with the same matrix, ``W v = (W - h^2/4 a D^T D) v* + h^2/4 a D^T nu``,
+iterated, since one pass leaves a residual.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.dense import eliminate, substitute
+from symgen.runtime.manifold import advance, fold_map, unfold
 from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -60,8 +62,8 @@ def pull_back(factor: float, nq: int, nv: int, m: int, slopes: Any, rest: Any, a
 
 @jit(
     _I8(
-        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _F8, _I8, _I8, _I8, _I8),
-        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
+        *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, abi.MOVE, _F8, _I8, _I8, _I8, _I8, _I8),
+        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I, _I),
     ),
 )
 def projected_steps(
@@ -70,11 +72,13 @@ def projected_steps(
     rhs: Any,
     confirm: Any,
     accept: Any,
+    turn: Any,
     penalty: float,
     nq: int,
     nv: int,
     m: int,
     multipliers: int,
+    changes: int,
     y: Any,
     p: Any,
     w: Any,
@@ -90,6 +94,7 @@ def projected_steps(
     events: Any,
     room: Any,
     rows: Any,
+    spins: Any,
 ) -> int:
     """Integrate with constant steps; an output between two steps is reached by a shortened step of its own."""
     width, ny, n = nq + nv, nq + nv + 1, nq + nv + m
@@ -108,13 +113,15 @@ def projected_steps(
     at += nv
     change = part(room, at, nv)
     at += nv
+    shift = part(room, at, nv)  # of positions over the step, in the coordinates of v
+    at += nv
     forces = part(room, at, m)  # multipliers at the beginning of the step
     at += m
     held = part(room, at, m)  # the same in the iteration
     at += m
     slopes = part(room, at, n * n + n * width)
     at += n * n + n * width
-    matrix = part(room, at, nv * nv + nv)
+    matrix = part(room, at, nv * nv + 2 * nv)
 
     t, out, tiny, index = t0, 0, 1e-9 * h, 0
     accept(t, y, p, w, iw)
@@ -155,16 +162,17 @@ def projected_steps(
         quarter = 0.25 * step * step
         penalty = max(asked, _LEAST_PENALTY * heaviest / quarter)
         for i in range(nv):
-            trial[i] = y[i] + step * y[nq + i] + 0.5 * step * step * begun[nq + i]
+            shift[i] = step * y[nq + i] + 0.5 * step * step * begun[nq + i]
+        advance(nq, nv, y, shift, trial, w, changes, turn)
         for c in range(m):
             held[c] = forces[c]
             k[width + c] = forces[c]
         last, fresh, converged = math.inf, True, False
         for iteration in range(_MOST_ITERATIONS):
             for i in range(nv):
-                trial[nq + i] = 2.0 / step * (trial[i] - y[i]) - y[nq + i]
+                trial[nq + i] = 2.0 / step * shift[i] - y[nq + i]
                 k[i] = trial[nq + i]
-                k[nq + i] = 4.0 / (step * step) * (trial[i] - y[i]) - 4.0 / step * y[nq + i] - begun[nq + i]
+                k[nq + i] = 4.0 / (step * step) * shift[i] - 4.0 / step * y[nq + i] - begun[nq + i]
             residual(following, trial, k, p, w, rest)
             for c in range(m):
                 if iteration > 0:
@@ -173,7 +181,9 @@ def projected_steps(
             residual(following, trial, k, p, w, rest)
             control[_EVALUATIONS] += 2
             if fresh:
+                unfold(nq, nv, n, slopes)
                 tangent(following, trial, k, p, w, slopes)
+                fold_map(nq, nv, n, slopes, change, spins, shift)
                 leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
                 eliminate(matrix, nv, rows)
                 control[_JACOBIANS] += 1
@@ -184,8 +194,10 @@ def projected_steps(
             control[_ITERATIONS] += 1
             moved, total, violation = 0.0, 0.0, 0.0
             for i in range(nv):
-                trial[i] -= change[i]
+                shift[i] -= change[i]
                 moved += change[i] ** 2
+            advance(nq, nv, y, shift, trial, w, changes, turn)
+            for i in range(nq):
                 total += trial[i] ** 2
             for c in range(m):
                 violation += rest[width + c] ** 2
@@ -200,9 +212,11 @@ def projected_steps(
         if not converged:
             return _NEWTON
         for i in range(nv):
-            trial[nq + i] = 2.0 / step * (trial[i] - y[i]) - y[nq + i]
-            k[nq + i] = 4.0 / (step * step) * (trial[i] - y[i]) - 4.0 / step * y[nq + i] - begun[nq + i]
+            trial[nq + i] = 2.0 / step * shift[i] - y[nq + i]
+            k[nq + i] = 4.0 / (step * step) * shift[i] - 4.0 / step * y[nq + i] - begun[nq + i]
+        unfold(nq, nv, n, slopes)
         tangent(following, trial, k, p, w, slopes)
+        fold_map(nq, nv, n, slopes, change, spins, shift)
         leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
         eliminate(matrix, nv, rows)
         for level in range(2):  # velocities, then accelerations

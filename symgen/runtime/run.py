@@ -48,10 +48,14 @@ class RunSpec:
         Bound of adaptive steps [s].
     max_violation : float
         Largest |Phi| (times the largest coordinate) and |D v - nu| (times the largest speed) that is tolerated.
+    max_velocity_violation : float or None
+        The limit of |D v - nu| where it is another one.
     max_energy_error : float
         Largest energy error that is tolerated, as a fraction of the energy in motion.
     integrator_parameters : mapping
         Values of the integrator's parameters that differ from the defaults.
+    max_evaluations : int or None
+        The run is stopped some time after it took more right-hand sides than this.
     """
 
     until: float
@@ -62,8 +66,15 @@ class RunSpec:
     atol: float = 1e-10
     largest_step: float = np.inf
     max_violation: float = 1e-6
+    max_velocity_violation: float | None = None
     max_energy_error: float = 0.05
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
+    max_evaluations: int | None = None
+
+    @property
+    def velocity_limit(self) -> float:
+        """Largest |D v - nu| that is tolerated, as a fraction of the largest speed."""
+        return self.max_violation if self.max_velocity_violation is None else self.max_velocity_violation
 
 
 @dataclass(frozen=True)
@@ -131,6 +142,11 @@ class Outcome:
         """Return value and rate of every joint coordinate in turns at the outputs, shape (k, 2 n)."""
         return self._rows[:, self.compiled.info.m :]
 
+    @property
+    def _angles(self) -> Array:
+        """What the section ``winding`` held at the outputs."""
+        return np.ascontiguousarray(self.status_columns[:, abi.RANK + 1 :])
+
     @cached_property
     def _rates(self) -> tuple[Array, Array]:
         from symgen.runtime.observe import observe_rates
@@ -141,7 +157,7 @@ class Outcome:
         confirm = getattr(law, "confirm", rates)
         iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
         observe_rates(
-            *(rates, confirm, law.accept, self.times, self.states, self.p, self.start.w.copy(), iw),
+            *(rates, confirm, law.accept, self.times, self.states, self._angles, self.p, self.start.w.copy(), iw),
             *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
         )
         return accelerations, multipliers
@@ -152,7 +168,7 @@ class Outcome:
 
         info = self.compiled.info
         observed = np.zeros((len(self.times), info.m + 2 * len(info.joint_coordinates)))
-        arrays = (self.times, self.states, self.accelerations, self.p, self.w.copy(), info.nq, observed)
+        arrays = (self.times, self.states, self.accelerations, self._angles, self.p, self.w.copy(), info.nq, observed)
         observe_rows(self.compiled.model.observe, *arrays)
         return observed
 
@@ -187,11 +203,15 @@ def integrate(
     before = cache_stats()
     w, iw, gauges, control, events = _arrays(compiled, start, spec)
     y, p = start.y.copy(), start.p.copy()
-    outputs = spec.times, np.empty((len(spec.times), len(y))), np.empty((len(spec.times), abi.RANK + 1))
+    outputs = (
+        spec.times,
+        np.empty((len(spec.times), len(y))),
+        np.empty((len(spec.times), abi.RANK + 1 + compiled.info.windings)),
+    )
     call = integrator.call(compiled, spec, State(y, p, w, iw))
     watched = gauges, control, events
     _warm(call, outputs, watched)
-    code, seconds, interrupted = _in_thread(call, (*outputs, *watched), gauges, control, progress)
+    code, seconds, interrupted = _in_thread(call, (*outputs, *watched), gauges, control, progress, spec.max_evaluations)
 
     k = int(control[abi.OUTPUTS])
     after = cache_stats()
@@ -199,7 +219,13 @@ def integrate(
     table = events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
         code=code,
-        reason=_reason(code, w, gauges, spec),
+        reason=end_reason(
+            code,
+            float(gauges[abi.TIME]),
+            (float(w[abi.PHI]), float(w[abi.DRIFT]), float(w[abi.LENGTH]), float(w[abi.SPEED])),
+            float(gauges[abi.ENERGY_SCALE]),
+            spec,
+        ),
         end=float(gauges[abi.TIME]),
         times=outputs[0][:k],
         states=outputs[1][:k],
@@ -235,7 +261,7 @@ def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array
     iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
     gauges = np.zeros(abi.N_GAUGES)
     control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-    gauges[abi.LIMIT_PHI] = gauges[abi.LIMIT_DRIFT] = spec.max_violation
+    gauges[abi.LIMIT_PHI], gauges[abi.LIMIT_DRIFT] = spec.max_violation, spec.velocity_limit
     gauges[abi.LIMIT_ENERGY] = spec.max_energy_error
     gauges[abi.WARN_PIVOT] = WARN
     gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = 1.0
@@ -254,13 +280,20 @@ def _warm(call: LoopCall, outputs: tuple[Array, ...], watched: tuple[Any, ...]) 
 
 
 def _in_thread(
-    call: LoopCall, watched: tuple[Any, ...], gauges: Array, control: Any, progress: Callable[[float], None] | None
+    call: LoopCall,
+    watched: tuple[Any, ...],
+    gauges: Array,
+    control: Any,
+    progress: Callable[[float], None] | None,
+    budget: int | None,
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
-    Returns how the loop ended, its seconds, and whether it was interrupted, be it too late to stop it.
+    Returns how the loop ended, its seconds, and whether it was interrupted, be it too late to stop it. A loop beyond
+    its budget of evaluations is stopped as well; it does not count as interrupted.
     """
     result: list[Any] = []
+    interrupted = False
     finished = threading.Event()
 
     def work() -> None:
@@ -278,26 +311,47 @@ def _in_thread(
         try:
             # not Thread.join: interrupted there, Python 3.11 takes a running thread for a stopped one
             while not finished.wait(0.1):
+                if budget is not None and control[abi.EVALUATIONS] > budget:
+                    control[abi.STOP] = 1
                 if progress is not None:
                     progress(float(gauges[abi.TIME]))
             break
         except KeyboardInterrupt:
+            interrupted = True
             control[abi.STOP] = 1
     outcome = result[0]
     if isinstance(outcome, BaseException):
         raise outcome
-    return int(outcome[0]), float(outcome[1]), bool(control[abi.STOP])
+    return int(outcome[0]), float(outcome[1]), interrupted
 
 
-def _reason(code: int, w: Array, gauges: Array, spec: RunSpec) -> str:
+def end_reason(code: int, time: float, violations: tuple[float, ...], scale: float, spec: RunSpec) -> str:
+    """Return why a loop ended, empty where it reached the end.
+
+    Parameters
+    ----------
+    code : int
+        See `symgen.runtime.abi`.
+    time : float
+        Time reached [s].
+    violations : tuple of float
+        |Phi|, |D v - nu| and the largest coordinate and speed that they are judged by, at that time.
+    scale : float
+        Energy in motion [J].
+    spec : RunSpec
+        The limits.
+    """
     if code == abi.DONE:
         return ""
-    where = f" at t = {gauges[abi.TIME]:.6g} s"
+    where = f" at t = {time:.6g} s"
     sentence = abi.REASONS[code]
+    phi, drift, length, speed = violations
     if code == abi.POSITION:
-        return f"{sentence} ({w[abi.PHI]:.3g} > {spec.max_violation:g} x {w[abi.LENGTH]:.3g}){where}"
+        return f"{sentence} ({phi:.3g} > {spec.max_violation:g} x {length:.3g}){where}"
     if code == abi.VELOCITY:
-        return f"{sentence} ({w[abi.DRIFT]:.3g} > {spec.max_violation:g} x {w[abi.SPEED]:.3g}){where}"
+        if spec.max_velocity_violation is not None:
+            sentence = sentence.replace("max_violation", "the root of max_violation")
+        return f"{sentence} ({drift:.3g} > {spec.velocity_limit:g} x {speed:.3g}){where}"
     if code == abi.ENERGY:
-        return f"{sentence} ({spec.max_energy_error:g} of {gauges[abi.ENERGY_SCALE]:.3g} J){where}"
+        return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"
     return sentence + where

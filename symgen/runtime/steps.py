@@ -9,6 +9,7 @@ from symgen.runtime import abi
 from symgen.store.jit import jit
 
 _N_STATUS = abi.RANK + 1
+_WINDING = abi.WINDING
 
 
 @jit()
@@ -18,6 +19,8 @@ def store(k: int, y: Any, w: Any, states: Any, status: Any) -> None:
         states[k, i] = y[i]
     for i in range(_N_STATUS):
         status[k, i] = w[i]
+    for i in range(_N_STATUS, status.shape[1]):  # angles with their turns counted
+        status[k, i] = w[_WINDING - _N_STATUS + i]
 
 
 @jit()

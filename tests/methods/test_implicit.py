@@ -175,6 +175,51 @@ def test_an_adaptive_implicit_run_passes_the_transient():
     assert stiff.points().distance(np.asarray(result.q), exact) <= 1e-7
 
 
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_the_work_takes_part_in_the_error_estimate(rtol):
+    """Where all coordinates are driven the constraints fix the motion, and the work is all that is integrated."""
+    keys = {"method": "ggl", "integrator": "radau5", "until": 5.0}
+    result = load("driven-four-bar").simulate(rtol=rtol, atol=rtol * 1e-2, **keys)
+    assert result.status == "ok", result.reason
+    assert result.energy_drift_max <= 10.0 * rtol * result.outcome.energy_scale
+
+
+def test_velocities_of_generalized_alpha_are_an_error_of_order_two_and_judged_as_one():
+    model, keys = load("four-bar"), {"method": "generalized-alpha", "until": 3.0}
+    runs = [model.simulate(step=step, **keys) for step in (2e-3, 1e-3, 5e-4)]
+    assert all(r.status == "ok" for r in runs)
+    errors = [r.velocity_violation_max for r in runs]
+    assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05) == errors[1] / errors[2]
+    # the same over a longer time: an error of the discretisation, not drift
+    assert model.simulate(step=1e-3, **keys | {"until": 12.0}).velocity_violation_max <= 1.5 * errors[1]
+    assert all(f"off their constraints by up to {e:.3g}" in r.warnings[-1] for r, e in zip(runs, errors, strict=True))
+    assert all(r.position_violation_max < 1e-13 for r in runs)
+    fine = model.simulate(step=1e-4, **keys | {"until": 0.5})
+    assert fine.status == "ok" and not fine.warnings
+    coarse = load("slider-crank").simulate(method="generalized-alpha", step=1e-2, until=1.0)
+    assert coarse.status == "failed" and "exceeds the root of max_violation" in coarse.reason
+    with pytest.raises(InputError, match="max_violation"):
+        model.simulate(max_violation=-1.0, **keys)
+
+
+def test_other_methods_have_no_such_licence():
+    spec = make_plan(load("four-bar"), Settings(method="lagrange")).spec
+    assert spec.velocity_limit == spec.max_violation == 1e-6
+    assert make_plan(load("four-bar"), Settings(method="generalized-alpha")).spec.velocity_limit == pytest.approx(1e-3)
+
+
+def test_scipy_agrees_on_the_stiff_case():
+    """Radau of SciPy on independently derived equations, its Jacobian by differences: nothing is shared."""
+    from symgen.study.reference import reference
+
+    model = stiff.model()
+    start = model.assemble(model.compile())
+    nq = model.compile().info.nq
+    state = start.y[:nq], start.y[nq:-1]
+    found = reference(model.mechanism, model.parameters(), *state, stiff.TIMES, solver="scipy-radau")
+    assert stiff.points().distance(found.q, stiff.reference()[0]) <= 1e-9
+
+
 def test_tables_have_slopes_in_implicit_schemes():
     keys = {"method": "direct-correction", "until": 0.2, "output_step": 0.05}
     model = load(Path(__file__).parents[2] / "examples" / "gear-pair.toml")

@@ -10,7 +10,20 @@ import symgen
 from symgen.errors import InputError
 
 RUN_KEYS = {
-    *("mechanism", "method", "integrator", "step", "rtol", "atol", "until", "status", "reason", "warnings", "notes"),
+    *(
+        "mechanism",
+        "method",
+        "integrator",
+        "shape",
+        "step",
+        "rtol",
+        "atol",
+        "until",
+        "status",
+        "reason",
+        "warnings",
+        "notes",
+    ),
     *("parameters", "steps", "rejected", "evaluations", "iterations", "seconds", "position_violation_max"),
     *("velocity_violation_max", "energy_drift_max", "rank", "rank_events", "rank_event_count", "final"),
 }

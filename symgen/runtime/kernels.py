@@ -1,0 +1,34 @@
+"""Addresses of compiled kernels: generic code of the looped shape calls them through tables."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+from numba import config, types
+from numba.experimental.function_type import _get_jit_address
+
+_A = types.float64[::1]
+_T, _I = types.uint32[::1], types.int64
+#: kernel(t, y, p, w, T, at, out).
+KERNEL = types.int64(types.float64, _A, _A, _A, _T, types.uint32, _A)
+#: Generic code (T, p, w, i, j, k, value).
+GENERIC = types.int64(_T, _A, _A, _I, _I, _I, types.float64)
+
+
+def address(function: Any, machine: ModuleType, signature: Any = KERNEL) -> int:
+    """Return the address of a function, compiled or taken from the cache if it was not.
+
+    Parameters
+    ----------
+    function : Dispatcher
+        A function of an emitted kernel, or generic code.
+    machine : module
+        The generic code that will call it.
+    signature : Signature
+        `KERNEL` or `GENERIC`.
+    """
+    if config.DISABLE_JIT:
+        machine.KERNELS.append(function)
+        return len(machine.KERNELS) - 1
+    return int(_get_jit_address(function, signature))

@@ -1,0 +1,123 @@
+"""Angles in space whose turns are counted: starts whole turns away, and what a run makes of them."""
+
+import math
+
+import numpy as np
+import pytest
+from support.emitted import mechanism_of
+
+from symgen.api import load
+from symgen.runtime.turns import whole_turns
+
+
+def wheel(position=(0.0, 0.0, 0.0), angle=0.0, **keys):
+    return {
+        "mass": 1.0,
+        "inertia": [0.2, 0.2, 0.3],
+        "position": list(position),
+        "orientation": {"rotation_vector": [0.0, 0.0, angle]},
+        **keys,
+    }
+
+
+def held(body, position=(0.0, 0.0, 0.0), kind="revolute", **keys):
+    frame = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+    axis = [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]]
+    return {
+        "type": kind,
+        "between": ["ground", body],
+        "at": [list(position), "centre"],
+        "axis": axis,
+        "reference": frame,
+        **keys,
+    }
+
+
+def mechanism(bodies, joints):
+    return load(
+        mechanism_of({"mechanism": {"name": "turning", "space": "spatial"}, "bodies": bodies, "joints": joints})
+    )
+
+
+def start_angles(model):
+    compiled = model.compile("lagrange")
+    start = model.assemble(compiled)
+    return compiled.section(start.w, "winding"), start
+
+
+@pytest.mark.parametrize("value", [5.0, -40.0, 3.3, -math.pi, 0.3])
+@pytest.mark.parametrize("described", [0.0, 3.0, -2.0])
+def test_a_driver_may_start_whole_turns_away(value, described):
+    model = mechanism(
+        {"a": wheel(angle=described)}, {"A": held("a"), "d": {"type": "driver", "joint": "A", "value": value}}
+    )
+    (angle,), start = start_angles(model)
+    assert angle == pytest.approx(value, abs=1e-12)
+    turned = 2.0 * math.atan2(start.y[6], start.y[3])
+    assert math.remainder(turned - value, math.tau) == pytest.approx(0.0, abs=1e-12)
+    # the body was turned the short way: by what is left beside whole turns
+    moved = 2.0 * math.asin(min(1.0, abs(math.sin((turned - described) / 2.0))))
+    assert moved == pytest.approx(abs(math.remainder(value - described, math.tau)), abs=1e-9)
+
+
+def test_gears_and_racks_follow_a_driver_over_whole_turns():
+    """A at 7 rad turns B by way of 2 A + B = 31 and the rack by 0.1 B; all described near where they belong."""
+    b = 31.0 - 14.0
+    bodies = {
+        "a": wheel(angle=math.remainder(7.1, math.tau)),
+        "b": wheel((1.0, 0.0, 0.0), math.remainder(b + 0.2, math.tau)),
+        "c": wheel((0.0, 0.1 * b + 0.02, 2.0)),
+    }
+    rack = held("c", (0.0, 0.0, 2.0), "translational") | {
+        "axis": [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        "reference": [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]],
+    }
+    joints = {
+        "rack": {"type": "rack-and-pinion", "pinion": "B", "rack": "C", "radius": 0.1},
+        "mesh": {"type": "gear", "joints": ["A", "B"], "radii": [2.0, 1.0], "offset": 31.0},
+        "A": held("a"),
+        "B": held("b", (1.0, 0.0, 0.0)),
+        "C": rack,
+        "motor": {"type": "driver", "joint": "A", "value": "7 + 3*t"},
+    }
+    model = mechanism(bodies, joints)
+    angles, start = start_angles(model)
+    np.testing.assert_allclose(sorted(angles), [7.0, b], atol=1e-12)
+    assert start.rank == len(model.compile("lagrange").info.rows)
+    result = model.simulate(method="direct-correction", integrator="rk4", step=0.02, until=5.0)
+    assert result.status == "ok"
+    np.testing.assert_allclose(result["A.angle"], 7.0 + 3.0 * result.t, atol=1e-9)
+    np.testing.assert_allclose(result["B.angle"], b - 6.0 * result.t, atol=1e-9)
+    np.testing.assert_allclose(result["C.displacement"], 0.1 * (b - 6.0 * result.t), atol=1e-9)
+
+
+def test_a_nut_far_along_its_thread():
+    """The displacement of 0.35 m is 35 turns of 0.01 m; described only nearly so, and free to turn on."""
+    screw = held("a", kind="screw", pitch=0.01)
+    model = mechanism({"a": wheel((0.0, 0.0, 0.3501), 0.05, angular_velocity=[0.0, 0.0, 30.0])}, {"S": screw})
+    (angle,), start = start_angles(model)
+    assert start.y[2] == pytest.approx(0.01 * angle / math.tau, abs=1e-14)
+    assert abs(angle - 35.0 * math.tau) < 0.1
+    result = model.simulate(method="lagrange", integrator="rk4", step=1e-3, until=2.0)
+    np.testing.assert_allclose(result["S.angle"], angle + 30.0 * result.t, atol=1e-7)
+    np.testing.assert_allclose(result["S.displacement"], 0.01 * result["S.angle"] / math.tau, atol=1e-12)
+
+
+def test_multipliers_between_outputs_far_apart_know_the_turns():
+    """Baumgarte's terms contain the driven angle, which turns by more than two turns between outputs."""
+    bodies, joints = {"a": wheel()}, {"A": held("a"), "d": {"type": "driver", "joint": "A", "value": "4 + 30*t"}}
+    model = mechanism(bodies, joints)
+    result = model.simulate(method="baumgarte", integrator="rk4", step=5e-4, until=2.0, output_step=0.5)
+    assert result.status == "ok"
+    np.testing.assert_allclose(result["A.angle"], 4.0 + 30.0 * result.t, atol=1e-8)
+    np.testing.assert_allclose(result["d.driver"], 0.0, atol=1e-3)
+
+
+def test_turns_of_gear_trains():
+    turn = math.tau
+    # a row of one angle decides first, even if it stands last; then the row it shares with another one
+    effects = np.array([[2.0 * turn, turn], [turn, 0.0]])
+    np.testing.assert_array_equal(whole_turns(effects, np.array([4.0 * turn + 0.3, -3.0 * turn - 0.2])), [3.0, -10.0])
+    # alone, the angle that closes the row best is shifted; the other one is left
+    np.testing.assert_array_equal(whole_turns(np.array([[2.0 * turn, turn]]), np.array([-3.0 * turn])), [0.0, 3.0])
+    np.testing.assert_array_equal(whole_turns(np.array([[0.0, 0.0]]), np.array([50.0])), [0.0, 0.0])
