@@ -1,0 +1,208 @@
+"""What varies: axes of values for parameters and starts, and the grid that they span.
+
+Text such as ``lin(1, 3, 21)`` is read by a parser of its own that knows four words and numbers; nothing is evaluated.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from symgen.errors import InputError, nearest
+
+Array = NDArray[np.float64]
+
+#: An ensemble has at most so many runs.
+MOST_RUNS = 1_000_000_000
+_SHAPE = re.compile(r"\s*([A-Za-z]+)\s*\(([^()]*)\)\s*")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One dimension of the grid: names that vary together, each with a value for every index.
+
+    Attributes
+    ----------
+    dimension : str
+        Name of the dimension.
+    values : mapping of str to Array, shape (n,)
+        Values of each name.
+    """
+
+    dimension: str
+    values: Mapping[str, Array]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.values.values())))
+
+
+@dataclass(frozen=True)
+class Grid:
+    """All combinations of the axes' indices; the last axis changes fastest."""
+
+    axes: tuple[Axis, ...]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values along each axis."""
+        return tuple(len(axis) for axis in self.axes)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that vary."""
+        return tuple(name for axis in self.axes for name in axis.values)
+
+    def __len__(self) -> int:
+        return math.prod(self.shape)
+
+    def values(self, first: int, last: int) -> dict[str, Array]:
+        """Return the value of every name in the runs from `first` to `last`, shape (last - first,) each."""
+        indices = np.unravel_index(np.arange(first, last), self.shape)
+        found: dict[str, Array] = {}
+        for axis, index in zip(self.axes, indices, strict=True):
+            for name, values in axis.values.items():
+                found[name] = values[index]
+        return found
+
+
+# -- from what people write --------------------------------------------------------------------------------------------
+
+
+def lin(first: float, last: float, count: int) -> Array:
+    """Return `count` equidistant values from `first` to `last`, both included."""
+    return np.linspace(first, last, _count("lin", count))
+
+
+def log(first: float, last: float, count: int) -> Array:
+    """Return `count` values from `first` to `last`, both above 0, each the same factor above the one before."""
+    if not (first > 0.0 and last > 0.0):
+        raise InputError("log", "two ends above 0", f"{first:g} and {last:g}")
+    found = np.exp(np.linspace(math.log(first), math.log(last), _count("log", count)))
+    found[0], found[-1] = first, last if len(found) > 1 else first
+    return np.asarray(found)
+
+
+def values(*numbers: float) -> Array:
+    """Return the numbers as they stand."""
+    return np.array(numbers, dtype=np.float64)
+
+
+def uniform(lowest: float, highest: float, count: int, seed: int) -> Array:
+    """Return `count` values drawn independently and evenly between two ends by NumPy's PCG64 with this `seed`."""
+    if not lowest < highest:
+        raise InputError("uniform", "a first end below the second", f"{lowest:g} and {highest:g}")
+    if not (float(seed).is_integer() and 0 <= seed < 2**63):
+        raise InputError("uniform", "a whole number from 0 on as its seed", f"{seed:g}")
+    return np.random.default_rng(int(seed)).uniform(lowest, highest, _count("uniform", count))
+
+
+def _count(where: str, count: float) -> int:
+    if not (float(count).is_integer() and 1 <= count <= MOST_RUNS):
+        raise InputError(where, f"a whole number of values from 1 to {MOST_RUNS:g}", f"{count:g}")
+    return int(count)
+
+
+#: Word -> (what builds the values, number of arguments or None for any, how it is written).
+_WORDS: Mapping[str, tuple[Callable[..., Array], int | None, str]] = {
+    "lin": (lin, 3, "lin(first, last, count)"),
+    "log": (log, 3, "log(first, last, count)"),
+    "values": (values, None, "values(a, b, ...)"),
+    "uniform": (uniform, 4, "uniform(lowest, highest, count, seed)"),
+}
+
+
+def parse(text: str, where: str) -> Array:
+    """Return the values that a text such as ``lin(1, 3, 21)`` stands for.
+
+    Parameters
+    ----------
+    text : str
+        ``lin(a, b, n)``, ``log(a, b, n)``, ``values(a, b, ...)`` or ``uniform(a, b, n, seed)``.
+    where : str
+        For the message.
+
+    Raises
+    ------
+    InputError
+        If it is anything else.
+    """
+    expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
+    found = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
+    if found is None:
+        raise InputError(where, expected, f"'{text.strip()[:60]}'")
+    word = found[1]
+    if word not in _WORDS:
+        raise InputError(where, expected, f"'{word}'", nearest(word, _WORDS))
+    build, arity, form = _WORDS[word]
+    numbers = [_number(part, where) for part in found[2].split(",")]
+    if arity is not None and len(numbers) != arity:
+        raise InputError(where, form, f"{len(numbers)} numbers")
+    try:
+        return build(*numbers)
+    except InputError as error:
+        raise InputError(where, f"{form} with {error.expected}", error.got) from None
+
+
+def _number(text: str, where: str) -> float:
+    if _NUMBER.fullmatch(text.strip()) is None or not math.isfinite(number := float(text)):
+        raise InputError(where, "finite numbers between the brackets", f"'{text.strip()[:60]}'")
+    return number
+
+
+def make_grid(
+    vary: Mapping[str, ArrayLike | str], runs: Mapping[str, ArrayLike | str], starts: Sequence[str] = ()
+) -> Grid:
+    """Return the grid of every combination of `vary`, times the runs whose values are listed together.
+
+    Parameters
+    ----------
+    vary : mapping
+        Name -> values, or the text of them; each name is a dimension.
+    runs : mapping
+        Name -> values of one length: the dimension ``run``.
+    starts : sequence of str
+        Names of coordinates and velocities; their dimensions are called ``crank.theta(0)``.
+
+    Raises
+    ------
+    InputError
+        If values are not finite numbers, lengths differ, or nothing varies.
+    """
+    axes = []
+    if runs:
+        together = {name: _values(name, given) for name, given in runs.items()}
+        lengths = {name: len(given) for name, given in together.items()}
+        if len(set(lengths.values())) > 1:
+            told = ", ".join(f"{length} for {name}" for name, length in lengths.items())
+            raise InputError("runs", "as many values for every name", told)
+        axes.append(Axis("run", together))
+    for name, given in vary.items():
+        if name in runs:
+            raise InputError(name, "one way of varying it", "two")
+        axes.append(Axis(f"{name}(0)" if name in starts else name, {name: _values(name, given)}))
+    if not axes:
+        raise InputError("sweep", "something that varies", "nothing")
+    grid = Grid(tuple(axes))
+    if len(grid) > MOST_RUNS:
+        raise InputError("sweep", f"at most {MOST_RUNS:g} runs", f"{len(grid):g}")
+    return grid
+
+
+def _values(name: str, given: ArrayLike | str) -> Array:
+    if isinstance(given, str):
+        return parse(given, name)
+    try:
+        found = np.array(given, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(name, "numbers", "something else") from None
+    if found.ndim != 1 or len(found) == 0:
+        raise InputError(name, "a list of at least one number", f"an array of shape {found.shape}")
+    if not np.all(np.isfinite(found)):
+        raise InputError(name, "finite numbers", "others")
+    return found

@@ -1,0 +1,154 @@
+"""Chunks run by the workers of a Dask cluster: modules travel as source, results stream back, a lost worker loses none.
+
+The scheduler hands a chunk whose worker was lost to another one. Rows are written here alone, once for every chunk.
+"""
+
+from __future__ import annotations
+
+from asyncio import CancelledError
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any
+
+from symgen.ensemble.kernel import Chunk, Recipe, code_identity, kernel_of, new_control
+from symgen.errors import InputError, SimulationError
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from symgen.ensemble.plan import Ensemble
+    from symgen.ensemble.starts import Rows
+    from symgen.ensemble.table import Table
+
+#: Chunks handed out for every thread of the cluster: enough to keep it busy, few enough for its memory.
+_AHEAD = 4
+#: A chunk is handed out again this often after workers died over it.
+_ATTEMPTS = 5
+
+
+def connect(address: str) -> Client:
+    """Return a client of a scheduler.
+
+    Raises
+    ------
+    InputError
+        If there is none, or the library is missing.
+    """
+    from symgen.result.export import need
+
+    need("--scheduler", "distributed", extra="dask")
+    from distributed import Client
+
+    try:
+        return Client(address, timeout=10, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        why = str(error).splitlines()[0] if str(error) else "nothing there"
+        raise InputError(
+            "--scheduler", "the address of a running Dask scheduler, such as tcp://host:8786", f"'{address}' ({why})"
+        ) from None
+
+
+def carry(recipe: Recipe) -> Recipe:
+    """Return a recipe on a worker; were that one lost, the scheduler would do this again elsewhere."""
+    return recipe
+
+
+def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
+    """Run a chunk on a worker, which compiles once for a recipe.
+
+    Raises
+    ------
+    SimulationError
+        If the worker has another version of symgen.
+    """
+    if recipe.code != code_identity():
+        raise SimulationError("a worker of the cluster has another version of symgen")
+    kernel = kernel_of(recipe)
+    kernel.warm()
+    return kernel.run(rows, new_control())
+
+
+def run_there(
+    ensemble: Ensemble, table: Table, client: Client, progress: Callable[[float], None] | None = None
+) -> bool:
+    """Run all chunks that the table does not hold yet on a cluster; as `symgen.ensemble.local.run_here`.
+
+    Parameters
+    ----------
+    ensemble : Ensemble
+        What to run.
+    table : Table
+        Gets each chunk as soon as it is there.
+    client : Client
+        Of the cluster; stays open.
+    progress : callable, optional
+        Called after each chunk with the number of runs that are done.
+
+    Raises
+    ------
+    SimulationError
+        If the cluster has no workers, or lost one after the other over the same chunk.
+    """
+    from distributed import as_completed
+
+    waiting = iter(table.missing())
+    recipe = client.submit(carry, ensemble.recipe, pure=False)
+    handed: dict[Any, tuple[int, int]] = {}
+
+    def hand_out(index: int, attempt: int) -> Any:
+        rows = ensemble.rows(*table.bounds(index))
+        try:
+            future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{_unique()}")
+        except (Exception, CancelledError) as error:  # of a scheduler that has gone
+            raise _gave_up(index, error) from None
+        handed[future.key] = (index, attempt)
+        return future
+
+    threads = sum(client.nthreads().values())
+    if not threads:
+        raise SimulationError("the cluster has no workers")
+    first = [hand_out(index, 1) for _, index in zip(range(_AHEAD * threads), waiting, strict=False)]
+    completed = as_completed(first)
+    try:
+        for future in completed:
+            index, attempt = handed.pop(future.key)
+            found = _outcome(future)
+            if isinstance(found, Chunk):
+                table.put(index, found)
+                if progress is not None:
+                    progress(table.runs_done)
+                following, attempt = next(waiting, None), 0
+                if following is None:
+                    continue
+                index = following
+            elif isinstance(found, SimulationError | InputError):
+                raise found
+            elif attempt >= _ATTEMPTS or client.status != "running":
+                raise _gave_up(index, found)
+            completed.add(hand_out(index, attempt + 1))
+    except KeyboardInterrupt:
+        return True
+    finally:
+        with suppress(Exception):  # of a scheduler that has gone
+            client.cancel([*completed.futures, recipe])
+    return False
+
+
+def _gave_up(index: int, error: BaseException) -> SimulationError:
+    why = (str(error) or type(error).__name__).splitlines()[0]
+    return SimulationError(f"the cluster could not compute chunk {index}: {why}")
+
+
+def _outcome(future: Any) -> Chunk | BaseException:
+    """Return a chunk, or why there is none: its task failed, or what it gave was lost on the way here."""
+    try:
+        found: Chunk = future.result(timeout=60)
+    except (Exception, CancelledError) as error:
+        return error
+    return found
+
+
+def _unique() -> str:
+    import secrets
+
+    return secrets.token_hex(8)

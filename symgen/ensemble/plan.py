@@ -1,0 +1,211 @@
+"""From a question to an ensemble: names resolved, settings checked, what does not fit refused, before anything runs."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from symgen.ensemble.axes import Grid, make_grid
+from symgen.ensemble.kernel import Module, Recipe, batch_call, code_identity
+from symgen.ensemble.quantities import choose_quantities
+from symgen.ensemble.starts import Rows, make_rows
+from symgen.errors import InputError, nearest
+from symgen.pipeline import compile_model
+from symgen.plan import Plan, Settings, make_plan
+from symgen.shapes import LARGEST_STRAIGHT
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.model import CompiledModel, ModelInfo
+
+#: A chunk should take about so many seconds, and its arrays no more than so many bytes.
+CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
+#: Seconds an operation of a right-hand side takes, and evaluations in a simulated second of an adaptive run: guesses
+#: that shape nothing but the size of chunks.
+_OPERATION, _EVALUATIONS = 4e-10, 1e4
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """Many runs of one model, fully resolved.
+
+    Attributes
+    ----------
+    model : Model
+        What is run.
+    settings, plan : Settings, Plan
+        As asked for, and resolved.
+    compiled : CompiledModel
+        Its law; compiled when it is first run.
+    grid : Grid
+        What varies.
+    held, given : mapping of str to int
+        Coordinates and velocities that vary, with their index in q and v.
+    recipe : Recipe
+        What a run is apart from its row.
+    notes : tuple of str
+        What was chosen, and why.
+    """
+
+    model: Model
+    settings: Settings
+    plan: Plan
+    compiled: CompiledModel
+    grid: Grid
+    held: Mapping[str, int]
+    given: Mapping[str, int]
+    recipe: Recipe
+    notes: tuple[str, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.grid)
+
+    @property
+    def sizes(self) -> tuple[int, int, int, int]:
+        """Runs, quantities, output times, and runs in a chunk."""
+        return len(self), len(self.recipe.quantities), len(self.recipe.spec.times), self.chunk
+
+    @cached_property
+    def parameters(self) -> dict[str, float]:
+        """Values of all parameters, before any varies."""
+        return self.model.parameters(self.settings.parameters)
+
+    @cached_property
+    def chunk(self) -> int:
+        """Runs in a chunk; it depends on nothing but the ensemble, so that another process can continue it."""
+        spec, info, law = self.recipe.spec, self.compiled.info, self.compiled.law
+        stages = getattr(self.plan.tableau, "stages", 4)
+        evaluations = spec.until * _EVALUATIONS
+        if not spec.adaptive and spec.step is not None:
+            evaluations = stages * spec.until / spec.step
+        seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
+        numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.quantities) * len(spec.times)
+        most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
+        return int(max(1.0, min(65536.0, math.ceil(most))))
+
+    def rows(self, first: int, last: int) -> Rows:
+        """Return what distinguishes the runs from `first` to `last` (exclusive)."""
+        varied = self.grid.values(first, last)
+        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given)
+
+    @cached_property
+    def description(self) -> dict[str, Any]:
+        """What is computed: two ensembles of the same description give the same rows."""
+        found = hashlib.sha256()
+        for axis in self.grid.axes:
+            for name, values in axis.values.items():
+                found.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
+        return {
+            "mechanism": hashlib.sha256(repr(self.model.mechanism).encode()).hexdigest(),
+            "varied": found.hexdigest(),
+            "parameters": self.parameters,
+            "recipe": self.recipe.digest,
+            "runs": len(self),
+            "chunk": self.chunk,
+        }
+
+
+def make_ensemble(
+    model: Model,
+    settings: Settings,
+    vary: Mapping[str, ArrayLike | str],
+    runs: Mapping[str, ArrayLike | str],
+    quantities: Sequence[str] | None,
+) -> Ensemble:
+    """Resolve and check everything.
+
+    Parameters
+    ----------
+    model : Model
+        What is run.
+    settings : Settings
+        How; without output times, only the end is kept.
+    vary, runs : mapping
+        See `symgen.ensemble.sweep.sweep`.
+    quantities : sequence of str or None
+        What is kept.
+
+    Raises
+    ------
+    InputError
+        If a name, number or combination is wrong.
+    """
+    from symgen.auto import resolve
+
+    if settings.verify:
+        raise InputError("verify", "single runs", "an ensemble", "run doubtful ones again by themselves")
+    if settings.repeat != 1:
+        raise InputError("repeat", "single runs", "an ensemble")
+    if settings.shape == "looped":
+        raise InputError("shape", "straight code for an ensemble", "looped")
+    coordinates, velocities = _names(model)
+    if len(coordinates) > LARGEST_STRAIGHT:
+        found = f"{len(coordinates)} coordinates"
+        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
+    chosen, notes = resolve(model, replace(settings, shape="straight"))
+    if chosen.times is None and chosen.output_step is None:
+        end = model.mechanism.defaults.until if chosen.until is None else chosen.until
+        chosen = replace(chosen, times=(end,))
+    if chosen.shape == "looped":
+        raise InputError("shape", "straight code for an ensemble", "'looped'")
+    chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
+    plan = make_plan(model, chosen)
+    # before anything is derived
+    parameters = model.parameters(chosen.parameters)
+    for name in (*vary, *runs):
+        _check_name(name, model.name, parameters, coordinates, velocities)
+    grid = make_grid(vary, runs, (*coordinates, *velocities))
+    compiled = compile_model(model.mechanism, plan.choice)
+    batch_call(plan.tableau.name, compiled.info.ny, plan.spec)
+    held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
+    given = {name: velocities.index(name) for name in grid.names if name in velocities}
+    spare = None
+    if plan.solver_is_free:
+        options = {**plan.choice.options, "solver": "augmented"}
+        spare = Module.of(compile_model(model.mechanism, replace(plan.choice, options=options)))
+    recipe = Recipe(
+        module=Module.of(compiled),
+        spare=spare,
+        integrator=plan.tableau.name,
+        spec=plan.spec,
+        method_parameters=dict(plan.method_parameters),
+        quantities=choose_quantities(compiled.info, quantities),
+        held=tuple((index, _velocity(index, compiled.info)) for index in held.values()),
+        strict=chosen.strict,
+        code=code_identity(),
+    )
+    return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes)
+
+
+def _names(model: Model) -> tuple[list[str], list[str]]:
+    """Return the names of coordinates and velocities in the order of q and v."""
+    bodies = model.mechanism.bodies
+    coordinates = [f"{body.name}.{name}" for body in bodies for name in body.coordinates]
+    return coordinates, [f"{body.name}.{name}" for body in bodies for name in body.speeds]
+
+
+def _check_name(
+    name: str, model: str, parameters: Mapping[str, float], coordinates: Sequence[str], velocities: Sequence[str]
+) -> None:
+    known = [*parameters, *coordinates, *velocities]
+    if name not in known:
+        expected = f"a parameter, or an initial coordinate or velocity of {model}"
+        raise InputError(f"vary '{name}'", expected, "none of that name", nearest(name, known))
+    if name in coordinates and name.rpartition(".")[2] in ("e0", "e1", "e2", "e3"):
+        raise InputError(
+            f"vary '{name}'",
+            "a coordinate that can change by itself",
+            "an Euler parameter",
+            "write the orientation with a parameter, and vary that",
+        )
+
+
+def _velocity(coordinate: int, info: ModelInfo) -> int:
+    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
+    return coordinate - sum(1 for first, _ in info.spins if first < coordinate)

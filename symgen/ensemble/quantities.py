@@ -1,0 +1,89 @@
+"""Which quantities an ensemble keeps, by the names that results and data frames give them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from symgen.errors import InputError, nearest
+from symgen.result.reactions import multiplier_unit
+from symgen.result.result import ACCELERATIONS
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+
+if TYPE_CHECKING:
+    from symgen.model import ModelInfo
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A named scalar over time: its unit, and the column of the outputs that it is."""
+
+    name: str
+    unit: str
+    source: int
+    column: int
+
+
+def known_quantities(info: ModelInfo) -> tuple[Quantity, ...]:
+    """Return all quantities that runs of a model can keep, those of bodies first."""
+    found = [Quantity(q.name, q.unit, e.STATE, i) for i, q in enumerate(info.coordinates)]
+    found += [Quantity(v.name, v.unit, e.STATE, info.nq + i) for i, v in enumerate(info.velocities)]
+    for i, v in enumerate(info.velocities):
+        body, _, component = v.name.rpartition(".")
+        found.append(Quantity(f"{body}.{ACCELERATIONS[component]}", f"{v.unit}^2", e.ACCELERATION, i))
+    for i, c in enumerate(info.joint_coordinates):
+        found.append(Quantity(f"joint.{c.name}", c.unit, e.JOINT, 2 * i))
+        found.append(Quantity(f"joint.{c.name}.rate", f"{c.unit}/s", e.JOINT, 2 * i + 1))
+    for i, row in enumerate(info.rows):
+        found.append(Quantity(f"lam.{row.name}", multiplier_unit(row.unit), e.MULTIPLIER, i))
+    found += [
+        Quantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
+        Quantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),
+        Quantity("energy.work", "J", e.STATE, info.ny - 1),
+        Quantity("energy.total", "J", e.ENERGY, 0),
+        Quantity("energy.error", "J", e.ENERGY_ERROR, 0),
+        Quantity("violation.position", "m", e.STATUS, abi.PHI),
+        Quantity("violation.velocity", "m/s", e.STATUS, abi.DRIFT),
+        Quantity("smallest_pivot", "1", e.STATUS, abi.PIVOT),
+    ]
+    return tuple(found)
+
+
+def choose_quantities(info: ModelInfo, names: Sequence[str] | None) -> tuple[Quantity, ...]:
+    """Return the quantities called `names`; coordinates and velocities where None are named.
+
+    Parameters
+    ----------
+    info : ModelInfo
+        The model.
+    names : sequence of str or None
+        ``crank.theta``; ``crank``, all coordinates and velocities of a body; ``q``, ``v``, ``energy``, ``violation``,
+        ``joint``, ``lam``, all of a table.
+
+    Raises
+    ------
+    InputError
+        If a name is not known; says the nearest one.
+    """
+    known = {q.name: q for q in known_quantities(info)}
+    states = [q for q in known.values() if q.source == e.STATE and q.column < info.ny - 1]
+    groups: dict[str, list[Quantity]] = {
+        "q": [q for q in states if q.column < info.nq],
+        "v": [q for q in states if q.column >= info.nq],
+    }
+    for q in known.values():
+        table, dot, _ = q.name.partition(".")
+        if dot and (q in states or table in ("energy", "violation", "joint", "lam")):
+            groups.setdefault(table, []).append(q)
+    chosen: dict[str, Quantity] = {}
+    for name in ("q", "v") if names is None else names:
+        if name in known:
+            chosen[name] = known[name]
+        elif name in groups:
+            chosen.update({q.name: q for q in groups[name]})
+        else:
+            hint = nearest(name, [*known, *groups]) if len(known) <= 60 or "." in name else nearest(name, groups)
+            raise InputError(f"quantity '{name}'", f"a quantity of {info.name}", "none of that name", hint)
+    return tuple(chosen.values())

@@ -1,0 +1,229 @@
+"""What an ensemble gave: counts, reasons, and a labelled data set over its axes and time."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen import __version__
+from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
+from symgen.result.export import check_path, need, write_whole
+from symgen.result.result import FAILED, OK, UNVERIFIED, finite
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from symgen.ensemble.plan import Ensemble
+
+Array = NDArray[np.float64]
+
+#: Numbers of every run that data sets hold: name -> (unit, whether it is a whole number).
+NUMBERS: Mapping[str, tuple[str, bool]] = {
+    "end": ("s", False),
+    "steps": ("1", True),
+    "rejected": ("1", True),
+    "evaluations": ("1", True),
+    "iterations": ("1", True),
+    "position_violation_max": ("m", False),
+    "velocity_violation_max": ("m/s", False),
+    "energy_drift_max": ("J", False),
+    "energy_jump": ("J", False),
+    "energy_scale": ("J", False),
+    "smallest_pivot": ("1", False),
+    "rank_event_count": ("1", True),
+    "start_moved": ("m or rad", False),
+    "start_velocities": ("1", True),
+    "redundant_rows": ("1", True),
+    "light": ("1", True),
+}
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """What an ensemble gave; arrays have one row a run, in the order of the grid, whose last axis changes fastest.
+
+    Attributes
+    ----------
+    ensemble : Ensemble
+        What was asked for.
+    values : Array, shape (runs, quantities, times)
+        Quantities at the output times; nan where a run did not get there.
+    summary : Array, shape (runs, N_SUMMARY)
+        Numbers of every run; see `symgen.runtime.ensemble_abi`.
+    done : Array of bool, shape (runs,)
+        Which runs have been done: all, unless it was interrupted.
+    seconds : float
+        What running took, compilation left out [s].
+    interrupted : bool
+        Whether it was stopped from outside.
+    """
+
+    ensemble: Ensemble
+    values: Array
+    summary: Array
+    done: NDArray[np.bool_]
+    seconds: float
+    interrupted: bool
+
+    def __len__(self) -> int:
+        return len(self.ensemble)
+
+    @cached_property
+    def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
+        compiled = self.ensemble.compiled
+        return judge_all(self.summary, self.done, compiled.info, compiled.law, self.ensemble.recipe.spec)
+
+    @property
+    def status(self) -> NDArray[np.str_]:
+        """Status of every run: ``ok``, ``unverified``, ``failed``, or ``not run`` where it was interrupted."""
+        return self._verdicts[0]
+
+    @property
+    def reason(self) -> NDArray[np.object_]:
+        """Why a run is not ok, empty where it is."""
+        return self._verdicts[1]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of runs by status."""
+        return {name: int(np.sum(self.status == name)) for name in (OK, UNVERIFIED, FAILED, NOT_RUN)}
+
+    def reasons(self, most: int = 10) -> list[tuple[str, int]]:
+        """Return the commonest reasons without their figures, each with the number of runs it is said of."""
+        found = Counter(_kind(reason) for reason in self.reason if reason)
+        return found.most_common(most)
+
+    def __getitem__(self, name: str) -> Array:
+        """Return a quantity over the grid and time, shape (*grid, times), or a number of every run, shape grid.
+
+        Raises
+        ------
+        KeyError
+            If it was not kept.
+        """
+        shape = self.ensemble.grid.shape
+        for i, q in enumerate(self.ensemble.recipe.quantities):
+            if q.name == name:
+                return self.values[:, i, :].reshape(*shape, -1)
+        if name in NUMBERS:
+            return column(self.summary, name).reshape(shape)
+        raise KeyError(name)
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """What was run, by name, as JSON can express it."""
+        ensemble, spec = self.ensemble, self.ensemble.recipe.spec
+        settings = {f.name: getattr(ensemble.settings, f.name) for f in fields(ensemble.settings)}
+        settings = {key: value for key, value in settings.items() if key not in ("times", "parameters", "options")}
+        return {
+            "mechanism": ensemble.model.name,
+            "model_digest": ensemble.compiled.info.digest,
+            "method": ensemble.compiled.law.method,
+            "integrator": ensemble.plan.tableau.name,
+            "step": None if spec.adaptive else spec.step,
+            "rtol": spec.rtol if spec.adaptive else None,
+            "atol": spec.atol if spec.adaptive else None,
+            "until": spec.until,
+            "parameters": json.dumps(ensemble.parameters),
+            "options": json.dumps(dict(ensemble.settings.options)),
+            "settings": json.dumps(finite(settings)),
+            "versions": json.dumps(_versions()),
+            "ensemble_digest": ensemble.recipe.digest,
+            "interrupted": int(self.interrupted),
+        }
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen sweep --json``."""
+        facts = {key: self.attributes[key] for key in ("mechanism", "method", "integrator", "step", "rtol", "until")}
+        counts = self.counts
+        contract: dict[str, Any] = finite(
+            {
+                **facts,
+                "runs": len(self),
+                "axes": {axis.dimension: len(axis) for axis in self.ensemble.grid.axes},
+                "quantities": [q.name for q in self.ensemble.recipe.quantities],
+                "times": len(self.ensemble.recipe.spec.times),
+                "status": {name.replace(" ", "_"): count for name, count in counts.items()},
+                "reasons": [{"reason": reason, "runs": count} for reason, count in self.reasons()],
+                "seconds": self.seconds,
+                "interrupted": self.interrupted,
+            }
+        )
+        return contract
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return everything as a data set with a dimension for each axis and ``time``.
+
+        Variables are the quantities, ``status``, ``reason`` and the numbers of every run; coordinates are what varied.
+
+        Raises
+        ------
+        InputError
+            If xarray is not installed; says how to install it.
+        """
+        need("to_xarray", "xarray")
+        import xarray as xr
+
+        ensemble = self.ensemble
+        shape, dimensions = ensemble.grid.shape, tuple(axis.dimension for axis in ensemble.grid.axes)
+        variables: dict[str, Any] = {
+            q.name: ((*dimensions, "time"), self[q.name], {"units": q.unit}) for q in ensemble.recipe.quantities
+        }
+        variables["status"] = (dimensions, self.status.reshape(shape))
+        variables["reason"] = (dimensions, self.reason.reshape(shape))
+        for name, (unit, whole) in NUMBERS.items():
+            numbers = self[name]
+            # a quantity of the same name is over time
+            label = f"{name}_min" if name == "smallest_pivot" else name
+            variables[label] = (dimensions, numbers.astype(np.int64) if whole else numbers, {"units": unit})
+        units = {q.name: q.unit for q in (*ensemble.compiled.info.coordinates, *ensemble.compiled.info.velocities)}
+        units.update({p.name: p.unit for p in ensemble.compiled.info.parameters})
+        coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
+        for axis in ensemble.grid.axes:
+            for name, values in axis.values.items():
+                label = axis.dimension if axis.dimension != "run" else f"{name}(0)" if "." in name else name
+                coordinates[label] = (axis.dimension, values, {"units": units.get(name) or "1"})
+            if axis.dimension == "run":
+                coordinates["run"] = ("run", np.arange(len(axis)))
+        attributes = {key: "none" if value is None else value for key, value in self.attributes.items()}
+        return xr.Dataset(variables, coordinates, attributes)
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the data set to a NetCDF file (``.nc``); it appears whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is another, a library is missing, or the file cannot be written.
+        """
+        check_path("save", Path(path), {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+        dataset = self.to_xarray()
+        return write_whole(Path(path), lambda file: dataset.to_netcdf(file, engine="h5netcdf"))
+
+
+def _kind(reason: str) -> str:
+    """Return a reason without its figures: what runs that fail for the same cause have in common."""
+    head = reason.partition(" (")[0].partition(" at t = ")[0]
+    return head.partition("; check its points")[0].partition(" stays open by ")[0].partition(" at t =")[0]
+
+
+def _versions() -> dict[str, str]:
+    import platform
+
+    import numba
+
+    return {
+        "symgen": __version__,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+        "numba": numba.__version__,
+    }

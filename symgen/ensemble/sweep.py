@@ -1,0 +1,166 @@
+"""Parameter studies: ``symgen.sweep``, the Python side of ``symgen sweep``."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from numpy.typing import ArrayLike
+
+from symgen.ensemble.local import run_here
+from symgen.ensemble.plan import Ensemble, make_ensemble
+from symgen.ensemble.study import Sweep
+from symgen.ensemble.table import FolderTable, Table, check_folder
+from symgen.errors import InputError
+from symgen.plan import Settings, changed
+from symgen.result.export import check_path
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+    from symgen.api import Model
+    from symgen.describe.mechanism import Mechanism
+
+#: The folder beside a file in which its runs are collected until it is written.
+PARTS = ".parts"
+
+
+def sweep(
+    model: str | Path | Mechanism | Model,
+    vary: Mapping[str, ArrayLike | str] | None = None,
+    *,
+    runs: Mapping[str, ArrayLike | str] | None = None,
+    quantities: Sequence[str] | None = None,
+    output: str | PathLike[str] | None = None,
+    resume: bool = False,
+    jobs: int | None = None,
+    scheduler: str | Client | None = None,
+    settings: Settings | None = None,
+    progress: Callable[[float, int], None] | None = None,
+    **changes: object,
+) -> Sweep:
+    """Run a model for every combination of values, on all cores or on a Dask cluster.
+
+    Parameters
+    ----------
+    model : str, Path, Mechanism or Model
+        What `symgen.load` takes, or what it gave.
+    vary : mapping
+        Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
+        or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies at the start
+        (``crank.theta``, ``crank.omega``): a coordinate that varies is held while the others are closed. Each name is
+        a dimension of the grid.
+    runs : mapping, optional
+        The same for names that vary together, all with as many values: one dimension, ``run``.
+    quantities : sequence of str, optional
+        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; by default all
+        coordinates and velocities. Memory grows with these and with the output times alone.
+    output : path, optional
+        ``.nc``: a NetCDF file, with the folder ``<file>.parts`` beside it until all runs are done; otherwise a folder.
+        Finished runs survive an interruption and a kill.
+    resume : bool
+        Continue what an earlier call began at `output`.
+    jobs : int, optional
+        Threads; by default one for every core.
+    scheduler : str or Client, optional
+        Address of a Dask scheduler, or a client: its workers run the ensemble.
+    settings : Settings, optional
+        How each run is done.
+    progress : callable, optional
+        Called about ten times a second with the runs done and all.
+    **changes
+        Single settings, as for `Model.simulate`. Without ``times`` or ``output_step``, only the end of each run is
+        kept. ``verify`` and ``repeat`` are for single runs.
+
+    Returns
+    -------
+    Sweep
+        Also after an interruption; failed runs are rows with status and reason.
+
+    Raises
+    ------
+    InputError
+        If a name, number, file or combination is wrong.
+    SimulationError
+        If results cannot be written, or the cluster gives up.
+    """
+    from symgen.api import Model, load
+
+    if jobs is not None and not 1 <= jobs <= 4096:
+        raise InputError("jobs", "a whole number from 1 to 4096", f"{jobs}")
+    path = None if output is None else Path(output)
+    folder = None if path is None else folder_of(path, resume)
+    if resume and path is None:
+        raise InputError("resume", "an output that was begun", "none")
+    loaded = model if isinstance(model, Model) else load(model)
+    ensemble = make_ensemble(
+        loaded, changed(settings or Settings(), changes), dict(vary or {}), dict(runs or {}), quantities
+    )
+    table = (
+        Table(*ensemble.sizes) if folder is None else FolderTable(folder, ensemble.description, ensemble.sizes, resume)
+    )
+    with table:
+        seconds, interrupted = _run(ensemble, table, jobs, scheduler, progress)
+        found = Sweep(ensemble, table.values, table.summary, table.done(), seconds, interrupted)
+        if path is not None and path != folder and not interrupted:
+            found.save(path)
+            assert isinstance(table, FolderTable), "an output has a folder"
+            table.remove()
+    return found
+
+
+def _run(
+    ensemble: Ensemble,
+    table: Table,
+    jobs: int | None,
+    scheduler: str | Client | None,
+    progress: Callable[[float, int], None] | None,
+) -> tuple[float, bool]:
+    """Run what is missing; return seconds, and whether it was interrupted."""
+    total = len(ensemble)
+
+    def show(done: float) -> None:
+        if progress is not None:
+            progress(done, total)
+
+    if scheduler is None:
+        from symgen.ensemble.kernel import kernel_of
+
+        if table.missing():
+            kernel_of(ensemble.recipe).warm()
+        began = time.perf_counter()
+        interrupted = run_here(ensemble, table, jobs, show)
+        return time.perf_counter() - began, interrupted
+    from symgen.ensemble.cluster import connect, run_there
+
+    client: Any = connect(scheduler) if isinstance(scheduler, str) else scheduler
+    try:
+        began = time.perf_counter()
+        interrupted = run_there(ensemble, table, client, show)
+        return time.perf_counter() - began, interrupted
+    finally:
+        if isinstance(scheduler, str):
+            client.close()
+
+
+def folder_of(path: Path, resume: bool) -> Path:
+    """Return the folder in which the runs of an output are collected, after making sure that it can be used.
+
+    Raises
+    ------
+    InputError
+        If it cannot.
+    """
+    if not path.suffix:
+        check_folder(path, resume)
+        return path
+    check_path("output", path, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+    parts = path.with_name(path.name + PARTS)
+    if resume and path.exists() and not parts.exists():
+        hint = "leave --resume out to compute it again"
+        raise InputError(f"output '{path}'", "one that is not finished", "a finished one", hint)
+    check_folder(parts, resume)
+    return parts

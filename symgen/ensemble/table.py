@@ -1,0 +1,296 @@
+"""Where the runs of an ensemble are collected: in memory, or in a folder that survives a kill at any moment.
+
+A folder holds ``sweep.json`` (what is computed), ``values.npy`` and ``summary.npy`` (a row for every run) and
+``done.txt`` (finished chunks, one number a line). A chunk's rows are written before its line is, so a chunk that is
+listed is whole; one that is not is computed again, over whatever a kill left of it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.ensemble.kernel import Chunk
+from symgen.errors import InputError, SimulationError
+from symgen.runtime.ensemble_abi import N_SUMMARY
+
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
+Array = NDArray[np.float64]
+
+#: Changes when the files of a folder do.
+FORM = 1
+DESCRIPTION, VALUES, SUMMARY, DONE, LOCK = "sweep.json", "values.npy", "summary.npy", "done.txt", "lock"
+
+
+class Table:
+    """Rows of an ensemble, by run.
+
+    Parameters
+    ----------
+    runs, quantities, times : int
+        Sizes.
+    chunk : int
+        Runs in a chunk; the last one may have fewer.
+
+    Attributes
+    ----------
+    values : Array, shape (runs, quantities, times)
+        Quantities at the output times.
+    summary : Array, shape (runs, N_SUMMARY)
+        See `symgen.runtime.ensemble_abi`.
+    """
+
+    def __init__(self, runs: int, quantities: int, times: int, chunk: int) -> None:
+        self.runs, self.chunk = runs, chunk
+        self.finished: set[int] = set()
+        self.values: Array
+        self.summary: Array
+        self._open(quantities, times)
+
+    def _open(self, quantities: int, times: int) -> None:
+        self.values = np.full((self.runs, quantities, times), np.nan)
+        self.summary = np.zeros((self.runs, N_SUMMARY))
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks."""
+        return -(-self.runs // self.chunk)
+
+    @property
+    def runs_done(self) -> int:
+        """Number of runs that are done."""
+        last = self.chunks - 1
+        return len(self.finished) * self.chunk - (
+            (self.chunks * self.chunk - self.runs) if last in self.finished else 0
+        )
+
+    def missing(self) -> list[int]:
+        """Return the chunks that are not done, in order."""
+        return [index for index in range(self.chunks) if index not in self.finished]
+
+    def bounds(self, index: int) -> tuple[int, int]:
+        """Return first and last run (exclusive) of a chunk."""
+        return index * self.chunk, min(self.runs, (index + 1) * self.chunk)
+
+    def done(self) -> NDArray[np.bool_]:
+        """Return which runs are done."""
+        found = np.zeros(self.runs, dtype=np.bool_)
+        for index in self.finished:
+            first, last = self.bounds(index)
+            found[first:last] = True
+        return found
+
+    def put(self, index: int, chunk: Chunk) -> None:
+        """Keep the rows of a chunk.
+
+        Raises
+        ------
+        ValueError
+            If it is done already: it was computed twice.
+        SimulationError
+            If a file cannot be written, e.g. because the disk is full.
+        """
+        if index in self.finished:
+            raise ValueError(f"chunk {index} is done already")
+        self._write(index, chunk)
+        self.finished.add(index)
+
+    def _write(self, index: int, chunk: Chunk) -> None:
+        first, last = self.bounds(index)
+        self.values[first:last] = chunk.values
+        self.summary[first:last] = chunk.summary
+
+    def close(self) -> None:
+        """Let go of files; the arrays stay readable."""
+
+    def __enter__(self) -> Table:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+class FolderTable(Table):
+    """Rows in the files of a folder, one process at a time.
+
+    Parameters
+    ----------
+    folder : Path
+        Made when it is missing.
+    description : mapping
+        What is computed, as JSON can express it; a folder with another one is refused.
+    resume : bool
+        Whether a folder that has been begun may be continued.
+
+    Raises
+    ------
+    InputError
+        If the folder holds something else, cannot be written, or is in use.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        description: Mapping[str, Any],
+        sizes: tuple[int, int, int, int],
+        resume: bool,
+    ) -> None:
+        self.folder = folder
+        self._description = {"symgen-sweep": FORM, **description}
+        self._resume = resume
+        self._lock: BaseFileLock | None = None
+        self._files: dict[str, tuple[int, int, int]] = {}
+        self._log = -1
+        super().__init__(*sizes)
+
+    def _open(self, quantities: int, times: int) -> None:
+        import filelock
+
+        where = f"folder '{self.folder}'"
+        begun = check_folder(self.folder, self._resume)
+        try:
+            self.folder.mkdir(exist_ok=True)
+            lock = filelock.FileLock(self.folder / LOCK)
+            lock.acquire(timeout=0)
+            self._lock = lock
+        except filelock.Timeout:
+            raise InputError(where, "one that no other process uses", "one in use") from None
+        except OSError as error:
+            raise InputError(where, "a folder that can be written", error.strerror or "an error") from None
+        try:
+            if begun:
+                self._check_description(where)
+            self._begin(quantities, times)
+            self._read_log()
+        except OSError as error:
+            self.close()
+            raise InputError(where, "a folder that can be written", error.strerror or "an error") from None
+        except BaseException:
+            self.close()
+            raise
+
+    def _check_description(self, where: str) -> None:
+        found = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8"))
+        differing = sorted(k for k in {*found, *self._description} if found.get(k) != self._description.get(k))
+        if differing:
+            raise InputError(
+                where, "the sweep that was begun there", f"one with another {differing[0]}", "name another output"
+            )
+
+    def _begin(self, quantities: int, times: int) -> None:
+        shapes = {VALUES: (self.runs, quantities, times), SUMMARY: (self.runs, N_SUMMARY)}
+        for name, shape in shapes.items():
+            path = self.folder / name
+            if not (self.folder / DESCRIPTION).exists() and all(shape):
+                np.lib.format.open_memmap(path, mode="w+", dtype=np.float64, shape=shape).flush()
+            if all(shape):
+                mapped = np.load(path, mmap_mode="r")
+                if mapped.shape != shape:
+                    raise InputError(f"file '{path}'", f"an array of shape {shape}", f"{mapped.shape}")
+                row = 8 * int(np.prod(shape[1:]))
+                self._files[name] = (os.open(path, os.O_WRONLY), int(mapped.offset), row)
+            else:
+                mapped = np.zeros(shape)
+            if name == VALUES:
+                self.values = mapped
+            else:
+                self.summary = mapped
+        if not (self.folder / DESCRIPTION).exists():  # last, so that a folder with a description is whole
+            temporary = self.folder / f".{DESCRIPTION}"
+            temporary.write_text(json.dumps(self._description, indent=1) + "\n", encoding="utf-8")
+            temporary.replace(self.folder / DESCRIPTION)
+
+    def _read_log(self) -> None:
+        path = self.folder / DONE
+        content = path.read_bytes() if path.exists() else b""
+        whole = content.rpartition(b"\n")[0] + b"\n" if b"\n" in content else b""
+        for line in whole.split():
+            if not line.isdigit() or int(line) >= self.chunks:
+                raise InputError(f"file '{path}'", "numbers of chunks", f"'{line[:40]!r}'")
+            self.finished.add(int(line))
+        self._log = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
+        os.ftruncate(self._log, len(whole))  # a line that a kill tore
+        os.lseek(self._log, 0, os.SEEK_END)
+
+    def _write(self, index: int, chunk: Chunk) -> None:
+        first, _ = self.bounds(index)
+        try:
+            for name, rows in ((VALUES, chunk.values), (SUMMARY, chunk.summary)):
+                if name in self._files:
+                    file, offset, size = self._files[name]
+                    _write_all(file, np.ascontiguousarray(rows).tobytes(), offset + first * size)
+            os.write(self._log, f"{index}\n".encode())
+        except OSError as error:
+            why = error.strerror or str(error)
+            raise SimulationError(f"the folder '{self.folder}' cannot be written: {why}") from None
+
+    def close(self) -> None:
+        """Let go of the files; another process may use the folder then."""
+        for file, _, _ in self._files.values():
+            os.close(file)
+        self._files = {}
+        if self._log >= 0:
+            os.close(self._log)
+            self._log = -1
+        if self._lock is not None:
+            self._lock.release()
+            self._lock = None
+
+    def remove(self) -> None:
+        """Remove the files and, where nothing else is in it, the folder."""
+        self.close()
+        for name in (DESCRIPTION, DONE, VALUES, SUMMARY, LOCK):
+            (self.folder / name).unlink(missing_ok=True)
+        if not any(self.folder.iterdir()):
+            self.folder.rmdir()
+
+
+def check_folder(folder: Path, resume: bool) -> bool:
+    """Return whether a sweep has been begun in a folder; refuse one that may not be used.
+
+    Raises
+    ------
+    InputError
+        If it holds something else, or a sweep that nobody asked to continue.
+    """
+    where = f"folder '{folder}'"
+    if not folder.exists():
+        if not folder.parent.is_dir() or not os.access(folder.parent, os.W_OK):
+            raise InputError(where, "a folder that can be made", f"no folder '{folder.parent}' to make it in")
+        return False
+    if not folder.is_dir():
+        raise InputError(where, "a folder", "a file")
+    ours = {DESCRIPTION, f".{DESCRIPTION}", DONE, VALUES, SUMMARY, LOCK}
+    others = sorted(path.name for path in folder.iterdir() if path.name not in ours)
+    if others:
+        raise InputError(where, "an empty one or one of a sweep", f"one with '{others[0]}' in it")
+    if not (folder / DESCRIPTION).exists():
+        return False
+    try:
+        found = json.loads((folder / DESCRIPTION).read_text(encoding="utf-8"))
+        form = found["symgen-sweep"]
+    except (OSError, ValueError, TypeError, KeyError):
+        raise InputError(where, "a folder of a sweep", f"another '{DESCRIPTION}'") from None
+    if form != FORM:
+        raise InputError(where, f"a sweep of form {FORM}", f"one of form {form}")
+    if not resume:
+        raise InputError(where, "one in which no sweep was begun", "one with a sweep", "--resume continues it")
+    return True
+
+
+def _write_all(file: int, data: bytes, offset: int) -> None:
+    view = memoryview(data)
+    while view:
+        written = os.pwrite(file, view, offset)
+        view, offset = view[written:], offset + written

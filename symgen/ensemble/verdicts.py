@@ -1,0 +1,128 @@
+"""What each run of an ensemble may claim, by the rules of single runs, and why the others failed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError
+from symgen.result.judge import JUMP_FAILURE, judge_alone
+from symgen.result.result import FAILED, OK
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.assembly import no_velocities, stays_open
+from symgen.runtime.run import WARN, RankEvent, end_reason
+
+if TYPE_CHECKING:
+    from symgen.model import LawInfo, ModelInfo
+    from symgen.runtime.run import RunSpec
+
+Array = NDArray[np.float64]
+
+#: Status of a run that has not been done.
+NOT_RUN = "not run"
+
+
+@dataclass(frozen=True)
+class Row:
+    """What the loop of one run of an ensemble saw, for `symgen.result.judge.judge_alone`."""
+
+    code: int
+    reason: str
+    smallest_pivot: float
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    energy_jump: float
+    energy_scale: float
+    counters: Mapping[str, int]
+
+
+def column(summary: Array, name: str) -> Array:
+    """Return one number of every run, shape (n,)."""
+    return np.asarray(summary[..., e.SUMMARY.index(name)])
+
+
+def judge_all(
+    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec
+) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
+    """Return status and reason of every run.
+
+    Parameters
+    ----------
+    summary : Array, shape (n, N_SUMMARY)
+        See `symgen.runtime.ensemble_abi`.
+    done : Array of bool, shape (n,)
+        Which runs have been done.
+    info, law : ModelInfo, LawInfo
+        What was run.
+    spec : RunSpec
+        How.
+
+    Returns
+    -------
+    status : Array of str
+        ``ok``, ``unverified``, ``failed`` or ``not run``.
+    reason : Array of object
+        Sentences; empty where the status is ok.
+    """
+    status = np.full(len(summary), OK, dtype="<U10")
+    reason = np.full(len(summary), "", dtype=object)
+    status[~done] = NOT_RUN
+    passed = (column(summary, "rank_event_count") > 0.0) | (column(summary, "smallest_pivot") < WARN)
+    doubtful = (column(summary, "start") != e.ASSEMBLED) | (column(summary, "code") != abi.DONE)
+    doubtful |= passed if not law.position_correction else _jumped(summary)
+    for i in np.flatnonzero(done & doubtful):
+        row = summary[i]
+        start = int(column(row, "start"))
+        if start != e.ASSEMBLED:
+            status[i], reason[i] = FAILED, _no_start(start, row, info)
+            continue
+        verdict = judge_alone(_seen(row, spec), law.position_correction)
+        status[i], reason[i] = verdict.status, verdict.reason or ""
+    return status, reason
+
+
+def _jumped(summary: Array) -> NDArray[np.bool_]:
+    return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_FAILURE * column(summary, "energy_scale"))
+
+
+def _seen(row: Array, spec: RunSpec) -> Row:
+    numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
+    code, scale = int(numbers["code"]), numbers["energy_scale"]
+    names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")
+    events: tuple[RankEvent, ...] = ()
+    if numbers["rank_event_count"] > 0.0:
+        events = (RankEvent(numbers["narrowest_time"], np.nan, 0, numbers["narrowest_pivot"]),)
+    return Row(
+        code=code,
+        reason=end_reason(code, numbers["end"], tuple(numbers[name] for name in names), scale, spec),
+        smallest_pivot=numbers["smallest_pivot"],
+        rank_events=events,
+        rank_event_count=int(numbers["rank_event_count"]),
+        energy_jump=numbers["energy_jump"],
+        energy_scale=scale,
+        counters={"light": int(numbers["light_evaluations"])},
+    )
+
+
+def _no_start(code: int, row: Array, info: ModelInfo) -> str:
+    """Return why a run has no start, in the words of a single run."""
+    where, size = int(column(row, "start_where")), float(column(row, "start_size"))
+    if code == e.UNDEFINED:
+        return "parameters or start: expected values for which every formula is finite, got others"
+    if code == e.NO_MASS:
+        body = info.velocities[where].name.split(".")[0]
+        return str(InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}"))
+    if code == e.OPEN:
+        return stays_open(info.name, list(dict.fromkeys(r.joint for r in info.rows))[where], size)
+    if code == e.CONTRADICTION:
+        return no_velocities(info.name)
+    moved = float(column(row, "start_moved"))
+    found = (
+        f"positions that closing moves by up to {moved:.3g}" if code == e.MOVED else "velocities that contradict them"
+    )
+    return str(InputError("initial state", "a consistent start (--strict)", found))

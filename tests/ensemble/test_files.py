@@ -1,0 +1,212 @@
+"""Ensembles in files: what is written, what an interruption or a kill leaves, and what goes on from there."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import symgen
+from symgen.ensemble.table import DONE, FolderTable, Table
+from symgen.errors import InputError
+
+FEW = {"vary": {"crank_mass": "lin(1, 3, 6)", "crank.omega": [0.0, 2.0]}, "until": 0.05, "quantities": ("q",)}
+
+
+def test_a_netcdf_file_holds_everything(tmp_path):
+    path = tmp_path / "few.nc"
+    found = symgen.sweep("four-bar", **FEW, times=(0.0, 0.05), output=path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["few.nc"]
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        data.load()
+    assert dict(data.sizes) == {"crank_mass": 6, "crank.omega(0)": 2, "time": 2}
+    np.testing.assert_array_equal(data["crank.omega(0)"], [0.0, 2.0])
+    np.testing.assert_array_equal(data["crank.theta"], found["crank.theta"])
+    assert data["crank.theta"].attrs["units"] == "rad" and data["crank_mass"].attrs["units"] == "kg"
+    assert np.all(data["status"] == "ok") and np.all(data["reason"] == "")
+    np.testing.assert_array_equal(data["steps"], 50)
+    heavy = data.sel({"crank_mass": 3.0, "crank.omega(0)": 2.0})
+    one = symgen.simulate("four-bar", until=0.05, times=(0.05,), parameters={"crank_mass": 3.0})
+    rest = data.sel({"crank_mass": 3.0, "crank.omega(0)": 0.0})
+    assert float(rest["crank.theta"][-1]) == pytest.approx(one["crank.theta"][-1], abs=1e-13)
+    assert float(heavy["crank.theta"][-1]) > float(rest["crank.theta"][-1])
+    assert data.attrs["mechanism"] == "four-bar" and json.loads(data.attrs["parameters"])["rocker_mass"] == 5.0
+    assert set(json.loads(data.attrs["versions"])) == {"symgen", "python", "numpy", "numba"}
+
+
+def test_a_finished_file_is_not_computed_again_by_mistake(tmp_path):
+    path = tmp_path / "few.nc"
+    symgen.sweep("four-bar", **FEW, output=path, resume=True)  # nothing was begun: it begins
+    before = path.read_bytes()
+    with pytest.raises(InputError, match="one that is not finished, got a finished one; leave --resume out"):
+        symgen.sweep("four-bar", **FEW, output=path, resume=True)
+    assert path.read_bytes() == before
+    symgen.sweep("four-bar", **FEW, output=path)
+
+
+def test_failures_are_rows(tmp_path):
+    found = symgen.sweep("four-bar", {"crank_mass": [2.0, -1.0]}, until=0.01, output=tmp_path / "x.nc")
+    data = found.to_xarray()
+    assert list(data["status"].values) == ["ok", "failed"]
+    assert "mass or inertia of crank" in str(data["reason"].values[1])
+    assert np.isfinite(data["crank.x"][0]) and np.isnan(data["crank.x"][1])
+    assert data["end"].values[1] == 0.0
+
+
+def test_runs_together_have_one_dimension():
+    found = symgen.sweep("four-bar", runs={"crank_mass": [1.0, 2.0, 3.0], "crank.omega": [0.0, 1.0, 2.0]}, until=0.01)
+    data = found.to_xarray()
+    assert dict(data.sizes) == {"run": 3, "time": 1}
+    np.testing.assert_array_equal(data["crank.omega(0)"], [0.0, 1.0, 2.0])
+    np.testing.assert_array_equal(data["crank_mass"], [1.0, 2.0, 3.0])
+    grid = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.0, 3.0], "crank.omega": [0.0, 1.0, 2.0]}, until=0.01)
+    for i in range(3):
+        assert grid["crank.theta"][i, i, 0] == found["crank.theta"][i, 0]
+
+
+def test_any_number_of_threads_gives_the_same_bits():
+    one, three = (symgen.sweep("four-bar", **FEW, jobs=jobs) for jobs in (1, 3))
+    np.testing.assert_array_equal(one.values, three.values)
+    np.testing.assert_array_equal(one.summary, three.summary)
+
+
+# -- folders -----------------------------------------------------------------------------------------------------------
+
+
+def test_a_folder_can_be_continued_and_is_complete_then(tmp_path):
+    whole = symgen.sweep("four-bar", **FEW)
+    folder = tmp_path / "results"
+    symgen.sweep("four-bar", **FEW, output=folder)
+    done = (folder / DONE).read_text().split()
+    assert len(done) == len(set(done)) == -(-12 // whole.ensemble.chunk)
+    # as a kill leaves it: some chunks not listed, one line torn, and rows of an unlisted chunk half written
+    (folder / DONE).write_text("".join(f"{index}\n" for index in done[:4]) + done[4][:0] + "7")
+    values = np.load(folder / "values.npy", mmap_mode="r+")
+    values[int(done[5])] = 1e99
+    values.flush()
+    again = symgen.sweep("four-bar", **FEW, output=folder, resume=True)
+    np.testing.assert_array_equal(again.values, whole.values)
+    np.testing.assert_array_equal(again.summary, whole.summary)
+    assert sorted((folder / DONE).read_text().split()) == sorted(done)
+    before = (folder / DONE).read_bytes()
+    symgen.sweep("four-bar", **FEW, output=folder, resume=True)  # nothing is left to do
+    assert (folder / DONE).read_bytes() == before
+
+
+def test_a_folder_of_another_sweep_is_refused_and_left_alone(tmp_path):
+    folder = tmp_path / "results"
+    symgen.sweep("four-bar", **FEW, output=folder)
+    kept = {path.name: path.read_bytes() for path in folder.iterdir()}
+    with pytest.raises(
+        InputError, match=r"one in which no sweep was begun, got one with a sweep; --resume continues it"
+    ):
+        symgen.sweep("four-bar", **FEW, output=folder)
+    for change in ({"until": 0.06}, {"quantities": ("v",)}, {"vary": {"crank_mass": "lin(1, 4, 12)"}}):
+        with pytest.raises(InputError, match="the sweep that was begun there, got one with another"):
+            symgen.sweep("four-bar", **{**FEW, **change}, output=folder, resume=True)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == kept
+
+
+def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
+    (tmp_path / "thesis.txt").write_text("chapter 1")
+    for resume in (False, True):
+        with pytest.raises(
+            InputError, match=r"expected an empty one or one of a sweep, got one with 'thesis.txt' in it"
+        ):
+            symgen.sweep("four-bar", **FEW, output=tmp_path, resume=resume)
+    assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
+
+
+@pytest.mark.parametrize("name", ["x.csv", "missing/x.nc", "missing/x"])
+def test_outputs_that_cannot_be_written_are_refused_before_anything_runs(tmp_path, name):
+    with pytest.raises(InputError, match=r"output|folder"):
+        symgen.sweep("no-such-model", {"a": [1.0]}, output=tmp_path / name)
+    assert not list(tmp_path.iterdir())
+
+
+def test_two_processes_cannot_write_to_one_folder(tmp_path):
+    folder = tmp_path / "results"
+    symgen.sweep("four-bar", **FEW, output=folder)
+    ensemble = symgen.sweep("four-bar", **FEW).ensemble
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    with FolderTable(folder, ensemble.description, ensemble.sizes, True):
+        words = ("four-bar", "--vary", "crank_mass=lin(1,3,6)", "--vary", "crank.omega=values(0,2)", "--until", "0.05")
+        process = start(*words, "--quantity", "q", "-o", folder, "--resume")
+        _, err = process.communicate(timeout=250)
+        assert process.returncode == 2 and "expected one that no other process uses, got one in use" in err
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+    process = start(*words, "--quantity", "q", "-o", folder, "--resume")  # and the words are those of this sweep
+    process.communicate(timeout=250)
+    assert process.returncode == 0
+
+
+def test_a_chunk_is_not_taken_twice():
+    table = Table(4, 1, 1, 2)
+    ensemble = symgen.sweep("four-bar", {"crank_mass": [1.0, 2.0]}, until=0.01, quantities=("energy.kinetic",))
+    from symgen.ensemble.kernel import Chunk
+
+    chunk = Chunk(ensemble.values, ensemble.summary)
+    table.put(1, chunk)
+    assert table.missing() == [0] and table.runs_done == 2 and list(table.done()) == [False, False, True, True]
+    with pytest.raises(ValueError, match="chunk 1 is done already"):
+        table.put(1, chunk)
+
+
+# -- interruptions -----------------------------------------------------------------------------------------------------
+
+LONG = ("four-bar", "--vary", "crank_mass=lin(1,3,200)", "--until", "5", "--step", "1e-3", "--quantity", "crank.theta")
+
+
+def start(*arguments):
+    return subprocess.Popen(
+        [sys.executable, "-c", "from symgen.cli import main; raise SystemExit(main())", "sweep", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+def wait_for_chunks(log, count, process):
+    deadline = time.monotonic() + 250
+    while time.monotonic() < deadline and process.poll() is None:
+        if log.exists() and len(log.read_bytes().split()) >= count:
+            return
+        time.sleep(0.01)
+    raise AssertionError(f"no {count} chunks: {process.communicate()}")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+@pytest.mark.parametrize("kill", [signal.SIGKILL, signal.SIGINT])
+def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill):
+    path = tmp_path / "long.nc"
+    log = tmp_path / "long.nc.parts" / DONE
+    process = start(*LONG, "-o", path)
+    try:
+        wait_for_chunks(log, 3, process)
+        process.send_signal(kill)
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    before = log.read_text().splitlines()
+    assert 3 <= len(before) and len(set(before)) == len(before) and not path.exists()
+    if kill == signal.SIGINT:
+        assert process.returncode == 130
+        assert "interrupted; " in err and "--resume goes on from there" in err.splitlines()[-1]
+    process = start(*LONG, "-o", path, "--resume", "--json")
+    out, err = process.communicate(timeout=250)
+    assert process.returncode == 0, err
+    assert json.loads(out)["status"]["ok"] == 200
+    assert [p.name for p in tmp_path.iterdir()] == ["long.nc"]
+    with xr.open_dataset(path, engine="h5netcdf") as data:
+        whole = symgen.sweep(
+            "four-bar", {"crank_mass": "lin(1,3,200)"}, until=5.0, step=1e-3, quantities=("crank.theta",)
+        )
+        assert len(before) < -(-200 // whole.ensemble.chunk)
+        np.testing.assert_array_equal(data["crank.theta"].values, whole["crank.theta"])
+        np.testing.assert_array_equal(data["evaluations"].values, whole["evaluations"])

@@ -1,0 +1,96 @@
+"""Parameters and described starts of many runs against those of single ones."""
+
+import numpy as np
+import pytest
+from support.emitted import mechanism_of
+
+import symgen
+from symgen.describe.evaluate import evaluate
+from symgen.ensemble.starts import evaluate_all, make_rows
+from symgen.errors import InputError
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
+
+A = np.array([-1.7, -0.4, 0.0, 0.3, 0.9, 1.0, 2.5])
+B = np.array([0.6, -2.0, 0.0, 0.0, 0.9, -1.0, 3.0])
+C = np.array([1.0, 0.0, -3.0, 0.5, 0.0, 1.0, 2.0])
+
+
+@pytest.mark.parametrize("function", list(FUNCTIONS))
+def test_functions_are_those_of_single_runs(function):
+    names = [Name(x) for x in "abc"[: FUNCTIONS[function][0]]]
+    formula = Call("add", (Call(function, tuple(names)), Name("a")))
+    found = np.broadcast_to(evaluate_all(formula, {"a": A, "b": B, "c": C}), A.shape)
+    for i in range(len(A)):
+        try:
+            expected = evaluate(formula, {"a": A[i], "b": B[i], "c": C[i]})
+        except InputError:
+            expected = np.nan
+        np.testing.assert_allclose(found[i], expected, rtol=1e-14, err_msg=f"{function} of {A[i]}, {B[i]}, {C[i]}")
+
+
+def test_what_is_undefined_inside_stays_undefined_unless_it_is_left_aside():
+    inverse = Call("div", (Name("b"), Name("a")))
+    values = {"a": np.array([0.0, 2.0]), "b": np.array([1.0, 1.0])}
+    for formula in (Call("atan", (inverse,)), Call("lt", (inverse, Name("b"))), Call("pow", (inverse, Name("zero")))):
+        assert np.isnan(evaluate_all(formula, {**values, "zero": np.array(0.0)})[0])
+    chosen = Call("where", (Call("gt", (Name("a"), Name("zero"))), inverse, Name("b")))
+    np.testing.assert_array_equal(evaluate_all(chosen, {**values, "zero": np.array(0.0)}), [1.0, 0.5])
+
+
+ORIENTATIONS = {
+    "a": {"rotation_vector": ["0.3*k", "k - 1", 0.2]},
+    "b": {"euler_angles": ["k", "0.5*k", -1.0], "convention": "zxz"},
+    "c": {"x_axis": ["k - 2", 0.4, 0.1], "y_axis": [0.0, "k", 1.0]},
+    "d": {"start": [0.0, "k", 0.0], "end": [1.0, 0.0, "0.3*k"], "y_axis": [0.0, 1.0, 0.3]},
+    "e": {"quaternion": [1.0, 2.0, -1.0, 0.5]},
+    "f": {"rotation_vector": ["k - 1", 0.0, 0.0]},
+}
+SPACE = {
+    "mechanism": {"name": "free", "space": "spatial"},
+    "parameters": {"k": 1.0},
+    "bodies": {
+        name: {
+            "mass": 1.0,
+            "inertia": [1.0, 2.0, 2.5],
+            "position": ["k", 0.0, f"{i}*k"],
+            "centre_of_mass": [0.1, "0.2*k", 0.3],
+            "orientation": orientation,
+            "angular_velocity": ["k", 0.0, 1.0],
+        }
+        for i, (name, orientation) in enumerate(ORIENTATIONS.items())
+    },
+}
+PLANE = {
+    "mechanism": {"name": "plane"},
+    "parameters": {"k": 1.0, "unused": 2.0},
+    "bodies": {
+        "arm": {
+            "mass": 1.0,
+            "inertia": 1.0,
+            "position": ["k", 2.0],
+            "angle": "sin(k)",
+            "centre_of_mass": [0.3, "k/4"],
+            "angular_velocity": "k",
+        },
+        "dot": {"type": "point", "mass": 1.0, "position": ["sqrt(k)", 0.0], "velocity": [0.0, "3*k"]},
+        "rod": {"mass": 1.0, "inertia": 1.0},
+    },
+}
+
+
+@pytest.mark.parametrize("description", [SPACE, PLANE], ids=["space", "plane"])
+def test_rows_are_the_described_starts_of_single_runs(description):
+    model = symgen.load(mechanism_of(description))
+    values = np.array([0.2, 1.0, 1.7, 2.9])
+    rows = make_rows(model.mechanism, model.parameters(), {"k": values}, {}, {})
+    for i, k in enumerate(values):
+        q, v = model.initial_state(model.parameters({"k": k}))
+        np.testing.assert_allclose(rows.q[i], q, rtol=1e-14, atol=1e-15)
+        np.testing.assert_allclose(rows.v[i], [np.nan if x is None else x for x in v], rtol=1e-14)
+        assert rows.parameters[i, 0] == k
+
+
+def test_undefined_rows_are_nan_and_alone():
+    model = symgen.load(mechanism_of(PLANE))
+    rows = make_rows(model.mechanism, model.parameters(), {"k": np.array([1.0, -1.0])}, {}, {})
+    assert np.all(np.isfinite(rows.q[0])) and not np.all(np.isfinite(rows.q[1]))
