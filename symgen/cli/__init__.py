@@ -27,6 +27,8 @@ COMMANDS = {
     "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
     "run": ("symgen.cli.run", "Simulate a mechanism."),
     "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
+    "stress": ("symgen.cli.stress", "Find where methods stop being stable: stiff and extreme cases."),
+    "sweep": ("symgen.cli.sweep", "Run a mechanism for many parameters and starts."),
     "schema": ("symgen.cli.schema", "Print the JSON schema of mechanism files."),
     "cache": ("symgen.cli.cache", "Show or empty the cache of generated and compiled code."),
     "completion": ("symgen.cli.completion", "Print the shell's completion script."),

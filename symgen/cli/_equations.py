@@ -21,6 +21,9 @@ def as_text(facts: dict[str, Any]) -> str:
         f"of rank {facts['rank']}, {facts['degrees_of_freedom']} degrees of freedom at the start"
     )
     lines += [f"note: {note}" for note in facts["notes"]]
+    shape = facts["shape"]
+    kernels = ", ".join(f"{count} {name}" for name, count in shape["kernels"].items())
+    lines.append(f"shape: {shape['shape']}, as {shape['reason']}; as loops it has the kernels {kernels}")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
     section("Coordinates q and velocities v")

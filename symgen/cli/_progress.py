@@ -9,6 +9,8 @@ from typing import Any
 
 #: Shorter work shows nothing, and does not import what draws the bar.
 PATIENCE = 0.7
+#: Where standard error is no terminal, so long passes between two lines about a long study [s].
+BETWEEN_LINES = 20.0
 
 
 class Bar:
@@ -50,3 +52,39 @@ class Bar:
     ) -> None:
         if self.progress is not None:
             self.progress.stop()
+
+
+class Lines:
+    """Progress of a long study: a bar on a terminal, elsewhere a line on standard error from time to time."""
+
+    def __init__(self) -> None:
+        self.bar = Bar("", 1.0)
+        self.last = time.perf_counter()
+
+    def __enter__(self) -> Lines:
+        return self
+
+    def __call__(self, what: str, done: int, total: int, share: float, seconds_left: float | None) -> None:
+        self.say(f"{what}: {done} of {total}", share, None if done == total else seconds_left)
+
+    def say(self, text: str, share: float, seconds_left: float | None) -> None:
+        """Show what is being done, how much of the work is behind it, and about how long the rest takes."""
+        left = "" if seconds_left is None else f", about {_duration(seconds_left)} left"
+        self.bar.title = f"{text}{left}"
+        self.bar(share)
+        if not self.bar.shown and time.perf_counter() - self.last > BETWEEN_LINES:
+            self.last = time.perf_counter()
+            print(f"symgen: {self.bar.title}", file=sys.stderr, flush=True)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.bar.__exit__(kind, error, trace)
+
+
+def _duration(seconds: float) -> str:
+    """Return a duration in the unit that suits it."""
+    for unit, size in (("h", 3600.0), ("min", 60.0)):
+        if seconds >= 1.5 * size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.0f} s"

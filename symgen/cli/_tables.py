@@ -66,13 +66,23 @@ def _final(result: Result, most: int = 12) -> Table:
 def show_study(study: Study) -> None:
     """Print the rows of a study."""
     out = console()
-    out.print(
-        f"{study.mechanism}, {study.until:g} s; reference: {study.how} (off by about {study.estimated_error:.1g} m)"
-    )
+    off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
+    out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
+    if study.note:
+        out.print(study.note)
     table = Table(box=None, header_style="dim", pad_edge=False)
     for heading in ("method", "integrator", "step or rtol", "status"):
         table.add_column(heading, no_wrap=True)
-    for heading in ("error [m]", "run [ms]", "spread", "evaluations", "|Phi|", "|D v - nu|", "energy [J]"):
+    for heading in (
+        "error [m]",
+        "run [ms]",
+        "spread",
+        "x lagrange",
+        "evaluations",
+        "|Phi|",
+        "|D v - nu|",
+        "energy [J]",
+    ):
         table.add_column(heading, justify="right", no_wrap=True)
     for row in study.rows:
         error = "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else "")
@@ -84,12 +94,18 @@ def show_study(study: Study) -> None:
             error,
             f"{1e3 * row.run_seconds:.3f}",
             f"{1e3 * row.run_seconds_spread:.3f}",
+            "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}",
             str(row.evaluations),
             *(f"{x:.1e}" for x in (row.position_violation_max, row.velocity_violation_max, row.energy_drift_max)),
         )
     out.print(table)
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
+    spreads = study.ratio_spreads
+    if spreads is not None:
+        out.print(
+            f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
+        )
     for row in study.rows:
         steps = f"rtol {row.rtol:g}" if row.rtol is not None else f"step {row.step:g} s"
         for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *row.warnings):

@@ -19,14 +19,24 @@ from symgen.errors import InputError
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
 @click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Such as direct-correction.weight=mass.")
+@click.option(
+    "--shape",
+    type=click.Choice(["straight", "looped"]),
+    default="straight",
+    show_default=True,
+    help="Code for this mechanism alone, or loops over tables that all mechanisms share.",
+)
 @click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
-def command(model: str, methods: tuple[str, ...], options: tuple[str, ...], output: str | None, as_json: bool) -> int:
+def command(
+    model: str, methods: tuple[str, ...], options: tuple[str, ...], shape: str, output: str | None, as_json: bool
+) -> int:
     """Write the emitted modules of MODEL, and their metadata as JSON, into a folder, and list them.
 
     The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
     """
     from symgen.describe.load import load
+    from symgen.lower.looped.law import is_loopable
     from symgen.methods import METHODS
     from symgen.pipeline import MethodChoice, choose_method, generate
 
@@ -42,7 +52,9 @@ def command(model: str, methods: tuple[str, ...], options: tuple[str, ...], outp
     folder = Path(mechanism.name if output is None else output)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
-    generated = generate(mechanism, tuple(choices))
+    if shape == "looped" and not methods:
+        choices = [c for c in choices if is_loopable(c.method, c.options, c.implicit)]
+    generated = generate(mechanism, tuple(choices), shape)
     written = write_modules(folder, generated.modules)
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in written]

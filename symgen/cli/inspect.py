@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -21,9 +22,16 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
 @click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Of the method: weight=mass.")
+@click.option("--shape", default="auto", show_default=True, help="Shape of the code: auto, straight or looped.")
 @click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter, for the start.")
 def command(
-    model: str, form: str, as_json: bool, method: str | None, options: tuple[str, ...], changed: tuple[str, ...]
+    model: str,
+    form: str,
+    as_json: bool,
+    method: str | None,
+    options: tuple[str, ...],
+    shape: str,
+    changed: tuple[str, ...],
 ) -> int:
     """Show what symgen derives for MODEL: exactly what is compiled.
 
@@ -33,7 +41,7 @@ def command(
     parameters = assignments("--set", changed)
     given = {key.rpartition(".")[2]: str(value) for key, value in option_pairs(options).items()}
     form = "json" if as_json else form
-    facts = describe(model, method, given, parameters, latex=form == "latex")
+    facts = describe(model, method, given, parameters, latex=form == "latex", shape=shape)
     if form == "json":
         write_json(facts)
     else:
@@ -44,25 +52,35 @@ def command(
 
 
 def describe(
-    name: str, method: str | None, options: dict[str, str], parameters: dict[str, float], latex: bool = False
+    name: str,
+    method: str | None,
+    options: dict[str, str],
+    parameters: dict[str, float],
+    latex: bool = False,
+    shape: str = "auto",
 ) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
     from symgen.formulate.display import Display
     from symgen.formulate.formulate import formulate
-    from symgen.pipeline import choose_method
+    from symgen.pipeline import choose_method, compile_model
+    from symgen.plan import Settings, make_plan
 
     choice = choose_method(method or "direct-correction", options)
     model = load(name)
+    asked = Settings(method=choice.method.name, options={f"method.{k}": v for k, v in options.items()}, shape=shape)
+    plan = make_plan(model, asked)
     equations = formulate(model.mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text
-    start = model.assemble(model.compile(choice.method.name, choice.options), parameters)
+    compiled = compile_model(model.mechanism, replace(choice, shape=plan.choice.shape))
+    start = model.assemble(compiled, parameters)
     values = model.parameters(parameters)
     facts: dict[str, Any] = {
         "mechanism": model.name,
         "title": model.mechanism.title,
         "sizes": _sizes(equations),
+        "shape": {"shape": compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(model)},
         "rank": start.rank,
         "degrees_of_freedom": equations.nv - start.rank,
         "redundant_rows": list(start.redundant_rows),
@@ -106,6 +124,15 @@ def describe(
     if method is not None:
         facts["method"] = _method(model, equations, choice)
     return facts
+
+
+def _kernels(model: Model) -> dict[str, int]:
+    """Return how many instances each kernel of the looped shape would have."""
+    from symgen.looped import named
+    from symgen.lower.looped.instances import instances
+
+    _, stems, elements = named(instances(model.mechanism))
+    return {stem: stems.count(stem) for stem in elements}
 
 
 def pattern(equations: Equations) -> list[str]:

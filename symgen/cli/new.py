@@ -13,11 +13,17 @@ from symgen.errors import InputError
 @click.command("new", short_help="Write a commented mechanism file to start from.")
 @click.argument("name")
 @click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml unless given, - for standard output.")
-def command(name: str, output: str | None) -> int:
+@click.option(
+    "--space",
+    type=click.Choice(["planar", "spatial"]),
+    default="planar",
+    help="Planar, or in space; planar if not given.",
+)
+def command(name: str, output: str | None, space: str) -> int:
     """Write a mechanism file that runs as it is and shows every key, with comments. Never overwrites a file."""
     from symgen.describe.template import template
 
-    text = template(name)
+    text = template(name, space)
     if output == "-":
         click.echo(text, nl=False)
         return OK

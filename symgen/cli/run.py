@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
 @click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")
 @click.option("--repeat", type=int, default=1, show_default=True, help="Warm up and time that many runs.")
+@click.option("--shape", default="auto", show_default=True, help="Shape of the code: auto, straight or looped.")
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
 @click.pass_context
 def command(
@@ -48,6 +49,7 @@ def command(
     save: str | None,
     plot: str | None,
     repeat: int,
+    shape: str,
     as_json: bool,
 ) -> int:
     """Simulate MODEL and say how it went.
@@ -80,6 +82,7 @@ def command(
         strict=strict,
         verify=verify,
         repeat=repeat,
+        shape=shape,
     )
     with Bar(
         f"{loaded.name}, {method}" + (f", {integrator}" if integrator else ""), until or loaded.mechanism.defaults.until

@@ -1,32 +1,37 @@
-"""Error against run time: one model, several methods, integrators, steps and tolerances, one reference."""
+"""Error against run time: models, several methods, integrators, steps and tolerances, one reference a model."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
-from os import PathLike
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.api import Model, load
+from symgen.describe.digest import digest
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError
+from symgen.errors import InputError, SimulationError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.plan import Plan, Settings, make_plan
-from symgen.result.judge import judge
-from symgen.result.result import FAILED, finite
 from symgen.runtime import abi
+from symgen.study.journal import Journal
+from symgen.study.kept import Kept
+from symgen.study.measured import measured
 from symgen.study.points import Points
+from symgen.study.prepare import Task, prepare
 from symgen.study.reference import Array, Reference, reference
-from symgen.study.timing import repeated
+from symgen.study.rows import Row, Study, Trace, save_csv, with_ratios
+from symgen.study.solvers import AUTO, check_solver
+from symgen.study.timing import timed
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
     from symgen.runtime.assembly import Start
-    from symgen.runtime.run import Outcome
+
+__all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
 #: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
@@ -35,8 +40,10 @@ RTOLS = (1e-6, 1e-8, 1e-10)
 ATOL_SHARE = 1e-2
 #: Output times of a study where the mechanism does not say more coarsely.
 OUTPUTS = 200
-#: Timed runs a row, unless told.
-REPEAT = 3
+#: Timed runs a row, unless told; and the seconds that they take together at least.
+REPEAT, AT_LEAST = 3, 0.05
+#: What making the code of a method ready counts for in the progress, in rows.
+PREPARATION = 10.0
 
 #: Called with what is being done, how far it is, and how much there is in all.
 Progress = Callable[[str, float, float], None]
@@ -48,133 +55,10 @@ DEFAULT_METHODS = (
 )
 #: And with which integrators; a method that none of them suits gets its own.
 DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
+#: Largest number of coordinates for which a study compiles straight code unless told.
+LARGEST_STRAIGHT = 120
 #: Stands for every method or integrator.
 ALL = "all"
-
-
-@dataclass(frozen=True)
-class Row:
-    """One method with one integrator at one step or tolerance.
-
-    Attributes
-    ----------
-    method, integrator : str
-        What was run.
-    step, rtol : float or None
-        Constant step [s], or relative tolerance.
-    status, reason
-        As of a result; a failed run stays a row.
-    error : float or None
-        Largest distance to the reference [m] over bodies, output times and points (`symgen.study.points`); None for a
-        run that failed.
-    below_reference : bool
-        The error is below what the reference itself may be off, so it says no more than that.
-    run_seconds, run_seconds_spread : float
-        Shortest of several runs after a warm-up, and longest minus shortest [s].
-    evaluations : int
-        Right-hand sides.
-    position_violation_max, velocity_violation_max, energy_drift_max : float
-        Largest norms of Phi and ``D v - nu``, and energy error [J].
-    warnings : tuple of str
-        Sentences: what to be careful with.
-    """
-
-    method: str
-    integrator: str
-    step: float | None
-    rtol: float | None
-    status: str
-    reason: str | None
-    error: float | None
-    below_reference: bool
-    run_seconds: float
-    run_seconds_spread: float
-    evaluations: int
-    position_violation_max: float
-    velocity_violation_max: float
-    energy_drift_max: float
-    warnings: tuple[str, ...] = ()
-
-    def texts(self) -> list[str]:
-        """Return the fields as the cells of a table; None is empty."""
-        return ["" if x is None else "; ".join(x) if isinstance(x, tuple) else str(x) for x in asdict(self).values()]
-
-
-@dataclass(frozen=True)
-class Study:
-    """Rows of one mechanism against one reference.
-
-    Attributes
-    ----------
-    mechanism : str
-        What was run.
-    how : str
-        Where the reference comes from.
-    estimated_error : float
-        How far the reference may be off [m].
-    until : float
-        End time [s].
-    rows : tuple of Row
-        In the order of methods, integrators, steps or tolerances.
-    interrupted : bool
-        Whether rows are missing because the study was stopped.
-    """
-
-    mechanism: str
-    how: str
-    estimated_error: float
-    until: float
-    rows: tuple[Row, ...]
-    interrupted: bool = False
-
-    @property
-    def failed(self) -> bool:
-        """Whether not one run came to an end."""
-        return not any(row.status != FAILED for row in self.rows)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the contract of ``symgen compare --json``."""
-        contract = {
-            "mechanism": self.mechanism,
-            "until": self.until,
-            "reference": {"how": self.how, "estimated_error": self.estimated_error},
-            "rows": [asdict(row) for row in self.rows],
-        }
-        return cast(dict[str, Any], finite(contract))
-
-    def to_dataframe(self) -> Any:
-        """Return the rows as a pandas data frame."""
-        from symgen.result.export import need
-
-        need("to_dataframe", "pandas")
-        import pandas as pd
-
-        return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(Row)])
-
-    def save(self, path: str | PathLike[str]) -> Path:
-        """Write the rows to a CSV file; it appears whole or not at all."""
-        return save_csv([self], Path(path))
-
-
-def save_csv(studies: Sequence[Study], path: Path) -> Path:
-    """Write the rows of studies to one CSV file, with the mechanism in the first column."""
-    import csv
-
-    from symgen.result.export import check_writable, write_whole
-
-    if path.suffix.lower() != ".csv":
-        raise InputError("save", "a file ending in .csv", f"'{path}'")
-    check_writable("save", path)
-
-    def write(file: Path) -> None:
-        with file.open("w", newline="", encoding="utf-8") as handle:
-            writer = csv.writer(handle)
-            writer.writerow(["mechanism", *(f.name for f in fields(Row))])
-            for study in studies:
-                for row in study.rows:
-                    writer.writerow([study.mechanism, *row.texts()])
-
-    return write_whole(path, write)
 
 
 def compare(
@@ -189,6 +73,10 @@ def compare(
     parameters: Mapping[str, float] | None = None,
     options: Mapping[str, str | float] | None = None,
     progress: Progress | None = None,
+    jobs: int = 1,
+    journal: Journal | None = None,
+    reference_by: str = AUTO,
+    shape: str = "auto",
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -206,13 +94,24 @@ def compare(
     until : float, optional
         End time [s]; the mechanism's own unless given, and no longer than it is predictable.
     repeat : int
-        Timed runs a row, after a warm-up; the shortest counts.
+        Timed runs a row, after a warm-up; the shortest counts. Short runs are repeated more often; 1 runs once.
     output_step : float, optional
         Time between the outputs that are compared [s].
     parameters, options : mapping
         As for `symgen.plan.Settings`.
     progress : callable, optional
         Called with what is being done, how far it is, and how much there is in all.
+    jobs : int
+        Processes for what is not timed: deriving, compiling, references. With more than 1 a script needs the guard
+        ``if __name__ == "__main__":``.
+    journal : Journal, optional
+        Keeps every row as soon as it is done, and gives those of an earlier, interrupted study.
+    reference_by : str
+        Where the reference motion comes from: ``auto``, or one of SciPy's solvers on independently derived equations
+        (``scipy-dop853``, ``scipy-radau``, ``scipy-bdf``, ``scipy-lsoda``).
+    shape : str
+        Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
+        times compare methods and not shapes.
 
     Returns
     -------
@@ -223,73 +122,190 @@ def compare(
     ------
     InputError
         If a name or number is wrong; nothing has been run then.
-    SimulationError
-        If the reference motion cannot be had.
     """
-    chosen = model if isinstance(model, Model) else load(model)
-    base = Settings(parameters=parameters or {}, options=options or {}, repeat=repeat)
-    end = _end(chosen, until)
-    times = _times(chosen, end, output_step)
-    settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
-    plans = [make_plan(chosen, s) for s in settings]  # refuses what is wrong before anything is run
-    total = float(len(plans) + 1)
-    say: Progress = progress or (lambda what, reached, of: None)
+    arguments = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
+    return compare_all([model], *arguments, progress, jobs, journal, reference_by, shape)[0]
 
+
+@dataclass
+class _Work:
+    """One model with everything that will be run."""
+
+    model: Model
+    end: float
+    times: Array
+    settings: list[Settings]
+    plans: list[Plan]
+    kept: Kept
+    reference_by: str
     known: Reference | None = None
-    rows: list[Row] = []
-    ready: dict[tuple[str, tuple[tuple[str, float], ...]], tuple[CompiledModel, Start]] = {}
-    points = Points.of(chosen.mechanism, chosen.parameters(parameters))
+    note: str = ""  # why there is no reference
+
+    @property
+    def total(self) -> float:
+        return float(len(self.plans) + 1)
+
+    def study(self, rows: Sequence[Row], traces: Sequence[Trace], interrupted: bool) -> Study:
+        base, known = self.settings[0], self.known
+        return Study(
+            mechanism=self.model.name,
+            how="none" if known is None else known.how,
+            estimated_error=float("nan") if known is None else known.estimated_error,
+            until=self.end,
+            rows=with_ratios(rows),
+            interrupted=interrupted,
+            traces=tuple(traces),
+            note=self.note or ("there is no reference, so errors are unknown" if known is None else known.note),
+            title=self.model.mechanism.title,
+            digest=digest(self.model.mechanism),
+            step=self.model.mechanism.defaults.step,
+            parameters=dict(base.parameters),
+            options=dict(base.options),
+            repeat=base.repeat,
+        )
+
+
+def compare_all(
+    models: Sequence[str | Path | Mechanism | Model],
+    methods: Sequence[str] = (),
+    integrators: Sequence[str] = (),
+    steps: Sequence[float] = (),
+    rtols: Sequence[float] = (),
+    until: float | None = None,
+    repeat: int = REPEAT,
+    output_step: float | None = None,
+    parameters: Mapping[str, float] | None = None,
+    options: Mapping[str, str | float] | None = None,
+    progress: Progress | None = None,
+    jobs: int = 1,
+    journal: Journal | None = None,
+    reference_by: str = AUTO,
+    shape: str = "auto",
+) -> list[Study]:
+    """Compare on several models; arguments and errors as for `compare`.
+
+    Returns
+    -------
+    list of Study
+        One a model, in order; after an interruption those up to the interrupted one, which comes last.
+    """
+    check_solver(reference_by)
+    asked = Settings(parameters=parameters or {}, options=options or {}, repeat=repeat)
+    works = []
+    for model in models:
+        chosen = model if isinstance(model, Model) else load(model)
+        end = _end(chosen, until)
+        times = _times(chosen, end, output_step)
+        small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
+        base = replace(asked, shape="straight" if shape == "auto" and small else shape)
+        settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
+        plans = [make_plan(chosen, s) for s in settings]  # refuses what is wrong before anything is run
+        works.append(
+            _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
+        )
+    reached, total = 0.0, sum(w.total for w in works)
+    report: Progress = progress or (lambda what, reached, of: None)
+    if jobs > 1:
+        reached, interrupted = _prepare(works, jobs, report, total)
+        total += reached
+        if interrupted:
+            return [works[0].study((), (), True)]
+    studies = []
+    for work in works:
+        prefix = f"{work.model.name}: " if len(works) > 1 else ""
+
+        def say(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
+            report(prefix + what, reached + done, total)
+
+        studies.append(_run(work, say))
+        reached += work.total
+        if studies[-1].interrupted:
+            break
+    return studies
+
+
+def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) -> tuple[float, bool]:
+    """Fill the cache and compute references on several processes.
+
+    Returns what that counts for in the progress, and whether it was interrupted.
+    """
+    from symgen.store.paths import cache_location
+
+    if not cache_location().persistent:
+        return 0.0, False  # what another process compiles would be lost
+    tasks, owners = list[Task](), list[_Work]()
+    for work in works:
+        groups: dict[Any, dict[str, Settings]] = {}
+        for settings, plan in zip(work.settings, work.plans, strict=True):
+            if work.kept.row(settings) is None:
+                groups.setdefault(plan.key, {}).setdefault(plan.tableau.name, settings)
+        first = work.settings[0]
+        if groups and work.kept.reference(first, work.times) is None:
+            tasks.append(Task("reference", work.model.mechanism, (first,), work.times, work.reference_by))
+        tasks += [Task(next(iter(g.values())).method, work.model.mechanism, tuple(g.values())) for g in groups.values()]
+        owners += [work] * (len(tasks) - len(owners))
+    weight = PREPARATION * len(tasks)
+
+    def done(count: int) -> None:
+        what = f": {owners[count].model.name}, {tasks[count].what}" if count < len(tasks) else ""
+        report(f"preparing{what}", PREPARATION * count, weight + later)
+
+    done(0)
+    found, interrupted = prepare(tasks, jobs, done)
+    for work, known in zip(owners, found, strict=True):
+        if known is not None:
+            work.known = known
+            work.kept.add_reference(work.settings[0], known)
+    return weight, interrupted
+
+
+def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
+    """Run all rows of a model, one at a time."""
+    rows, traces = list[Row](), list[Trace]()
+    ready: dict[Any, tuple[CompiledModel, Start]] = {}
+    points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
     interrupted = False
     try:
-        for i, (s, plan) in enumerate(zip(settings, plans, strict=True)):
-            key = plan.choice.stem, tuple(sorted(plan.method_parameters.items()))
-            if key not in ready:
-                ready[key] = chosen.ready(plan, parameters)
-            compiled, start = ready[key]
-            if known is None:
-                say("reference", 0.0, total)
-                nq, nv = compiled.info.nq, compiled.info.nv
-                q, v = start.y[:nq], start.y[nq : nq + nv]
-                values = chosen.parameters(parameters)
-                known = reference(chosen.mechanism, values, q, v, times, lambda f: say("reference", f, total))
-            say(f"{s.method}, {s.integrator}", 1.0 + i, total)
-            outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, repeat)
-            if outcome.code != abi.STOPPED:
-                rows.append(_row(s, plan, outcome, spread, known, points))
-            if outcome.interrupted:
-                interrupted = True
+        work.known = work.known or work.kept.reference(work.settings[0], work.times)
+        for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
+            found = work.kept.row(s)
+            if found is None:
+                if plan.key not in ready:
+                    ready[plan.key] = work.model.ready(plan, s.parameters)
+                compiled, start = ready[plan.key]
+                if work.known is None and not work.note:
+                    say("reference", 0.0)
+                    _find_reference(work, compiled, start, lambda f: say("reference", f))
+                say(f"{s.method}, {s.integrator}", 1.0 + i)
+                runs = timed(compiled, plan.tableau, start, plan.spec, s.repeat, None, AT_LEAST)
+                interrupted = runs.outcome.interrupted
+                if runs.outcome.code != abi.STOPPED:
+                    found = measured(s, plan, runs, work.known, points)
+                    work.kept.add_row(s, *found)
+            if found is not None:
+                rows.append(found[0])
+                traces.append(found[1])
+            if interrupted:
                 break
     except KeyboardInterrupt:
         interrupted = True
-    how, estimated = ("not computed", np.nan) if known is None else (known.how, known.estimated_error)
-    return Study(chosen.name, how, float(estimated), end, tuple(rows), interrupted)
+    return work.study(rows, traces, interrupted)
 
 
-def _row(settings: Settings, plan: Plan, outcome: Outcome, spread: float, known: Reference, points: Points) -> Row:
-    """Judge and measure one run."""
-    compiled = outcome.compiled
-    verdict = judge(settings, plan, compiled, outcome)
-    error = None
-    if outcome.code == abi.DONE:
-        error = points.distance(outcome.states[:, : compiled.info.nq], known.q)
-    adaptive = plan.spec.adaptive
-    return Row(
-        method=plan.choice.method.name,
-        integrator=plan.tableau.name,
-        step=None if adaptive else plan.spec.step,
-        rtol=plan.spec.rtol if adaptive else None,
-        status=verdict.status,
-        reason=verdict.reason,
-        error=error,
-        below_reference=error is not None and error < known.estimated_error,
-        run_seconds=outcome.run_seconds,
-        run_seconds_spread=spread,
-        evaluations=outcome.evaluations,
-        position_violation_max=outcome.position_violation_max,
-        velocity_violation_max=outcome.velocity_violation_max,
-        energy_drift_max=outcome.energy_drift_max,
-        warnings=verdict.warnings,
-    )
+def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:
+    """Compute the reference; where there is none, note why."""
+    nq, nv = compiled.info.nq, compiled.info.nv
+    settings, mechanism = work.settings[0], work.model.mechanism
+    values = work.model.parameters(settings.parameters)
+    try:
+        known = reference(
+            mechanism, values, start.y[:nq], start.y[nq : nq + nv], work.times, progress, work.reference_by
+        )
+    except SimulationError as error:
+        work.note = f"there is no reference, so errors are unknown: {error}"
+        return
+    work.known = known
+    work.kept.add_reference(settings, known)
 
 
 def _end(model: Model, until: float | None) -> float:
@@ -325,8 +341,6 @@ def _combinations(
     end: float,
     times: Any,
 ) -> Iterator[Settings]:
-    from dataclasses import replace
-
     own = model.mechanism.defaults.step
     for method in _named(methods, DEFAULT_METHODS, METHODS.names):
         for integrator in _suitable(method, integrators):

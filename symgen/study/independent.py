@@ -16,7 +16,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate, interpolate
-from symgen.describe.mechanism import Mechanism, Table
+from symgen.describe.mechanism import Body, Mechanism, Table
 from symgen.formulate.translate import to_sympy
 from symgen.vocabulary.expressions import ZERO, Expr, names
 from symgen.vocabulary.measures import (
@@ -31,6 +31,8 @@ from symgen.vocabulary.measures import (
     Marker,
     Measure,
     Nonholonomic,
+    PointSpeed,
+    Sum,
 )
 
 Array = NDArray[np.float64]
@@ -55,20 +57,13 @@ class IndependentEquations:
         self.parameters = parameters
         self.t = sp.Symbol("t", real=True)
         self.first: dict[str, int] = {}
-        self.known: dict[str, Any] = {"t": self.t} | {n: sp.Float(x) for n, x in parameters.items()}
-        q, v = list[Any](), list[Any]()
-        for body in mechanism.bodies:
-            self.first[body.name] = len(q)
-            for coordinate, speed in zip(body.coordinates, body.speeds, strict=True):
-                q.append(sp.Symbol(f"q{len(q)}", real=True))
-                v.append(sp.Symbol(f"v{len(v)}", real=True))
-                self.known[f"{body.name}.{coordinate}"] = q[-1]
-                self.known[f"{body.name}.{speed}"] = v[-1]
-        self.q, self.v = q, v
-        self.n = len(q)
+        self.known: dict[str, Any] = {"t": self.t} | self._parameter_symbols()
+        self.q, self.v = list[Any](), list[Any]()
+        self._declare()
+        self.n = len(self.q)
         self.mass = self._masses()
         self.root = 1.0 / np.sqrt(self.mass)
-        rows = [self._row(row) for joint in mechanism.joints for row in joint.rows]
+        rows = self._rows()
         self.m = len(rows)
         self._entries = [(i, j) for i, row in enumerate(rows) for j in row[1]]
         self._row_index = np.array([i for i, _ in self._entries], dtype=int)
@@ -82,7 +77,21 @@ class IndependentEquations:
         ]
         self._function = self._compile(outputs)
 
+    def _declare(self) -> None:
+        """Make the symbols of coordinates and their rates, and what formulas call them."""
+        for body in self.mechanism.bodies:
+            self.first[body.name] = len(self.q)
+            for coordinate, speed in zip(body.coordinates, body.speeds, strict=True):
+                self.q.append(sp.Symbol(f"q{len(self.q)}", real=True))
+                self.v.append(sp.Symbol(f"v{len(self.v)}", real=True))
+                self.known[f"{body.name}.{coordinate}"] = self.q[-1]
+                self.known[f"{body.name}.{speed}"] = self.v[-1]
+
     # -- numbers -------------------------------------------------------------------------------------------------------
+
+    def state(self, q: Array, v: Array) -> Array:
+        """Return what is integrated, for coordinates and velocities as results have them."""
+        return np.concatenate([q, v])
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state; nonholonomic rows have Phi 0."""
@@ -118,13 +127,21 @@ class IndependentEquations:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
             tables[f"table_{table.name}"] = partial(interpolate, table)
-            tables[f"slope_{table.name}"] = partial(_slope, table)
+            tables[f"slope_{table.name}"] = partial(slope, table)
         function: Callable[..., Any] = sp.lambdify(
             [self.t, self.q, self.v], outputs, modules=[tables, "math"], cse=True
         )
         return function
 
     # -- formulas ------------------------------------------------------------------------------------------------------
+
+    def _parameter_symbols(self) -> dict[str, Any]:
+        """Return what stands for each parameter in the formulas: its value."""
+        return {name: sp.Float(x) for name, x in self.parameters.items()}
+
+    def _weight(self, i: int, mass: Expr, gravity: Expr) -> Any:
+        """Return the component of a body's weight that belongs to velocity `i`."""
+        return sp.Float(self.mass[i] * evaluate(gravity, self.parameters, "gravity"))
 
     def _expression(self, e: Expr, **placeholders: Any) -> Any:
         return to_sympy(e, {**self.known, **placeholders})
@@ -134,7 +151,7 @@ class IndependentEquations:
         for body in self.mechanism.bodies:
             mass = evaluate(body.mass, self.parameters, body.name)
             values += [mass, mass]
-            if body.inertia is not None:
+            if isinstance(body, Body) and body.inertia is not None:
                 values.append(evaluate(body.inertia, self.parameters, body.name))
         return np.array(values)
 
@@ -173,6 +190,7 @@ class IndependentEquations:
                 return sp.sqrt(dx**2 + dy**2)
             length = self._expression(m.length)
             return (dx**2 + dy**2 - length**2) / (2 * length)
+        assert isinstance(m, Sum), "measures of space are not derived here"
         return sum((self._expression(k) * self._measure(part) for k, part in m.terms), sp.S.Zero)
 
     def _gradient(self, s: Any) -> dict[int, Any]:
@@ -184,6 +202,9 @@ class IndependentEquations:
         """Return the derivative of a function of q along the motion."""
         return sum((d * self.v[i] for i, d in self._gradient(e).items()), sp.S.Zero)
 
+    def _rows(self) -> list[tuple[Any, dict[int, Any], Any, Any]]:
+        return [self._row(row) for joint in self.mechanism.joints for row in joint.rows]
+
     def _row(self, row: Holonomic | Nonholonomic) -> tuple[Any, dict[int, Any], Any, Any]:
         """Return phi, the entries of D, nu and gamma."""
         value = self._expression(row.value)
@@ -193,7 +214,8 @@ class IndependentEquations:
             gradient = self._gradient(s)
             bias = self._along_row(gradient)
             return s - value, gradient, slope, sp.diff(slope, self.t) - bias
-        (px, py), (ex, ey) = self._position(row.at), self._direction(row.along)
+        assert isinstance(row.speed, PointSpeed), "speeds of space are not derived here"
+        (px, py), (ex, ey) = self._position(row.speed.at), self._direction(row.speed.along)
         gx, gy = self._gradient(px), self._gradient(py)
         entries = {i: ex * gx.get(i, 0) + ey * gy.get(i, 0) for i in sorted({*gx, *gy})}
         return sp.S.Zero, entries, value, slope - self._along_row(entries)
@@ -203,11 +225,10 @@ class IndependentEquations:
 
     def _forces(self) -> list[Any]:
         total = [sp.S.Zero] * self.n
-        gravity = [evaluate(e, self.parameters, "gravity") for e in self.mechanism.gravity]
         for body in self.mechanism.bodies:
             for k in range(2):
                 i = self.first[body.name] + k
-                total[i] += sp.Float(self.mass[i] * gravity[k])
+                total[i] += self._weight(i, body.mass, self.mechanism.gravity[k])
         for force in self.mechanism.forces:
             for effort in force.efforts:
                 for i, e in self._effort(effort).items():
@@ -215,6 +236,7 @@ class IndependentEquations:
         return total
 
     def _effort(self, effort: Effort) -> dict[int, Any]:
+        assert not isinstance(effort.measure, PointSpeed), "forces along velocities stand in space only"
         value = self._measure(effort.measure)
         gradient = self._gradient(value)
         rate = sum((e * self.v[i] for i, e in gradient.items()), sp.S.Zero)
@@ -225,7 +247,7 @@ class IndependentEquations:
         return {i: e * total for i, e in gradient.items()}
 
 
-def _slope(table: Table, x: float) -> float:
+def slope(table: Table, x: float) -> float:
     """Return the slope of a table: 0 beyond its ends."""
     if x <= table.x[0] or x >= table.x[-1]:
         return 0.0

@@ -14,26 +14,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import Body, Mechanism
+from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.orientation import matrix
 
 Array = NDArray[np.float64]
 
 
-def own_length(body: Body, parameters: Mapping[str, float]) -> float:
+def own_length(body: AnyBody, parameters: Mapping[str, float]) -> float:
     """Return a body's own length [m]: 0 for a point mass.
 
-    The largest distance of a named point from the centre of mass, and at least the radius of gyration, which is all
-    that a body without points has.
+    The largest distance of a named point from the centre of mass, and at least the largest radius of gyration, which is
+    all that a body without points has.
     """
     if body.inertia is None:
         return 0.0
     where = f"bodies.{body.name}"
-    cx, cy = (evaluate(e, parameters, where) for e in body.centre_of_mass)
+    centre = [evaluate(e, parameters, where) for e in body.centre_of_mass]
     mass = evaluate(body.mass, parameters, where)
-    inertia = evaluate(body.inertia, parameters, where)
+    moments = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
+    inertia = max(evaluate(e, parameters, where) for e in moments)
     longest = math.sqrt(abs(inertia / mass)) if mass else 0.0
-    for _, (x, y) in body.points:
-        longest = max(longest, math.hypot(evaluate(x, parameters, where) - cx, evaluate(y, parameters, where) - cy))
+    for _, point in body.points:
+        away = [evaluate(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
+        longest = max(longest, math.hypot(*away))
     return longest
 
 
@@ -45,9 +48,12 @@ class Points:
     ----------
     bodies : tuple of (int, float)
         For each body where its coordinates begin, and its own length; 0 for a point mass.
+    dimension : int
+        2 in the plane, 3 in space.
     """
 
     bodies: tuple[tuple[int, float], ...]
+    dimension: int = 2
 
     @classmethod
     def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
@@ -56,7 +62,7 @@ class Points:
         for body in mechanism.bodies:
             bodies.append((first, own_length(body, parameters)))
             first += len(body.coordinates)
-        return cls(tuple(bodies))
+        return cls(tuple(bodies), 3 if mechanism.space == "spatial" else 2)
 
     def distance(self, a: Array, b: Array) -> float:
         """Return the largest distance [m] between corresponding points, over all bodies and times.
@@ -72,11 +78,20 @@ class Points:
         """Return the largest distance [m] over all bodies at each time, shape (k,)."""
         largest = np.zeros(len(a))
         for i, length in self.bodies:
-            dx, dy = a[:, i] - b[:, i], a[:, i + 1] - b[:, i + 1]
-            candidates = [np.hypot(dx, dy)]
+            centre = a[:, i : i + self.dimension] - b[:, i : i + self.dimension]
+            candidates = [np.linalg.norm(centre, axis=1)]
             if length > 0.0:
-                c = length * (np.cos(a[:, i + 2]) - np.cos(b[:, i + 2]))
-                s = length * (np.sin(a[:, i + 2]) - np.sin(b[:, i + 2]))
-                candidates += [np.hypot(dx + c, dy + s), np.hypot(dx - s, dy + c)]
+                j = i + self.dimension
+                tips = self._axes(a, j) - self._axes(b, j)
+                candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
             largest = np.maximum(largest, np.max(candidates, axis=0))
         return largest
+
+    def _axes(self, q: Array, j: int) -> Array:
+        """Return the axes of a body as columns of rotation matrices, from its orientation at column `j`."""
+        if self.dimension == 2:
+            c, s = np.cos(q[:, j]), np.sin(q[:, j])
+            return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
+        e = q[:, j : j + 4]
+        e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
+        return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)

@@ -2,7 +2,10 @@
 
 A mechanism of the catalogue for which `CLOSED` knows a formula, or an equation in one coordinate, gets that; every
 other one is integrated by SciPy's DOP853 at a tight tolerance from independently derived equations, projected at each
-output, twice with different tolerances and segments, the difference of the two being the estimated error.
+output, twice with different tolerances and segments, the difference of the two being the estimated error. Where the
+motion comes near a singular position, constant steps lead through, and two runs whose steps fall differently have to
+agree (`symgen.study.passing`); where they do not, the reference says so. Another of SciPy's solvers can be asked for,
+for every mechanism: then schemes, too, are others than symgen's.
 """
 
 from __future__ import annotations
@@ -17,17 +20,21 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
+from symgen.study.closed_space import CLOSED_SPACE
+from symgen.study.passing import AGREEMENT, FAILURES, Watch, pass_through
 from symgen.study.points import Points
+from symgen.study.solvers import AUTO, SOLVERS, check_solver, in_one_go, jacobian_for
 
 if TYPE_CHECKING:
     from symgen.study.independent import IndependentEquations
 
 Array = NDArray[np.float64]
 
-#: Tolerances of the two integrations of the general route; the first one is the reference.
-FINE, COARSE = 3e-14, 3e-13
 #: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
 COLLAPSE, PATIENCE = 1e-3, 30
+#: Two runs through singular positions that agree by chance understate their error; it was up to five times the
+#: difference with `n-four-bar`, whose exact motion is known.
+DOUBT = 5.0
 
 
 @dataclass(frozen=True)
@@ -42,12 +49,16 @@ class Reference:
         How far its points may be off [m].
     times, q : Array, shapes (k,), (k, nq)
         Times [s] and coordinates.
+    note : str
+        One sentence where two runs with different steps part at a singular position: what errors mean then. Empty
+        where there is nothing to say.
     """
 
     how: str
     estimated_error: float
     times: Array
     q: Array
+    note: str = ""
 
 
 #: Called with how far the work is, from 0 to 1.
@@ -61,6 +72,7 @@ def reference(
     v: Array,
     times: Array,
     progress: Progress | None = None,
+    solver: str = AUTO,
 ) -> Reference:
     """Return the reference motion of a mechanism.
 
@@ -76,17 +88,29 @@ def reference(
         Where the motion is wanted [s], increasing from 0 or later.
     progress : callable, optional
         Called with the fraction that is done.
+    solver : str
+        ``auto``, or one of `SOLVERS`.
 
     Raises
     ------
+    InputError
+        If there is no such solver.
     SimulationError
         If the motion cannot be integrated, e.g. into a singularity.
     """
-    closed = CLOSED.get(_family(mechanism))
-    if closed is not None and _from_catalogue(mechanism):
+    if check_solver(solver) != AUTO:
+        return integrated(mechanism, parameters, q, v, times, progress, solver)
+    closed = closed_form(mechanism)
+    if closed is not None:
         how, estimated, motion = closed(mechanism, parameters, q, times)
         return Reference(how, estimated, times, motion)
     return integrated(mechanism, parameters, q, v, times, progress)
+
+
+def closed_form(mechanism: Mechanism) -> Callable[[Mechanism, Mapping[str, float], Array, Array], Closed] | None:
+    """Return the formula for the motion of a mechanism of the catalogue, None where there is none."""
+    closed = CLOSED.get(_family(mechanism))
+    return closed if closed is not None and _from_catalogue(mechanism) else None
 
 
 def _family(mechanism: Mechanism) -> str:
@@ -182,6 +206,7 @@ CLOSED: Mapping[str, Callable[[Mechanism, Mapping[str, float], Array, Array], Cl
     "driven-four-bar": driven_four_bar,
     "n-four-bar": n_four_bar,
     "pendulum": pendulum,
+    **CLOSED_SPACE,
 }
 
 
@@ -195,56 +220,118 @@ def integrated(
     v: Array,
     times: Array,
     progress: Progress | None = None,
+    solver: str = "scipy-dop853",
 ) -> Reference:
     """Integrate independently derived equations twice; arguments as for `reference`."""
-    from symgen.study.independent import IndependentEquations
+    from symgen.study.independent_space import independent_equations
 
-    equations = IndependentEquations(mechanism, parameters)
-    y = equations.project(0.0, np.concatenate([q, v]))
+    name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
+    equations = independent_equations(mechanism, parameters)
+    y = equations.project(0.0, equations.state(q, v))
 
     def part(first: float, share: float) -> Progress:
         return lambda done: None if progress is None else progress(first + share * done)
 
-    fine = _integrate(equations, y, times, FINE, 1, True, part(0.0, 0.6))
-    coarse = _integrate(equations, y, times, COARSE, 3, False, part(0.6, 0.4))
+    if not goes_on:
+        fine = in_one_go(equations, y, times, name, fine_tolerance, part(0.0, 0.6))
+        coarse = in_one_go(equations, y, times, name, coarse_tolerance, part(0.6, 0.4))
+    else:
+        watch, sizes = Watch(equations, y), list[float]()
+        try:
+            fine = _integrate(equations, y, times, name, fine_tolerance, 1, True, part(0.0, 0.5), watch, sizes)
+        except _CollapsedError:
+            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
+        if watch.passed:
+            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
+        coarse = _integrate(equations, y, times, name, coarse_tolerance, 3, False, part(0.5, 0.5))
     estimated = Points.of(mechanism, parameters).distance(fine, coarse)
     how = (
-        f"independently derived equations, SciPy DOP853 at {FINE:g}, projected at every output; "
-        f"estimated from a second run at {COARSE:g}"
+        f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
+        f"estimated from a second run at {coarse_tolerance:g}"
     )
     return Reference(how, max(estimated, 1e-14), times, fine)
+
+
+def _usual(sizes: list[float]) -> float:
+    """Return the step by which half of the time was covered: steps that collapsed are many but cover nothing."""
+    ordered = np.sort(np.array(sizes))
+    covered = np.cumsum(ordered)
+    return float(ordered[int(np.searchsorted(covered, 0.5 * covered[-1]))])
+
+
+class _CollapsedError(SimulationError):
+    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
+
+
+def _through(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    sizes: list[float],
+    progress: Progress,
+) -> Reference:
+    """Return the reference of a motion that comes near singular positions."""
+    step = _usual(sizes) if sizes else float(times[-1]) / 1000.0
+    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters), progress)
+    how = (
+        f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
+        f"step, through singular positions; estimated from {found.runs} runs whose steps fall differently"
+    )
+    note = ""
+    if found.parted is not None:
+        note = (
+            f"the two reference runs that agree best part by more than {AGREEMENT:g} of the largest coordinate at "
+            f"t = {found.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
+            "motion takes, and errors are distances to one of them"
+        )
+    return Reference(how, max(DOUBT * found.difference, 1e-14), times, found.q, note)
 
 
 def _integrate(
     equations: IndependentEquations,
     y: Array,
     times: Array,
+    name: str,
     rtol: float,
     every: int,
     mass_weighted: bool,
     progress: Progress,
+    watch: Watch | None = None,
+    sizes: list[float] | None = None,
 ) -> Array:
-    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected."""
-    from scipy.integrate import DOP853
+    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected and gone on from.
+
+    A `watch` sees every step; `sizes` collects their lengths [s].
+    """
+    import scipy.integrate
 
     n = equations.n
     scale = np.maximum(np.abs(y), 1.0)
     motion = np.empty((len(times), n))
     solver: Any = None  # SciPy's types know neither arrays of tolerances nor that a step changes the status
-    make: Any = DOP853
+    make: Any = getattr(scipy.integrate, name)
     usual, steps, tiny = 0.0, 0, 0
     end = float(times[-1]) if len(times) else 0.0
     for k, t in enumerate(times):
         if t > 0.0:
             if solver is None:
-                solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale)
+                more = jacobian_for(equations, name)
+                solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale, **more)
             else:
                 solver.t_bound, solver.status = float(t), "running"
                 # the step before an output is cut short; going on with it would waste evaluations
                 solver.h_abs = max(solver.h_abs, usual)
             while solver.status == "running":
                 before = solver.h_abs
-                message = solver.step()
+                try:
+                    message = solver.step()
+                except FAILURES as error:
+                    where = f"t = {solver.t:.6g} s"
+                    raise _CollapsedError(
+                        f"the reference motion cannot be integrated beyond {where}: the state is not finite"
+                    ) from error
                 steps += 1
                 # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
                 tiny = (
@@ -253,7 +340,10 @@ def _integrate(
                 if solver.status == "failed" or tiny >= PATIENCE or not np.all(np.isfinite(solver.y)):
                     reason = message or ("the step size collapses" if tiny else "the state is not finite")
                     where = f"t = {solver.t:.6g} s"
-                    raise SimulationError(f"the reference motion cannot be integrated beyond {where}: {reason}")
+                    raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
+                if watch is not None and sizes is not None:
+                    watch.see(float(solver.t), solver.y)
+                    sizes.append(float(solver.step_size))
                 usual = before if solver.status == "finished" else solver.h_abs
             if k % every == 0:
                 solver.y = equations.project(float(t), solver.y, mass_weighted)

@@ -64,6 +64,9 @@ def test_new_gives_a_file_that_runs_and_never_overwrites(cli, tmp_path, monkeypa
     assert (tmp_path / "my-crane.toml").read_bytes() == before
     assert cli("new", "my-crane", "-o", "-")[1].encode() == before
     assert cli("run", "my-crane.toml", "--until", "0.05", "--json")[0] == 0
+    assert cli("new", "my-robot", "--space", "spatial")[0] == 0
+    found = json.loads(cli("check", "my-robot.toml", "--json")[1])
+    assert found["degrees_of_freedom"] == 2 and found["rank"] == 10
 
 
 def test_check(cli):
@@ -209,6 +212,14 @@ def test_compare_table_json_and_csv(cli, tmp_path):
     assert len((tmp_path / "rows.csv").read_text().splitlines()) == 5
 
 
+def test_compare_against_another_reference(cli):
+    code, out, _ = cli("compare", "pendulum", *COMPARE, "--repeat", "1", "--reference", "scipy-lsoda", "--json")
+    usual = cli("compare", "pendulum", *COMPARE, "--repeat", "1", "--json")[1]
+    assert code == 0 and "SciPy LSODA at 1e-12" in json.loads(out)["reference"]["how"]
+    for found, expected in zip(json.loads(out)["rows"], json.loads(usual)["rows"], strict=True):
+        assert found["error"] == pytest.approx(expected["error"], rel=1e-2, abs=1e-10)
+
+
 def test_compare_several_models(cli):
     code, out, _ = cli("compare", "pendulum", "four-bar", *COMPARE, "--repeat", "1", "--json")
     assert code == 0
@@ -260,6 +271,7 @@ def test_a_study_in_which_everything_failed_exits_1(cli):
         ("compare four-bar --steps 1e-3,x", "--steps: expected finite numbers above 0, separated by commas, got 'x'"),
         ("compare four-bar --methods lagrange,,", "--methods: expected words separated by commas"),
         ("compare four-bar --methods lagrang", "did you mean 'lagrange'?"),
+        ("compare four-bar --reference scipy-rado", "did you mean 'scipy-radau'?"),
         ("compare four-bar --csv nowhere/rows.csv", "--csv: expected a file in a folder that exists"),
         ("inspect four-bar --format pdf", "'pdf' is not one of"),
         ("cache inof", "no such command 'inof'"),

@@ -12,7 +12,9 @@ from symgen.study import compare as module
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
     *("evaluations", "position_violation_max", "velocity_violation_max", "energy_drift_max", "below_reference"),
-    "warnings",
+    *("warnings", "iterations", "cost_ratio", "cost_ratio_spread", "run_seconds_median"),
+    *(f"{level}_violation_{kind}" for level in ("position", "velocity") for kind in ("rms", "final")),
+    *(f"acceleration_violation_{kind}" for kind in ("max", "rms", "final")),
 }
 
 
@@ -33,8 +35,8 @@ def test_rows_come_in_order(study):
 def test_json_is_the_contract(study):
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False)) == json.loads(json.dumps(found))
-    assert set(found) == {"mechanism", "until", "reference", "rows"}
-    assert set(found["reference"]) == {"how", "estimated_error"}
+    assert set(found) == {"mechanism", "digest", "until", "reference", "interrupted", "rows"}
+    assert set(found["reference"]) == {"how", "estimated_error", "note"}
     for row in found["rows"]:
         assert set(row) == ROW_KEYS
         assert (row["step"] is None) != (row["rtol"] is None)
@@ -93,7 +95,7 @@ def test_what_is_wrong_is_refused_before_anything_runs(arguments, sentence, monk
     def never(*_, **__):
         raise AssertionError("something was run")
 
-    monkeypatch.setattr(module, "repeated", never)
+    monkeypatch.setattr(module, "timed", never)
     monkeypatch.setattr(module, "reference", never)
     with pytest.raises(InputError) as caught:
         symgen.compare("four-bar", **arguments)
@@ -101,7 +103,7 @@ def test_what_is_wrong_is_refused_before_anything_runs(arguments, sentence, monk
 
 
 def test_an_interrupted_study_keeps_its_rows(monkeypatch):
-    real, calls = module.repeated, []
+    real, calls = module.timed, []
 
     def sometimes(*arguments):
         calls.append(1)
@@ -109,7 +111,7 @@ def test_an_interrupted_study_keeps_its_rows(monkeypatch):
             raise KeyboardInterrupt
         return real(*arguments)
 
-    monkeypatch.setattr(module, "repeated", sometimes)
+    monkeypatch.setattr(module, "timed", sometimes)
     study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [4e-2, 2e-2, 1e-2, 5e-3], until=0.5, repeat=1)
     assert study.interrupted and len(study.rows) == 2
     assert study.to_json()["reference"]["how"] == "Jacobi's elliptic functions"
@@ -163,3 +165,139 @@ def test_a_method_gets_its_own_integrator_where_the_usual_ones_do_not_suit():
 def test_without_methods_the_six_of_the_source_are_compared():
     assert module._named((), module.DEFAULT_METHODS, ()) == module.DEFAULT_METHODS
     assert len(module._named(("all",), (), symgen.methods.METHODS.names)) == len(symgen.methods.METHODS.names) > 15
+
+
+def test_violations_at_three_levels_are_those_of_the_run(study):
+    """The same run by `simulate` with the same outputs."""
+    row = next(r for r in study.rows if (r.method, r.integrator, r.step) == ("baumgarte", "rk4", 8e-3))
+    result = symgen.load("four-bar").simulate(
+        method="baumgarte", integrator="rk4", step=8e-3, until=1.0, output_step=0.01
+    )
+    for level in ("position", "velocity", "acceleration"):
+        values = result.violations[level]
+        assert getattr(row, f"{level}_violation_rms") == pytest.approx(np.sqrt(np.mean(values**2)), rel=1e-9)
+        assert getattr(row, f"{level}_violation_final") == values[-1]
+        assert getattr(row, f"{level}_violation_max") >= values.max()
+    assert row.evaluations == result.evaluations and row.iterations == result.iterations
+
+
+def test_cost_ratios_are_to_lagrange_with_the_same_setting(study):
+    seconds = {(r.method, *r.setting): r.run_seconds for r in study.rows}
+    for row in study.rows:
+        assert row.cost_ratio == pytest.approx(row.run_seconds / seconds["lagrange", *row.setting])
+    alone = symgen.compare("pendulum", ["baumgarte"], ["rk4"], [1e-2], until=0.2, repeat=1)
+    assert alone.rows[0].cost_ratio is None
+
+
+def test_what_a_ratio_may_vary_by_comes_from_both_runs():
+    from symgen.study.rows import Row, with_ratios
+
+    def row(method, shortest, median):
+        values = {"error": 0.0, "below_reference": False, "run_seconds_spread": 1.0, "evaluations": 1}
+        levels = {"position_violation_max": 0.0, "velocity_violation_max": 0.0, "energy_drift_max": 0.0}
+        clock = {"run_seconds": shortest, "run_seconds_median": median}
+        return Row(method, "rk4", 1e-3, None, "ok", None, **values, **levels, **clock)
+
+    base, other = with_ratios([row("lagrange", 2.0, 2.2), row("baumgarte", 3.0, 3.6)])
+    assert (base.cost_ratio, base.cost_ratio_spread) == (1.0, 0.0)
+    assert other.cost_ratio == 1.5
+    assert other.cost_ratio_spread == pytest.approx(1.5 * (0.1 + 0.2))
+
+
+def test_two_runs_give_the_same_errors_to_the_last_digit(study):
+    again = symgen.compare(
+        "four-bar", ["baumgarte", "direct-correction", "lagrange"], ["rk4", "dop853"], [8e-3, 4e-3], until=1.0, repeat=1
+    )
+    same = (
+        "error",
+        "evaluations",
+        "iterations",
+        "position_violation_max",
+        "velocity_violation_rms",
+        "energy_drift_max",
+    )
+    for name in same:
+        assert [getattr(r, name) for r in again.rows] == [getattr(r, name) for r in study.rows]
+    assert [t.error for t in again.traces] == [t.error for t in study.traces]
+
+
+def test_curves_go_with_their_rows(study):
+    for row, trace in zip(study.rows, study.traces, strict=True):
+        assert trace.t[0] == 0.0 and trace.t[-1] == 1.0
+        assert max(trace.error) == pytest.approx(row.error, rel=1e-4)
+        assert max(trace.position) <= row.position_violation_max * 1.0001
+        # nothing but gravity acts, so the balance holds without work
+        total = np.array(trace.kinetic) + np.array(trace.potential)
+        assert np.abs(total - total[0]).max() < 0.1
+        assert len({len(curve) for curve in vars(trace).values()}) == 1
+
+
+def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, monkeypatch):
+    from symgen.study.journal import Journal
+
+    arguments = {"methods": ["lagrange", "direct-correction"], "integrators": ["rk4"], "steps": [2e-2, 1e-2]}
+    path = tmp_path / "rows.journal"
+    with Journal(path) as journal:
+        first = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
+    calls, real = [], module.timed
+    monkeypatch.setattr(module, "timed", lambda *a: calls.append(1) or real(*a))
+    monkeypatch.setattr(module, "reference", None)  # it is in the journal as well
+    arguments["steps"] = [2e-2, 1e-2, 5e-3]
+    with Journal(path) as journal:
+        second = symgen.compare("pendulum", **arguments, until=0.5, repeat=1, journal=journal)
+    assert len(calls) == 2
+    kept = [row for row in second.rows if row.step != 5e-3]
+    assert [(r.error, r.run_seconds) for r in kept] == [(r.error, r.run_seconds) for r in first.rows]
+    assert second.how == first.how and second.estimated_error == first.estimated_error
+    assert [t for t, r in zip(second.traces, second.rows, strict=True) if r.step != 5e-3] == list(first.traces)
+
+
+def test_failed_rows_come_back_from_a_journal_as_they_were(tmp_path):
+    from symgen.study.journal import Journal
+
+    arguments = ["n-four-bar:1", ["lagrange"], ["rk4"], [1e-3]]
+    studies = []
+    for _ in range(2):
+        with Journal(tmp_path / "rows.journal") as journal:
+            studies.append(symgen.compare(*arguments, until=4.0, repeat=1, journal=journal))
+    assert repr(studies[0]) == repr(studies[1])
+    assert studies[0].rows[0].status == "failed"
+
+
+def test_without_a_reference_rows_stay_and_the_study_says_why(monkeypatch):
+    from symgen.errors import SimulationError
+
+    def none(*_, **__):
+        raise SimulationError("no way through")
+
+    monkeypatch.setattr(module, "reference", none)
+    study = symgen.compare("pendulum", ["lagrange"], ["rk4"], [1e-2], until=0.5, repeat=1)
+    assert study.how == "none" and "no way through" in study.note
+    assert study.rows[0].status == "ok" and study.rows[0].error is None and study.rows[0].run_seconds > 0.0
+    assert study.to_json()["reference"]["estimated_error"] is None
+
+
+def test_several_models_are_checked_before_anything_runs(monkeypatch):
+    monkeypatch.setattr(module, "timed", None)
+    with pytest.raises(InputError, match="did you mean 'four-bar'"):
+        module.compare_all(["pendulum", "four-bra"], until=0.1)
+
+
+def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
+    """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
+    from symgen.study import prepare
+
+    monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(prepare, "PATIENCE", -1.0)
+    seen = []
+    again = symgen.compare(
+        *("four-bar", ["baumgarte", "lagrange"], ["rk4"], [8e-3, 4e-3], (), 1.0, 1),
+        progress=lambda *a: seen.append(a),
+        jobs=2,
+    )
+    wanted = [r for r in study.rows if r.integrator == "rk4" and r.method != "direct-correction"]
+    assert [(r.method, r.step, r.error) for r in again.rows] == [(r.method, r.step, r.error) for r in wanted]
+    assert again.how == study.how and again.estimated_error == study.estimated_error
+    assert any(what.startswith("preparing: four-bar, ") for what, _, _ in seen)
+    shares = [reached / total for _, reached, total in seen]
+    assert shares == sorted(shares) and shares[-1] < 1.0

@@ -1,0 +1,40 @@
+"""What the commands that write a report share."""
+
+from __future__ import annotations
+
+import shlex
+from pathlib import Path
+
+import click
+
+#: Options that say where or how fast to work, not what to do.
+_WORKING = ("--resume", "--journal", "--jobs")
+
+
+def report_file(text: str | None) -> Path | None:
+    """Return where the report will be written, after making sure that it can be."""
+    if text is None:
+        return None
+    from symgen.report.write import check_report
+
+    check_report("--output", Path(text))
+    return Path(text)
+
+
+def command_again() -> str:
+    """Return the command that makes the report again: this one without where its working files are."""
+    context = click.get_current_context()
+    found = ["symgen", context.info_name or "", *context.params["models"]]
+    for parameter in context.command.params:
+        value = context.params.get(parameter.name or "")
+        flag = max(parameter.opts, key=len)
+        left_out = isinstance(parameter, click.Argument) or flag in _WORKING
+        if left_out or value in (None, (), False, parameter.default):
+            continue
+        if value is True:
+            found.append(flag)
+            continue
+        for item in value if isinstance(value, tuple) else (value,):
+            # where the file lies is nobody's business
+            found += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]
+    return shlex.join(found)

@@ -1,0 +1,91 @@
+"""``symgen stress MODEL``: stability on stiff and extreme cases."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
+from symgen.cli._options import numbers, output_file, words
+from symgen.cli._report import command_again, report_file
+
+if TYPE_CHECKING:
+    from symgen.study.runner import Status
+    from symgen.study.stress_rows import Stress
+
+
+@click.command("stress", short_help="Find where methods stop being stable: stiff and extreme cases.")
+@click.argument("models", metavar="[MODEL...]", nargs=-1)
+@click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all unless given.")
+@click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto unless given.")
+@click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
+@click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
+@click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
+@click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
+@click.option("--jobs", type=int, help="Processes; as many as there are cores unless given.")
+@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+def command(
+    models: tuple[str, ...],
+    cases: str | None,
+    methods: str | None,
+    quick: bool,
+    output: str | None,
+    csv_file: str | None,
+    resume: str | None,
+    jobs: int | None,
+    as_json: bool,
+) -> int:
+    """Run every method on stiff and extreme cases made of each MODEL (four-bar unless given).
+
+    Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C keeps
+    the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
+    with an error above 1e-3 m.
+    """
+    numbers(jobs=jobs)
+    case_list, method_list = words("--cases", cases), words("--methods", methods)
+    path, report = output_file("--csv", csv_file), report_file(output)
+
+    from symgen.cli._progress import Lines
+    from symgen.study.journal import Journal
+    from symgen.study.machine import cores
+    from symgen.study.stress import stress
+    from symgen.study.stress_rows import save_csv
+
+    with ExitStack() as stack:
+        journal = stack.enter_context(Journal(Path(resume))) if resume is not None else None
+        lines = stack.enter_context(Lines())
+
+        def progress(what: str, status: Status) -> None:
+            lines(what, status.done, status.total, status.share, status.seconds_left)
+
+        study = stress(models, case_list, method_list, quick, journal, jobs or cores(), progress)
+    if as_json:
+        write_json(study.to_json())
+    else:
+        from symgen.cli._stress_tables import show_stress
+
+        show_stress(study)
+    if path is not None:
+        save_csv(study, path)
+    if report is not None and study.rows:
+        from symgen.report.stress import stress_report
+        from symgen.report.write import write
+
+        write(stress_report(study, command_again()), report)
+        click.echo(f"symgen: wrote {report}", err=True)
+    return _exit_code(study)
+
+
+def _exit_code(study: Stress) -> int:
+    from symgen.auto import AUTO
+
+    if study.interrupted:
+        return complain("interrupted; the cells that were done are kept", INTERRUPTED)
+    wrong = sum(row.method == AUTO for row in study.false_successes)
+    if wrong:
+        cells = "1 cell" if wrong == 1 else f"{wrong} cells"
+        return complain(f"auto reports success with an error above 1e-3 m in {cells}", FAILURE)
+    return OK

@@ -1,0 +1,194 @@
+"""The report of a comparison: error against run time, violations, energies and costs, model by model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symgen.report import words
+from symgen.report.document import Cell, Document, Section, Table
+from symgen.report.figures import pictures
+from symgen.report.findings import costs, findings
+from symgen.report.select import methods, representatives, settings_text
+from symgen.report.source import beside_the_source
+from symgen.study.machine import machine_class, versions
+from symgen.study.rows import YARDSTICK, Row, Study
+
+_MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
+_LEAD = (
+    "The error of a run is its largest distance [m] from a reference motion, over bodies, common output times and "
+    "points: the centre of mass of each body and the tips of its axes at the body's own length. Run time is that of "
+    "the integration loop alone: a warm-up, then the shortest of several runs, with their spread (longest less "
+    "shortest). Violations are Euclidean norms of Φ, D v − ν and D v' − γ: the largest of the first two over all steps "
+    "and outputs, everything else over the outputs. A run that failed keeps its row."
+)
+
+
+def comparison(studies: Sequence[Study], command: str = "", settings: Sequence[tuple[str, str]] = ()) -> Document:
+    """Return the report of studies.
+
+    Parameters
+    ----------
+    studies : sequence of Study
+        What was compared, one a mechanism.
+    command : str, optional
+        The command that makes it again.
+    settings : sequence of (str, str), optional
+        What was asked for, by label, beside what the studies say themselves.
+    """
+    names = [study.mechanism for study in studies]
+    lead = [_LEAD]
+    if any(study.interrupted for study in studies):
+        lead.insert(0, "This study was interrupted: rows are missing.")
+    facts = [
+        ("Versions", ", ".join(f"{name} {text}" for name, text in versions().items())),
+        ("Machine", machine_class()),
+        *_settings(studies),
+        *settings,
+        *((f"Digest of {study.mechanism}", study.digest) for study in studies if study.digest),
+    ]
+    sections = [_across(studies)] if len(studies) > 1 else []
+    sections += [_one(study) for study in studies]
+    source = beside_the_source(list(studies))
+    if source is not None:
+        sections.append(source)
+    title = f"Error against run time: {words.listed(names)}"
+    return Document(title, tuple(lead), tuple(facts), command, tuple(sections))
+
+
+def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
+    found = [("Durations", ", ".join(f"{study.mechanism} {study.until:g} s" for study in studies))]
+    repeat = max(study.repeat for study in studies)
+    text = f"at least {words.counted(repeat, 'timed run')} a row after a warm-up" if repeat > 1 else "one run a row"
+    found.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
+    for label, changed in (("Parameters", studies[0].parameters), ("Options", studies[0].options)):
+        if changed:
+            found.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
+    return found
+
+
+# -- across mechanisms -------------------------------------------------------------------------------------------------
+
+
+def _across(studies: Sequence[Study]) -> Section:
+    """Return the section that puts the mechanisms side by side."""
+    every = list(dict.fromkeys(method for study in studies for method in methods(study)))
+    by_study = [{row.method: row for row, _ in representatives(study)} for study in studies]
+    names = tuple(study.mechanism for study in studies)
+    errors = tuple((method, *(_error_cell(rows.get(method)) for rows in by_study)) for method in every)
+    ratios = tuple(
+        (method, *(words.ratio(rows[method].cost_ratio) if method in rows else words.NONE for rows in by_study))
+        for method in every
+        if method != YARDSTICK
+    )
+    text = "; ".join(f"{study.mechanism}: {settings_text(study)}" for study in studies)
+    tables = [Table("Error [m].", ("method", *names), errors)]
+    if any(x != words.NONE for row in ratios for x in row[1:]):
+        tables.append(Table(f"Run time as a multiple of that of {YARDSTICK}.", ("method", *names), ratios))
+    return Section("Side by side", (f"One row a method: {text}.",), tables=tuple(tables))
+
+
+def _error_cell(row: Row | None) -> str | Cell:
+    if row is None:
+        return words.NONE
+    if row.error is None:
+        return Cell(row.status, _MOODS[row.status])
+    text = words.number(row.error) + (" *" if row.below_reference else "")
+    return Cell(f"{text} ({row.status})", _MOODS[row.status]) if row.status != "ok" else text
+
+
+# -- one mechanism -----------------------------------------------------------------------------------------------------
+
+
+def _one(study: Study) -> Section:
+    title = (study.title.strip().rstrip("."),) if study.title else ()
+    text = tuple(words.sentence(t) for t in title)
+    if not study.rows:
+        return Section(study.mechanism, (*text, "No row was done before the interruption."))
+    return Section(
+        study.mechanism,
+        text,
+        findings(study),
+        (_summary(study), *_cost_table(study)),
+        pictures(study),
+        (Section(f"All rows of {study.mechanism}", tables=(_all_rows(study), _all_violations(study))),),
+    )
+
+
+def _summary(study: Study) -> Table:
+    headings = (
+        *("method", "status", "error [m]", "run time", f"× {YARDSTICK}", "max |Φ|", "max |D v − ν|"),
+        *("max |D v' − γ|", "energy error [J]"),
+    )
+    rows = []
+    for row, _ in representatives(study):
+        rows.append(
+            (
+                row.method,
+                Cell(row.status, _MOODS[row.status]),
+                _error_text(row),
+                words.seconds(row.run_seconds),
+                words.ratio(row.cost_ratio),
+                words.number(row.position_violation_max),
+                words.number(row.velocity_violation_max),
+                words.number(row.acceleration_violation_max),
+                words.number(row.energy_drift_max),
+            )
+        )
+    notes = (
+        ("* below the error of the reference itself",)
+        if any(r.below_reference for r, _ in representatives(study))
+        else ()
+    )
+    return Table(f"One row a method: {settings_text(study)}.", headings, tuple(rows), words=2, notes=notes)
+
+
+def _error_text(row: Row) -> str:
+    return words.number(row.error) + (" *" if row.below_reference else "")
+
+
+def _cost_table(study: Study) -> tuple[Table, ...]:
+    rows = tuple(
+        (method, words.ratio(middle), words.ratio(low), words.ratio(high), str(count))
+        for method, middle, low, high, count in costs(study)
+    )
+    if not rows:
+        return ()
+    headings = ("method", "median", "smallest", "largest", "pairs")
+    caption = f"Run time as a multiple of that of {YARDSTICK} with the same integrator and step or tolerance."
+    return (Table(caption, headings, rows),)
+
+
+def _all_rows(study: Study) -> Table:
+    headings = (
+        *("method", "integrator", "setting", "status", "error [m]", "run time", "spread", f"× {YARDSTICK}"),
+        *("evaluations", "iterations", "energy [J]"),
+    )
+    rows = []
+    for row in study.rows:
+        spread = row.run_seconds_spread / row.run_seconds if row.run_seconds > 0.0 else None
+        both = words.ratio(row.cost_ratio)
+        if row.cost_ratio is not None and row.cost_ratio_spread:
+            both += f" ± {words.ratio(row.cost_ratio_spread)}"
+        rows.append(
+            (
+                *(row.method, row.integrator, words.setting(row.step, row.rtol), Cell(row.status, _MOODS[row.status])),
+                *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
+                *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
+            )
+        )
+    notes = ["* below the error of the reference itself"] if any(row.below_reference for row in study.rows) else []
+    for row in study.rows:
+        where = f"{row.method}, {row.integrator}, {words.setting(row.step, row.rtol)}"
+        notes += [f"{where}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
+    return Table("Error, run time and counts.", headings, tuple(rows), words=4, notes=tuple(notes))
+
+
+def _all_violations(study: Study) -> Table:
+    levels = (("|Φ|", "position"), ("|D v − ν|", "velocity"), ("|D v' − γ|", "acceleration"))
+    kinds = (("max", "max"), ("r.m.s.", "rms"), ("final", "final"))
+    headings = ("method", "integrator", "setting", *(f"{sign} {kind}" for sign, _ in levels for kind, _ in kinds))
+    rows = []
+    for row in study.rows:
+        values = [words.number(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds]
+        rows.append((row.method, row.integrator, words.setting(row.step, row.rtol), *values))
+    return Table("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)

@@ -1,0 +1,131 @@
+"""What a report consists of, whatever it is about and whatever file it becomes."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture that stands in the page itself.
+
+    Attributes
+    ----------
+    name : str
+        What its file is called where pictures stand beside the page: words joined by dashes, without ending.
+    caption : str
+        What it shows, below it.
+    alternative : str
+        What is said to those who do not see it.
+    data : bytes
+        The file.
+    kind : str
+        ``svg`` or ``png``.
+    wide : bool
+        Whether it needs the whole width of the page.
+    """
+
+    name: str
+    caption: str
+    alternative: str
+    data: bytes
+    kind: str
+    wide: bool = False
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a table that is shown in a way of its own.
+
+    Attributes
+    ----------
+    text : str
+        What stands there.
+    mood : str
+        ``good``, ``doubtful``, ``bad`` or ``faint``; never the only sign of what is meant.
+    """
+
+    text: str
+    mood: str
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table.
+
+    Attributes
+    ----------
+    caption : str
+        What it shows, above it.
+    headings : tuple of str
+        Of the columns.
+    rows : tuple of tuple of (str or Cell)
+        As many cells as headings.
+    words : int
+        How many columns from the left hold words; the others hold numbers and are set to the right.
+    notes : tuple of str
+        Below it.
+    """
+
+    caption: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[str | Cell, ...], ...]
+    words: int = 1
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of a report, in this order: text, findings, tables, pictures, parts of its own."""
+
+    title: str
+    text: tuple[str, ...] = ()
+    findings: tuple[str, ...] = ()
+    tables: tuple[Table, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+    parts: tuple[Section, ...] = ()
+
+    @property
+    def anchor(self) -> str:
+        """Where links to the section lead."""
+        return anchor(self.title)
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole report.
+
+    Attributes
+    ----------
+    title : str
+        At its head.
+    lead : tuple of str
+        Paragraphs below the title.
+    facts : tuple of (str, str)
+        What it was made with, by label.
+    command : str
+        The command that makes it again; empty where there is none.
+    sections : tuple of Section
+        What it says.
+    """
+
+    title: str
+    lead: tuple[str, ...]
+    facts: tuple[tuple[str, str], ...]
+    command: str
+    sections: tuple[Section, ...] = field(default=())
+
+    def pictures(self) -> list[Picture]:
+        """Return all pictures in the order in which they stand."""
+        return [p for section in self.sections for p in _pictures(section)]
+
+
+def _pictures(section: Section) -> Sequence[Picture]:
+    return [*section.pictures, *(p for part in section.parts for p in _pictures(part))]
+
+
+def anchor(title: str) -> str:
+    """Return a title as the name of a place in a page."""
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")

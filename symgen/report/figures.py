@@ -1,0 +1,240 @@
+"""The pictures of one comparison."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.report import words
+from symgen.report.document import Picture, anchor
+from symgen.report.picture import COLOURS, GREY, below, drawn, style
+from symgen.report.select import line_number, methods, most_accurate, representatives, settings_text
+from symgen.study.rows import Row, Study, Trace
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Smaller values are drawn here: a logarithm has no zero.
+FLOOR = 1e-17
+#: An integrator with fewer methods shares a picture with other such ones.
+FEW = 3
+#: Markers along a curve over time.
+MARKS = 8
+
+
+def pictures(study: Study) -> tuple[Picture, ...]:
+    """Return all pictures of a study; those for which it has nothing are left out."""
+    made = [*_errors_against_time(study), _errors_over_time(study)]
+    made += [
+        _violations(study, "position", "position violation", "|Φ| [m, rad]"),
+        _violations(study, "velocity", "velocity violation", "|D v − ν| [m/s, rad/s]"),
+        _violations(study, "acceleration", "acceleration violation", "|D v' − γ| [m/s², rad/s²]"),
+        _energy_errors(study),
+        _energies(study),
+    ]
+    return tuple(picture for picture in made if picture is not None)
+
+
+# -- error against run time --------------------------------------------------------------------------------------------
+
+
+def _groups(study: Study) -> list[tuple[str, list[tuple[str, str]]]]:
+    """Return (title, lines), lines being pairs of method and integrator: one picture an integrator, rare ones together.
+
+    The usual method-integrator pairs of one integrator are told apart by the method; in the picture of the rest the
+    label says both.
+    """
+    pairs = list(dict.fromkeys((row.method, row.integrator) for row in study.rows))
+    integrators = list(dict.fromkeys(integrator for _, integrator in pairs))
+    own = {name: [pair for pair in pairs if pair[1] == name] for name in integrators}
+    several = len(methods(study)) >= FEW
+    rare = [name for name in integrators if several and len(own[name]) < FEW]
+    groups = [(name, own[name]) for name in integrators if name not in rare]
+    if rare:
+        rest = [pair for name in rare for pair in own[name]]
+        groups.append((rest[0][1] if len(rare) == 1 else "other integrators", rest))
+    return groups
+
+
+def _drawable(row: Row) -> bool:
+    return row.ended and row.error is not None and row.run_seconds > 0.0
+
+
+def _errors_against_time(study: Study) -> list[Picture]:
+    shown = [row for row in study.rows if _drawable(row)]
+    if not shown:
+        return []
+    groups = _groups(study)
+    usual = {pair for _, lines in groups for pair in lines if not _mixed(lines)}
+    found = []
+    for title, lines in groups:
+        # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
+        together = set(lines) if _mixed(lines) else usual
+        rows = [r for r in shown if (r.method, r.integrator) in together]
+        if rows:
+            limits = _limits([r.run_seconds for r in rows]), _limits([max(r.error or 0.0, FLOOR) for r in rows])
+            found.append(_error_against_time(study, title, lines, limits))
+    return found
+
+
+def _mixed(lines: list[tuple[str, str]]) -> bool:
+    return len({integrator for _, integrator in lines}) > 1
+
+
+def _limits(values: Sequence[float]) -> tuple[float, float]:
+    """Return limits of a logarithmic axis, the same for all pictures of a study."""
+    low, high = float(np.log10(min(values))), float(np.log10(max(values)))
+    margin = 0.06 * max(high - low, 1.0)
+    return 10.0 ** (low - margin), 10.0 ** (high + margin)
+
+
+def _error_against_time(
+    study: Study, title: str, lines: list[tuple[str, str]], limits: tuple[tuple[float, float], tuple[float, float]]
+) -> Picture:
+    mixed = _mixed(lines)
+    rows = [row for row in study.rows if (row.method, row.integrator) in lines]
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for method, integrator in lines:
+            own = [r for r in rows if (r.method, r.integrator) == (method, integrator) and _drawable(r)]
+            look = style(line_number(method))
+            label = f"{method}, {integrator}" if mixed else method
+            errors = [max(r.error or 0.0, FLOOR) for r in own]
+            ax.plot([r.run_seconds for r in own], errors, **look, markerfacecolor="none", label=label)
+            sure = [(r.run_seconds, e) for r, e in zip(own, errors, strict=True) if not r.below_reference]
+            if sure:
+                ax.plot(*zip(*sure, strict=True), look["marker"], color=look["color"])
+        _floor(ax, study.estimated_error, limits[1])
+        ax.set(xscale="log", yscale="log", xlim=limits[0], ylim=limits[1], xlabel="run time", ylabel="error [m]")
+        _durations(ax, limits[0])
+        ax.set_title(f"Error against run time: {title}")
+        below(figure, len(lines))
+
+    count = sum(not row.ended for row in rows)
+    missing = f" {words.sentence(words.counted(count, 'run') + ' failed and cannot be shown')}" if count else ""
+    rare = title if not mixed else "integrators that fit few methods"
+    caption = (
+        f"Error against run time with {rare}, one line a method over steps or tolerances; lower left is better. "
+        f"Open marks lie below the error of the reference itself (grey).{missing}"
+    )
+    alternative = f"Error against run time on {study.mechanism} with {title}, one line a method."
+    return drawn(f"{anchor(study.mechanism)}-error-{anchor(title)}", caption, alternative, draw)
+
+
+def _durations(ax: Any, limits: tuple[float, float]) -> None:
+    """Label a logarithmic axis with durations: decades, and parts of them where there are few."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    few = np.log10(limits[1] / limits[0]) < 2.0
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if few else (1.0,), numticks=12))
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda x, _: words.seconds(float(x))))
+    ax.xaxis.set_minor_formatter(NullFormatter())
+
+
+def _floor(ax: Any, estimated: float, limits: tuple[float, float] | None = None) -> None:
+    """Shade what is below the error of the reference itself."""
+    if not (np.isfinite(estimated) and estimated > 0.0):
+        return
+    if limits is None or estimated > limits[0]:
+        ax.axhspan(FLOOR * 1e-3, estimated, color="#e8ebef", zorder=0, linewidth=0.0)
+
+
+# -- over time ---------------------------------------------------------------------------------------------------------
+
+
+def _curves(study: Study, get: Callable[[Trace], tuple[float, ...]]) -> list[tuple[str, Trace, Any]]:
+    """Return method, trace and values of the representatives that have some."""
+    found = []
+    for row, trace in representatives(study):
+        values = np.abs(np.array(get(trace), dtype=float))
+        if len(values) > 1 and len(values) == len(trace.t):
+            found.append((row.method, trace, values))
+    return found
+
+
+def _over_time(
+    study: Study, get: Callable[[Trace], tuple[float, ...]], name: str, title: str, label: str, caption: str
+) -> Picture | None:
+    curves = _curves(study, get)
+    if not curves:
+        return None
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        for k, (method, trace, values) in enumerate(curves):
+            look = style(line_number(method))
+            values = np.where(np.isfinite(values), np.maximum(values, FLOOR), np.nan)
+            # marks of the curves stand at different times, so that none hides another's
+            every = max(1, len(values) // MARKS)
+            marks = (k * every // max(1, len(curves)), every)
+            ax.plot(trace.t, values, **look, markevery=marks, markerfacecolor="white", markersize=4.5, label=method)
+        if name == "error":
+            _floor(ax, study.estimated_error, None)
+            lowest = min(float(np.nanmin(np.where(v > 0.0, v, np.nan))) for _, _, v in curves if np.any(v > 0.0))
+            ax.set_ylim(bottom=max(FLOOR, 0.3 * min(lowest, study.estimated_error)))
+        ax.set(yscale="log", xlabel="t [s]", ylabel=label, xlim=(0.0, study.until))
+        _decades(ax)
+        ax.set_title(title)
+        below(figure, len(curves))
+
+    alternative = f"{title} on {study.mechanism}, one line a method."
+    return drawn(f"{anchor(study.mechanism)}-{name}", caption, alternative, draw)
+
+
+def _decades(ax: Any) -> None:
+    """Keep a logarithmic axis from blowing noise at rounding up to the height of the picture."""
+    low, high = ax.get_ylim()
+    if high / low < 1e3:
+        middle = float(np.sqrt(low * high))
+        ax.set_ylim(middle / 31.7, middle * 31.7)
+
+
+def _errors_over_time(study: Study) -> Picture | None:
+    caption = f"Distance to the reference over time ({settings_text(study)}); grey: the error of the reference itself."
+    return _over_time(study, lambda t: t.error, "error", "Error over time", "error [m]", caption)
+
+
+def _violations(study: Study, level: str, title: str, label: str) -> Picture | None:
+    caption = f"{title[:1].upper()}{title[1:]} over time ({settings_text(study)})."
+    name = f"{level}-violation"
+    return _over_time(
+        study, lambda t: getattr(t, level), name, f"{title[:1].upper()}{title[1:]} over time", label, caption
+    )
+
+
+def _energy_errors(study: Study) -> Picture | None:
+    caption = (
+        f"Energy error |T + V − E₀ − W| over time, W being the work of forces without potential and of drivers "
+        f"({settings_text(study)})."
+    )
+    return _over_time(
+        study, lambda t: t.energy_error, "energy-error", "Energy error over time", "|energy error| [J]", caption
+    )
+
+
+def _energies(study: Study) -> Picture | None:
+    best = most_accurate(study)
+    if best is None or len(best[1].t) < 2:
+        return None
+    row, trace = best
+    kinetic, potential = np.array(trace.kinetic), np.array(trace.potential)
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        ax.plot(trace.t, kinetic, color=COLOURS[0], label="kinetic T")
+        ax.plot(trace.t, potential, color=COLOURS[1], linestyle=(0, (5, 1.5)), label="potential V")
+        ax.plot(trace.t, kinetic + potential, color="black", linestyle=(0, (1.2, 1.2)), label="T + V")
+        ax.axhline(0.0, color=GREY, linewidth=0.6)
+        ax.set(xlabel="t [s]", ylabel="energy [J]", xlim=(0.0, study.until))
+        ax.set_title("Energy over time")
+        below(figure, 3, columns=3)
+
+    which = "the most accurate run" if row.error is not None else "a run that ended"
+    caption = (
+        f"Energies of the motion in {which} ({row.method}, {row.integrator}, {words.setting(row.step, row.rtol)})."
+    )
+    alternative = f"Kinetic, potential and total energy of {study.mechanism} over time."
+    return drawn(f"{anchor(study.mechanism)}-energy", caption, alternative, draw)

@@ -1,0 +1,172 @@
+"""The report of a stress study: findings, the map, largest steps, regions of stability, and which status to trust."""
+
+from __future__ import annotations
+
+from symgen.auto import AUTO
+from symgen.report import words
+from symgen.report.document import Cell, Document, Section, Table
+from symgen.report.stress_figures import maps, regions
+from symgen.study.findings import cause, findings
+from symgen.study.machine import machine_class, versions
+from symgen.study.outcome import ACCURATE, OUTCOMES
+from symgen.study.stress_cells import BUDGET, IMPLICIT_BUDGET
+from symgen.study.stress_map import LEGEND, Map
+from symgen.study.stress_rows import Row, Stress
+
+_LEAD = (
+    "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "
+    "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
+    f"told by that distance, not by what the run says of itself. A run is accurate (ok) up to {ACCURATE:g} m."
+)
+_MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
+_MEANINGS = {
+    "ok": f"the error is at most {ACCURATE:g} m at all outputs",
+    "inaccurate": "the error is larger, but the mechanism is closed or near its motion; or the run stopped itself for "
+    "violations although its motion was right",
+    "wrong branch": "the error arose near a singular position, and the mechanism moves on, closed, on another branch",
+    "singular": "the run ended at a position where the independent constraint rows are almost dependent",
+    "diverged": "the run ended early or left the constraints",
+    "too slow": f"more than {BUDGET:g} evaluations, or {IMPLICIT_BUDGET:g} of implicit stages, predicted or counted",
+    "refused": "the pair or the case is refused with a sentence",
+    "unjudged": "the reference itself is not known well enough",
+}
+
+
+def stress_report(study: Stress, command: str = "") -> Document:
+    """Return the report of a stress study.
+
+    Parameters
+    ----------
+    study : Stress
+        What was found.
+    command : str, optional
+        The command that makes it again.
+    """
+    lead = ["This study was interrupted: cells are missing.", _LEAD] if study.interrupted else [_LEAD]
+    facts = (
+        ("Versions", ", ".join(f"{name} {text}" for name, text in versions().items())),
+        ("Machine", machine_class()),
+        ("Cells", f"{len(study.rows)}, and {words.counted(len(study.limits), 'search', 'searches')} for largest steps"),
+        ("Extent", "quick: fewer cases, one integrator a method" if study.quick else "all cases"),
+    )
+    sections = [
+        Section("Findings", findings=findings(study)),
+        _map_section(study),
+        *_limits_section(study),
+        *_regions_section(study),
+        _trust_section(study),
+        *_left_out(study),
+        _cells_section(study),
+    ]
+    title = f"Stiff and extreme cases: {words.listed(study.models)}"
+    return Document(title, tuple(lead), facts, command, tuple(sections))
+
+
+def _map_section(study: Stress) -> Section:
+    shown = Map.of(study)
+    rows = tuple(
+        (
+            *(line[0], line[1]),
+            *(_field(shown.entry(line, family).text) for family in shown.families),
+            shown.entry(line).text.split(" ")[0],
+        )
+        for line in shown.lines
+    )
+    headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families), "all")
+    table = Table("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
+    meanings = Table("Outcomes.", ("outcome", "meaning"), tuple((n, _MEANINGS[n]) for n in OUTCOMES), words=2)
+    return Section("Map of methods and cases", tables=(table, meanings), pictures=maps(study))
+
+
+def _field(text: str) -> str | Cell:
+    share, _, letters = text.partition(" ")
+    if not share:
+        return words.NONE
+    return text if letters else Cell(text, "good")
+
+
+def _limits_section(study: Stress) -> list[Section]:
+    if not study.limits:
+        return []
+    rows = tuple(
+        (
+            *(limit.model, f"{limit.family} {limit.case}", limit.method, limit.integrator),
+            *("none" if x is None else words.number(x, 3) for x in (limit.stable_step, limit.accurate_step)),
+        )
+        for limit in study.limits
+    )
+    text = (
+        "Found by bisection to about 1 percent, with runs that do not watch themselves: the largest constant step up "
+        "to which a run stays within a tenth of the mechanism's size of the reference, and the largest one up to which "
+        f"its error stays below {ACCURATE:g} m. Methods with their own integrator."
+    )
+    headings = ("model", "case", "method", "integrator", "stable up to [s]", "accurate up to [s]")
+    return [Section("Largest steps", (text,), tables=(Table("", headings, rows, words=4),))]
+
+
+def _regions_section(study: Stress) -> list[Section]:
+    pictures = regions(study)
+    return [Section("Regions of stability", pictures=pictures)] if pictures else []
+
+
+def _trust_section(study: Stress) -> Section:
+    """Return the list of runs that report success although their error is large."""
+    wrong = study.false_successes
+    own = [row for row in wrong if row.method == AUTO]
+    others = [row for row in wrong if row.method != AUTO]
+    text = []
+    if any(row.method == AUTO for row in study.rows):
+        text.append(
+            "No run of auto reports success with such an error: it repeats its run with finer steps until two agree, "
+            "and is unverified where they do not."
+            if not own
+            else f"auto does so in {words.counted(len(own), 'cell')}."
+        )
+    if not others:
+        text.append("No run of another method reports success with such an error.")
+    tables = tuple(
+        Table(caption, _TRUST_HEADINGS, tuple(_trust_row(row) for row in rows), words=5)
+        for caption, rows in (("auto.", own), ("Methods that were asked for by name.", others))
+        if rows
+    )
+    return Section(f"Success reported with an error above {ACCURATE:g} m", tuple(text), tables=tables)
+
+
+_TRUST_HEADINGS = ("model", "case", "method", "integrator", "why", "error [m]")
+
+
+def _trust_row(row: Row) -> tuple[str, ...]:
+    case = f"{row.family} {row.case}"
+    return row.model, case, row.method, row.integrator, cause(row), words.number(row.error)
+
+
+def _left_out(study: Stress) -> list[Section]:
+    tables = []
+    if study.unusable:
+        tables.append(Table("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4))
+    if study.skipped:
+        tables.append(Table("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
+    return [Section("What is not judged", tables=tuple(tables))] if tables else []
+
+
+def _cells_section(study: Stress) -> Section:
+    """Return all cells of the map, a table for each family."""
+    shown = Map.of(study)
+    headings = (
+        *("model", "case", "method", "integrator", "outcome", "own status"),
+        *("error [m]", "reference ± [m]", "evaluations"),
+    )
+    parts = []
+    for family in shown.families:
+        rows = tuple(_cell_row(row) for row in shown.rows if row.family == family)
+        parts.append(Section(family.replace("-", " ").capitalize(), tables=(Table("", headings, rows, words=6),)))
+    return Section("All cells", parts=tuple(parts))
+
+
+def _cell_row(row: Row) -> tuple[str | Cell, ...]:
+    status = f"{row.status}: {words.readable(row.reason)}" if row.reason else row.status
+    integrator = row.chosen or row.integrator
+    return (
+        *(row.model, row.case, row.method, integrator, Cell(row.outcome, _MOODS.get(row.outcome, "bad")), status),
+        *(words.number(row.error), words.number(row.reference_error), str(row.evaluations)),
+    )

@@ -1,0 +1,84 @@
+"""Numbers and lists as a reader meets them; plain text that HTML and Markdown show alike."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+#: What stands where there is no number.
+NONE = "–"
+
+
+def number(x: float | None, digits: int = 2) -> str:
+    """Return a number to some digits: 0.25, 1500, 3.1×10⁻⁷."""
+    if x is None:
+        return NONE
+    if not math.isfinite(x):
+        return "not finite"
+    if x == 0.0 or 1e-3 <= abs(x) < 1e4:
+        text = f"{x:.{digits}g}"
+        return f"{float(text):g}" if "e" in text else text
+    mantissa, _, exponent = f"{x:.{digits - 1}e}".partition("e")
+    power = f"10{str(int(exponent)).translate(_RAISED)}"
+    return power if float(mantissa) == 1.0 else f"{mantissa}×{power}".replace("-", "−")
+
+
+def exact(x: float) -> str:
+    """Return a number that was chosen, not measured, with the digits that it has: 0.001, 5×10⁻⁵, 10⁻⁸."""
+    mantissa, _, exponent = f"{x:g}".partition("e")
+    if not exponent:
+        return mantissa
+    power = f"10{str(int(exponent)).translate(_RAISED)}"
+    return power if mantissa == "1" else f"{mantissa}×{power}"
+
+
+def readable(text: str) -> str:
+    """Return a sentence of a result with its numbers and signs as in the rest of the report."""
+    text = re.sub(r"\b\d+(\.\d+)?e[-+]\d+", lambda m: exact(float(m.group())), text)
+    return text.replace("|Phi|", "|Φ|").replace("|D v - nu|", "|D v − ν|")
+
+
+def seconds(x: float | None) -> str:
+    """Return a duration with its unit: 85 µs, 1.27 ms, 3.4 s."""
+    if x is None or not math.isfinite(x):
+        return NONE
+    for unit, size in (("s", 1.0), ("ms", 1e-3)):
+        if x >= size:
+            return f"{x / size:.3g} {unit}"
+    return f"{x / 1e-6:.3g} µs"
+
+
+def percent(x: float | None) -> str:
+    """Return a fraction as percent."""
+    if x is None or not math.isfinite(x):
+        return NONE
+    return f"{100.0 * x:.0f} %" if x >= 0.0995 else f"{100.0 * x:.1f} %"
+
+
+def ratio(x: float | None) -> str:
+    """Return a ratio to two decimals."""
+    return NONE if x is None or not math.isfinite(x) else f"{x:.2f}" if x < 100.0 else f"{x:.0f}"
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Return words as an enumeration: a, b and c."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}"
+
+
+def counted(n: int, one: str, many: str = "") -> str:
+    """Return a number of things: 1 run, 3 runs."""
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
+def sentence(text: str) -> str:
+    """Return text with a capital and a full stop."""
+    return text[:1].upper() + text[1:] + ("" if text.endswith((".", ":")) else ".")
+
+
+def setting(step: float | None, rtol: float | None) -> str:
+    """Return a step or a tolerance in words: step 0.001 s, rtol 10⁻⁸."""
+    return f"rtol {exact(rtol)}" if rtol is not None else f"step {exact(step or 0.0)} s"

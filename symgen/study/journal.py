@@ -1,0 +1,252 @@
+"""What a long study has done, kept in a file: one line of JSON a finished cell, appended and never changed.
+
+A cell is known by the digest of everything that determines it, so a journal may serve several studies and outlives
+changes of any of them. A line that a kill tore is dropped when the file is opened again; a file that is no journal is
+refused and left as it is; one process at a time writes to it.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from functools import lru_cache
+from pathlib import Path
+from types import TracebackType
+from typing import IO, TYPE_CHECKING, Any
+
+from symgen import __version__
+from symgen.errors import InputError, SimulationError
+
+if TYPE_CHECKING:
+    from filelock import BaseFileLock
+
+    from symgen.describe.mechanism import Mechanism
+
+#: First line of every journal; the number changes when the form of lines does.
+FORM = 1
+HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
+#: Lists and tables of a cell's parts are at most this deep.
+_DEEPEST = 20
+
+Outcome = dict[str, Any]
+
+
+# -- what determines a cell --------------------------------------------------------------------------------------------
+
+
+def cell_key(**parts: Any) -> str:
+    """Return the digest of everything that determines a cell, 32 hexadecimal digits.
+
+    Parameters
+    ----------
+    **parts
+        Numbers, texts, None, and lists or mappings of these; floats count to their last digit, the order of keys does
+        not. `mechanism_identity` and `code_identity` give the parts for the model and for what computes the cell.
+
+    Raises
+    ------
+    TypeError
+        If a part is something else, whose text might say less than the value.
+    """
+    text = json.dumps(_canonical(parts, 0), sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def _canonical(value: Any, depth: int) -> Any:
+    if depth > _DEEPEST:
+        raise TypeError("a part of a cell's key is nested too deep")
+    if value is None or isinstance(value, str | bool):
+        return value
+    if isinstance(value, Mapping):
+        if not all(isinstance(name, str) for name in value):
+            raise TypeError("a mapping in a cell's key has a key that is no text")
+        return {name: _canonical(item, depth + 1) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_canonical(item, depth + 1) for item in value]
+    if hasattr(value, "__index__"):
+        return int(value)
+    if hasattr(value, "__float__") and not getattr(value, "shape", ()):
+        return f"float {float(value) + 0.0!r}"  # -0.0 is 0.0; nan and infinity have a text as well
+    raise TypeError(f"a cell's key cannot hold a {type(value).__name__}")
+
+
+def mechanism_identity(mechanism: Mechanism) -> str:
+    """Return a digest of a whole mechanism: equations, start, values of parameters and defaults."""
+    return hashlib.sha256(repr(mechanism).encode()).hexdigest()
+
+
+@lru_cache(maxsize=1)
+def code_identity() -> str:
+    """Return a digest of all that computes a cell: the version, the emitted form and the sources of the package."""
+    from symgen.ir.program import FORMAT
+    from symgen.pipeline import generator_digest
+
+    package = Path(__file__).resolve().parent.parent
+    found = hashlib.sha256(f"{__version__} {FORMAT} {generator_digest()}".encode())
+    for folder in ("integrators", "runtime", "result", "study"):
+        for path in sorted((package / folder).rglob("*.py")):
+            found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    for name in ("auto.py", "plan.py", "api.py", "model.py"):
+        found.update((package / name).read_bytes())
+    return found.hexdigest()
+
+
+# -- the file ----------------------------------------------------------------------------------------------------------
+
+
+class Journal:
+    """Finished cells by key, in a file or, without a path, in memory alone.
+
+    Parameters
+    ----------
+    path : Path or None
+        The file; made when it is missing, read when it exists.
+
+    Raises
+    ------
+    InputError
+        If the file is no journal, cannot be written, or is used by another process.
+    """
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path
+        self._done: dict[str, Outcome] = {}
+        self._file: IO[bytes] | None = None
+        self._lock: BaseFileLock | None = None
+        if path is not None:
+            self._open(path)
+
+    def __enter__(self) -> Journal:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the file; another process may use it then."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+        if self._lock is not None:
+            self._lock.release()
+            self._lock = None
+
+    def __contains__(self, key: object) -> bool:
+        return key in self._done
+
+    def __len__(self) -> int:
+        return len(self._done)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._done)
+
+    def get(self, key: str) -> Outcome | None:
+        """Return the outcome of a finished cell, None where it is not finished."""
+        return self._done.get(key)
+
+    def add(self, key: str, outcome: Mapping[str, Any]) -> Outcome:
+        """Keep the outcome of a cell; it is with the operating system when this returns.
+
+        Parameters
+        ----------
+        key : str
+            From `cell_key`.
+        outcome : mapping
+            What JSON can express; numbers that it cannot (nan, infinity) are refused.
+
+        Returns
+        -------
+        dict
+            The outcome as it will be read again.
+
+        Raises
+        ------
+        ValueError
+            If the cell is finished already: it was computed twice.
+        SimulationError
+            If the file cannot be written any more, e.g. because the disk is full.
+        """
+        if key in self._done:
+            raise ValueError(f"cell {key} is in the journal already")
+        line = json.dumps({"key": key, "outcome": dict(outcome)}, allow_nan=False).encode()
+        kept: Outcome = json.loads(line)["outcome"]
+        if self._file is not None:
+            try:
+                # one write call: a kill leaves a line whole or, on a full disk, torn at the end of the file
+                if self._file.write(line + b"\n") != len(line) + 1:
+                    raise OSError(errno.ENOSPC, "the disk is full")
+            except OSError as error:
+                why = error.strerror or str(error)
+                raise SimulationError(f"the journal '{self.path}' cannot be written: {why}") from None
+        self._done[key] = kept
+        return kept
+
+    def _open(self, path: Path) -> None:
+        import filelock
+
+        if not path.parent.is_dir():  # the lock would make it
+            raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
+        _content(path)  # a file that is no journal gets no lock beside it
+        lock = filelock.FileLock(path.with_name(path.name + ".lock"))
+        try:
+            lock.acquire(timeout=0)
+        except filelock.Timeout:
+            raise InputError(f"journal '{path}'", "one that no other process uses", "one in use") from None
+        except OSError as error:
+            raise _unusable(path, error) from None
+        self._lock = lock
+        try:
+            self._read(path)
+        except BaseException:
+            self.close()
+            raise
+
+    def _read(self, path: Path) -> None:
+        try:
+            content = _content(path)
+            whole, ended, torn = content.rpartition(b"\n")
+            keep = len(whole) + len(ended)
+            for number, line in enumerate(whole.split(b"\n")[1:] if ended else (), 2):
+                key, outcome = _parsed(line, path, number)
+                self._done[key] = outcome
+            self._file = path.open("ab", buffering=0)
+            if torn or (content and not ended):
+                self._file.truncate(keep)
+            if keep == 0:
+                self._file.write(HEADER)
+        except OSError as error:
+            raise _unusable(path, error) from None
+
+
+def _content(path: Path) -> bytes:
+    """Return the bytes of a journal, none where there is no file yet."""
+    try:
+        content = path.read_bytes() if path.exists() else b""
+    except OSError as error:
+        raise _unusable(path, error) from None
+    if not content.startswith(HEADER) and not HEADER.startswith(content):
+        raise _foreign(path, 1)
+    return content
+
+
+def _parsed(line: bytes, path: Path, number: int) -> tuple[str, Outcome]:
+    try:
+        entry = json.loads(line)
+    except (ValueError, RecursionError):
+        raise _foreign(path, number) from None
+    if not (isinstance(entry, dict) and isinstance(entry.get("key"), str) and isinstance(entry.get("outcome"), dict)):
+        raise _foreign(path, number)
+    return entry["key"], entry["outcome"]
+
+
+def _foreign(path: Path, number: int) -> InputError:
+    got = f"something else in line {number}"
+    return InputError(f"journal '{path}'", "a journal of symgen", got, "it was left as it is; name another file")
+
+
+def _unusable(path: Path, error: OSError) -> InputError:
+    return InputError(f"journal '{path}'", "a file that can be written", error.strerror or "an error")

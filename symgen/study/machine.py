@@ -1,0 +1,50 @@
+"""The machine class and the versions that figures were made with: what is needed to judge run times, and no more."""
+
+from __future__ import annotations
+
+import os
+import platform
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+#: Libraries whose versions matter for run times and last digits.
+LIBRARIES = ("numpy", "numba", "sympy", "scipy")
+
+
+def processor() -> str:
+    """Return the model of the processor, or its architecture where the system does not tell."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines():
+            label, _, value = line.partition(":")
+            if label.strip() == "model name" and value.strip():
+                return value.strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine() or "unknown"
+
+
+def cores() -> int:
+    """Return the number of cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def machine_class() -> str:
+    """Return processor, architecture, cores and system in words."""
+    n = cores()
+    core = "1 core" if n == 1 else f"{n} cores"
+    return f"{processor()} ({platform.machine()}), {core}, {platform.system()}"
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of symgen, Python and the libraries by name."""
+    from symgen import __version__
+
+    found = {"symgen": __version__, "Python": platform.python_version()}
+    for name in LIBRARIES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            found[name] = "not installed"
+    return found

@@ -1,0 +1,116 @@
+"""What became of a run of a stress study, told by its distance to an independent motion, not by its own word."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.result.result import OK
+
+Array = NDArray[np.float64]
+
+#: Outcomes of cells, the best first.
+GOOD, INACCURATE, WRONG_BRANCH, SINGULAR, DIVERGED, TOO_SLOW, REFUSED, UNJUDGED = OUTCOMES = (
+    *("ok", "inaccurate", "wrong branch", "singular", "diverged", "too slow", "refused", "unjudged"),
+)
+#: Largest error of an accurate run [m].
+ACCURATE = 1e-3
+#: A reference that may be off by more than this share of `ACCURATE` judges nothing.
+TRUSTED = 0.5
+#: Errors above this share of the mechanism's size are no longer those of its motion.
+LOST = 0.1
+#: Smallest singular value of the constraint rows (scaled to length 1), as a share of its largest over the motion, below
+#: which the reference is near a singular position; outputs are some way apart, and it falls in a straight line.
+NEAR = 0.15
+#: |Phi| by the independent equations, as a share of the size, up to which a state is one of the mechanism.
+CLOSED = 1e-3
+
+
+@dataclass(frozen=True)
+class Run:
+    """What is known of a run, beside what it says of itself.
+
+    Parameters
+    ----------
+    finished : bool
+        It reached its end.
+    over_budget : bool
+        It took more evaluations than it may.
+    errors : Array, shape (k,)
+        Distance to the reference [m] at the outputs that it reached.
+    sines : Array, shape (n,)
+        Of the reference at all outputs: smallest singular value of the independent constraint rows, scaled to length
+        1, as a share of the largest on the way.
+    violation : float
+        |Phi| by the independent equations at the last output reached.
+    reference_error : float or None
+        How far the reference may be off [m]; None where there is none.
+    size : float
+        Of the mechanism [m].
+    """
+
+    finished: bool
+    over_budget: bool
+    errors: Array
+    sines: Array
+    violation: float
+    reference_error: float | None
+    size: float
+
+
+def classify(run: Run) -> str:
+    """Return one of `OUTCOMES` for a run.
+
+    An error up to `ACCURATE` is ok. Beyond that, a run that goes on along constraints that the independent equations
+    find closed, after an error that arose near a singular position, is on a wrong branch; other finished runs are
+    inaccurate while constraints are closed or the error is below `LOST` of the size, else diverged. A run that ended
+    early is singular where the reference is near a singular position there, else diverged.
+    """
+    if run.over_budget:
+        return TOO_SLOW
+    if run.reference_error is None or run.reference_error > TRUSTED * ACCURATE:
+        return UNJUDGED
+    last = len(run.errors)
+    largest = largest_error(run.errors)
+    if run.finished:
+        if largest is not None and largest <= ACCURATE:
+            return GOOD
+        closed = run.violation <= CLOSED * run.size
+        if largest is None or not np.isfinite(run.violation):
+            return DIVERGED
+        if closed and largest > LOST * run.size and _lost_near_a_singular_position(run):
+            return WRONG_BRANCH
+        return INACCURATE if closed or largest <= LOST * run.size else DIVERGED
+    # the outputs around the end: it lies between the last one reached and the next
+    around = run.sines[max(0, last - 2) : last + 2]
+    if len(around) and float(np.min(around)) < NEAR:
+        return SINGULAR
+    return DIVERGED
+
+
+def largest_error(errors: Array) -> float | None:
+    """Return the largest error, None where one is not finite or there is none."""
+    if not len(errors) or not np.all(np.isfinite(errors)):
+        return None
+    return float(np.max(errors))
+
+
+def _lost_near_a_singular_position(run: Run) -> bool:
+    """Whether the error grew beyond bounds within a few outputs of a position where the rows are almost dependent."""
+    lost = int(np.argmax(run.errors > LOST * run.size))
+    began = int(np.argmax(run.errors > ACCURATE))
+    before = run.sines[max(0, began - 3) : lost + 1]
+    return bool(len(before)) and float(np.min(before)) < NEAR
+
+
+def false_success(status: str, outcome: str, error: float | None) -> bool:
+    """Whether a run says ok although its error exceeds `ACCURATE`; cells without a reference cannot say."""
+    return status == OK and outcome not in (UNJUDGED, TOO_SLOW, REFUSED) and (error is None or error > ACCURATE)
+
+
+def counts(outcomes: Sequence[str]) -> dict[str, int]:
+    """Return how often each outcome occurs, all of them named."""
+    return {name: outcomes.count(name) for name in OUTCOMES}

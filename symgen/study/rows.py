@@ -1,0 +1,253 @@
+"""What a comparison gave: rows, curves over time, and the study that holds them, as JSON, CSV and data frame."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field, fields, replace
+from os import PathLike
+from pathlib import Path
+from statistics import median
+from typing import Any, cast
+
+from symgen.errors import InputError
+from symgen.result.result import FAILED, finite
+
+#: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
+YARDSTICK = "lagrange"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One method with one integrator at one step or tolerance.
+
+    Violations are Euclidean norms of Phi, ``D v - nu`` and ``D v' - gamma``, in metres and radians as they are. The
+    largest ones of position and velocity are over all accepted steps and outputs; those of acceleration, the roots of
+    the mean squares and the final ones are over the outputs.
+
+    Attributes
+    ----------
+    method, integrator : str
+        What was run.
+    step, rtol : float or None
+        Constant step [s], or relative tolerance.
+    status, reason
+        As of a result; a failed run stays a row.
+    error : float or None
+        Largest distance to the reference [m] over bodies, output times and points (`symgen.study.points`); None for a
+        run that failed, and where there is no reference.
+    below_reference : bool
+        The error is below what the reference itself may be off, so it says no more than that.
+    run_seconds, run_seconds_spread, run_seconds_median : float
+        Shortest of several runs after a warm-up, longest minus shortest, and median [s].
+    cost_ratio, cost_ratio_spread : float or None
+        Run time over that of `lagrange` with the same integrator and step or tolerance, and what it may vary by: the
+        ratio times the sum of both runs' median less shortest time over shortest time (the longest time tells only
+        what else the machine was doing). None where one of them failed or `lagrange` was not run.
+    evaluations, iterations : int
+        Right-hand sides, and iterations of laws, corrections and implicit stages.
+    position_violation_max, velocity_violation_max, acceleration_violation_max : float
+        Largest violations [m, m/s, m/s^2].
+    position_violation_rms, velocity_violation_rms, acceleration_violation_rms : float or None
+        Roots of their mean squares; None where a run gave no output.
+    position_violation_final, velocity_violation_final, acceleration_violation_final : float or None
+        At the last output.
+    energy_drift_max : float
+        Largest energy error [J].
+    warnings : tuple of str
+        Sentences: what to be careful with.
+    """
+
+    method: str
+    integrator: str
+    step: float | None
+    rtol: float | None
+    status: str
+    reason: str | None
+    error: float | None
+    below_reference: bool
+    run_seconds: float
+    run_seconds_spread: float
+    evaluations: int
+    position_violation_max: float
+    velocity_violation_max: float
+    energy_drift_max: float
+    warnings: tuple[str, ...] = ()
+    iterations: int = 0
+    run_seconds_median: float = 0.0
+    cost_ratio: float | None = None
+    cost_ratio_spread: float | None = None
+    acceleration_violation_max: float | None = None
+    position_violation_rms: float | None = None
+    velocity_violation_rms: float | None = None
+    acceleration_violation_rms: float | None = None
+    position_violation_final: float | None = None
+    velocity_violation_final: float | None = None
+    acceleration_violation_final: float | None = None
+
+    @property
+    def setting(self) -> tuple[str, float | None, float | None]:
+        """What another method must share for run times to be comparable: integrator, step, tolerance."""
+        return self.integrator, self.step, self.rtol
+
+    @property
+    def setting_text(self) -> str:
+        """Step or tolerance in words."""
+        return f"rtol {self.rtol:g}" if self.rtol is not None else f"{self.step:g} s"
+
+    @property
+    def ended(self) -> bool:
+        """Whether the run came to its end."""
+        return self.status != FAILED
+
+    def texts(self) -> list[str]:
+        """Return the fields as the cells of a table; None is empty."""
+        return ["" if x is None else "; ".join(x) if isinstance(x, tuple) else str(x) for x in asdict(self).values()]
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Quantities of one run at its outputs, for drawing: five digits.
+
+    Attributes
+    ----------
+    t : tuple of float
+        Times [s].
+    error : tuple of float
+        Distance to the reference [m]; empty where there is none.
+    position, velocity, acceleration : tuple of float
+        Violations [m, m/s, m/s^2].
+    kinetic, potential, energy_error : tuple of float
+        Energies [J]; the last is T + V - E0 - W.
+    """
+
+    t: tuple[float, ...] = ()
+    error: tuple[float, ...] = ()
+    position: tuple[float, ...] = ()
+    velocity: tuple[float, ...] = ()
+    acceleration: tuple[float, ...] = ()
+    kinetic: tuple[float, ...] = ()
+    potential: tuple[float, ...] = ()
+    energy_error: tuple[float, ...] = ()
+
+
+def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
+    """Return the rows with cost ratios, which need the rows of `YARDSTICK`."""
+    base = {row.setting: row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0}
+    found = []
+    for row in rows:
+        other = base.get(row.setting)
+        if other is None or not row.ended or row.run_seconds <= 0.0:
+            found.append(replace(row, cost_ratio=None, cost_ratio_spread=None))
+            continue
+        ratio = row.run_seconds / other.run_seconds
+        parts = [max(r.run_seconds_median - r.run_seconds, 0.0) / r.run_seconds for r in (row, other)]
+        # the yardstick's ratio to itself is 1 however its run time varies
+        spread = 0.0 if row is other else ratio * sum(parts)
+        found.append(replace(row, cost_ratio=ratio, cost_ratio_spread=spread))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Study:
+    """Rows of one mechanism against one reference.
+
+    Attributes
+    ----------
+    mechanism : str
+        What was run.
+    how : str
+        Where the reference comes from.
+    estimated_error : float
+        How far the reference may be off [m]; nan where there is none.
+    until : float
+        End time [s].
+    rows : tuple of Row
+        In the order of methods, integrators, steps or tolerances.
+    interrupted : bool
+        Whether rows are missing because the study was stopped.
+    traces : tuple of Trace
+        Curves over time, one a row.
+    note : str
+        What the reader of errors has to know about the reference: that its two runs part at a singular position, or
+        why there is none; empty otherwise.
+    title, digest : str
+        Title and digest of the mechanism.
+    step : float
+        The mechanism's own step [s].
+    parameters, options : mapping
+        What was changed.
+    repeat : int
+        Timed runs a row, at least.
+    """
+
+    mechanism: str
+    how: str
+    estimated_error: float
+    until: float
+    rows: tuple[Row, ...]
+    interrupted: bool = False
+    traces: tuple[Trace, ...] = ()
+    note: str = ""
+    title: str = ""
+    digest: str = ""
+    step: float = 1e-3
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    options: Mapping[str, str | float] = field(default_factory=dict)
+    repeat: int = 1
+
+    @property
+    def failed(self) -> bool:
+        """Whether not one run came to an end."""
+        return not any(row.ended for row in self.rows)
+
+    @property
+    def ratio_spreads(self) -> tuple[float, float] | None:
+        """Median and largest of what cost ratios may vary by, as fractions of them; None where there are none."""
+        found = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]
+        return (median(found), max(found)) if found else None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen compare --json``; numbers that are not finite become None."""
+        contract = {
+            "mechanism": self.mechanism,
+            "digest": self.digest,
+            "until": self.until,
+            "reference": {"how": self.how, "estimated_error": self.estimated_error, "note": self.note or None},
+            "interrupted": self.interrupted,
+            "rows": [asdict(row) for row in self.rows],
+        }
+        return cast(dict[str, Any], finite(contract))
+
+    def to_dataframe(self) -> Any:
+        """Return the rows as a pandas data frame."""
+        from symgen.result.export import need
+
+        need("to_dataframe", "pandas")
+        import pandas as pd
+
+        return pd.DataFrame([asdict(row) for row in self.rows], columns=[f.name for f in fields(Row)])
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the rows to a CSV file; it appears whole or not at all."""
+        return save_csv([self], Path(path))
+
+
+def save_csv(studies: Sequence[Study], path: Path) -> Path:
+    """Write the rows of studies to one CSV file, with the mechanism in the first column."""
+    import csv
+
+    from symgen.result.export import check_writable, write_whole
+
+    if path.suffix.lower() != ".csv":
+        raise InputError("save", "a file ending in .csv", f"'{path}'")
+    check_writable("save", path)
+
+    def write(file: Path) -> None:
+        with file.open("w", newline="", encoding="utf-8") as handle:
+            writer = csv.writer(handle)
+            writer.writerow(["mechanism", *(f.name for f in fields(Row))])
+            for study in studies:
+                for row in study.rows:
+                    writer.writerow([study.mechanism, *row.texts()])
+
+    return write_whole(path, write)

@@ -1,0 +1,149 @@
+"""``symgen compare`` as a command: reports, journals, interruption and what is wrong."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from symgen.cli import main
+from symgen.study import compare as module
+from symgen.study.journal import Journal
+
+SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.02,0.01", "--until", "0.5")
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line; return exit code, standard output and standard error."""
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+@pytest.mark.parametrize("ending", ["html", "md"])
+def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
+    path = tmp_path / f"report.{ending}"
+    code, out, err = cli("compare", "pendulum", *SMALL, "--repeat", "2", "-o", path, "--csv", tmp_path / "rows.csv")
+    assert code == 0 and "error [m]" in out and "x lagrange" in out
+    assert err == f"symgen: wrote {path}\n"
+    text = path.read_text(encoding="utf-8")
+    assert "Error against run time: pendulum" in text and "Jacobi" in text
+    # the command that makes it again, without the folders of this machine
+    steps = "--steps 0.02,0.01 --until 0.5"
+    command = f"symgen compare pendulum --methods lagrange,direct-correction --integrators rk4 {steps} --repeat 2"
+    assert f"{command} --output report.{ending} --csv rows.csv" in text
+    assert str(tmp_path) not in text
+    assert len((tmp_path / "rows.csv").read_text().splitlines()) == 5
+
+
+def test_json_stays_alone_on_standard_output(cli, tmp_path):
+    arguments = (*SMALL[:4], "--steps", "0.01", "--until", "0.5", "--repeat", "1")
+    code, out, _ = cli("compare", "pendulum", *arguments, "-o", tmp_path / "report.html", "--json")
+    found = json.loads(out)
+    assert code == 0 and len(found["rows"]) == 2
+    assert all(row["cost_ratio"] is not None and row["acceleration_violation_rms"] >= 0.0 for row in found["rows"])
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("-o report.pdf", "--output: expected a file ending in .html, .md, got 'report.pdf'"),
+        ("-o nowhere/report.html", "--output: expected a file in a folder that exists"),
+        ("--resume nowhere/rows.journal", "expected a file in a folder that exists"),
+        ("--jobs 0", "--jobs: expected a finite number above 0, got 0"),
+        ("--reference scipy-bfd", "did you mean 'scipy-bdf'?"),
+        ("--output", "requires an argument"),
+        ("--integrators nope", "expected an integrator, got 'nope'"),
+        ("--methods ggl --integrators rk4", "one that solves a form of ggl"),
+        ("--rtols 1e-6,-1", "--rtols: expected finite numbers above 0, separated by commas, got '-1'"),
+    ],
+)
+def test_bad_input_gets_one_sentence_and_no_file(cli, tmp_path, monkeypatch, words, sentence):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli("compare", "pendulum", *words.split())
+    assert (code, out) == (2, "")
+    assert sentence in err and err.startswith("symgen: ") and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
+    path = tmp_path / "notes.txt"
+    path.write_text("my notes\n")
+    code, _, err = cli("compare", "pendulum", *SMALL, "--resume", path)
+    assert code == 2 and "expected a journal of symgen" in err
+    assert path.read_text() == "my notes\n"
+
+
+def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
+    real, calls = module.timed, []
+
+    def sometimes(*arguments):
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return real(*arguments)
+
+    monkeypatch.setattr(module, "timed", sometimes)
+    report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
+    arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "-o", report, "--json", "--journal", journal)
+    code, out, err = cli(*arguments)
+    assert code == 130 and err.splitlines()[-1].startswith("symgen: interrupted; the rows that were done are shown")
+    assert len(json.loads(out)["rows"]) == 2 and json.loads(out)["interrupted"] is True
+    assert "This study was interrupted: rows are missing." in report.read_text()
+    code, out, _ = cli(*arguments)
+    assert code == 0 and len(json.loads(out)["rows"]) == 4 and len(calls) == 5
+    assert "interrupted" not in report.read_text()
+
+
+SCRIPT = """\
+import signal, sys, time
+from symgen.cli import main
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs inherit it ignored
+from symgen.study import compare
+real = compare.timed
+def slow(*arguments):
+    found = real(*arguments)
+    time.sleep(0.3)
+    return found
+compare.timed = slow
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+def rows_of(path: Path) -> int:
+    """Return how many cells a journal holds, a torn line not counted."""
+    return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_path, cli, how):
+    journal = tmp_path / "rows.journal"
+    arguments = ["compare", "pendulum", *SMALL, "--repeat", "1", "--journal", str(journal), "--json"]
+    process = subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ)
+    )
+    deadline = time.monotonic() + 240.0
+    while rows_of(journal) < 3 and process.poll() is None and time.monotonic() < deadline:  # the reference and two rows
+        time.sleep(0.02)
+    process.send_signal(how)
+    process.communicate(timeout=60)
+    assert process.returncode == (130 if how == signal.SIGINT else -signal.SIGKILL)
+    done = rows_of(journal)
+    assert 3 <= done < 5
+    with Journal(journal) as kept:
+        before = {key: kept.get(key) for key in kept}
+    code, out, _ = cli(*arguments)
+    assert code == 0 and len(json.loads(out)["rows"]) == 4
+    with Journal(journal) as kept:  # a second entry of a key would have been refused
+        assert len(kept) == 5
+        assert {key: kept.get(key) for key in before} == before
+    assert rows_of(journal) == 5

@@ -1,0 +1,90 @@
+"""``symgen stress`` in-process: what it prints where, its files, and its exit codes."""
+
+import csv
+import json
+
+import pytest
+
+from symgen.cli import main
+from symgen.study import stress as module
+from symgen.study.stress_rows import Row, Stress
+
+FEW = ("stress", "pendulum", "--cases", "gravity", "--methods", "lagrange,auto", "--quick", "--jobs", "1")
+
+
+@pytest.fixture
+def cli(capsys):
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+def test_tables_json_csv_and_reports(cli, tmp_path):
+    journal = tmp_path / "journal.jsonl"
+    code, out, err = cli(*FEW, "--resume", journal)
+    assert code == 0 and all(" of " in line for line in err.splitlines())  # nothing but progress
+    assert "4 cells" in out and "auto reports success with an error above 0.001 m in no cell of 2." in out
+    kept = journal.read_bytes()
+    files = ("--csv", tmp_path / "cells.csv", "-o", tmp_path / "stress.html")
+    code, out, err = cli(*FEW, "--journal", journal, "--json", *files)
+    assert code == 0 and journal.read_bytes() == kept
+    found = json.loads(out)
+    assert found["cells"] == 4 and found["outcomes"]["ok"] == 4 and found["false_successes"] == []
+    with (tmp_path / "cells.csv").open(newline="") as handle:
+        assert len(list(csv.DictReader(handle))) == 4
+    page = (tmp_path / "stress.html").read_text()
+    assert "Map of methods and cases" in page and page.count("data:image/svg+xml") == 1
+    assert "symgen stress pendulum --cases gravity --methods lagrange,auto --quick --output stress.html" in page
+    assert "--resume" not in page and str(tmp_path) not in page
+    code, _, _ = cli(*FEW, "--resume", journal, "-o", tmp_path / "stress.md")
+    assert code == 0 and list((tmp_path / "stress-files").glob("map-pendulum.*"))
+
+
+def wrong(method):
+    return Row(
+        *("four-bar", "gravity", "1 m/s^2", (1.0,), method, "rk4", 1e-3, 1.0, "inaccurate", 0.5, 1e-9, "ok", None),
+        *(4000, 1e-12, 1e-12, 0.0, "", "", True),
+    )
+
+
+@pytest.mark.parametrize(("method", "code"), [("auto", 1), ("lagrange", 0)])
+def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
+    study = Stress(("four-bar",), (wrong(method),), (), (), ())
+    monkeypatch.setattr(module, "stress", lambda *a: study)
+    found, _, err = cli("stress", "--jobs", "1")
+    assert found == code
+    assert ("auto reports success with an error above 1e-3 m in 1 cell" in err) == bool(code)
+
+
+def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path):
+    study = Stress(("four-bar",), (wrong("lagrange"),), (), (), (), interrupted=True)
+    monkeypatch.setattr(module, "stress", lambda *a: study)
+    code, out, err = cli("stress", "--json", "-o", tmp_path / "stress.html")
+    assert code == 130 and json.loads(out)["interrupted"] and "the cells that were done are kept" in err
+    assert "This study was interrupted" in (tmp_path / "stress.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ("stress five-bar", "model: expected a catalogue name or the path of a file, got 'five-bar'"),
+        ("stress --cases stifness", "--cases: expected a family of cases, got 'stifness'; did you mean 'stiffness'?"),
+        ("stress --cases stiffness,,", "--cases: expected words separated by commas"),
+        ("stress --methods lagrang", "did you mean 'lagrange'?"),
+        ("stress --jobs 0", "--jobs: expected a finite number above 0, got 0"),
+        ("stress --csv nowhere/cells.csv", "--csv: expected a file in a folder that exists"),
+        ("stress -o stress.pdf", "--output: expected"),
+        ("stress --resume nowhere/journal", "expected a file in a folder that exists"),
+        ("stress --resume README.md", "expected a journal of symgen, got something else in line 1"),
+    ],
+)
+def test_bad_input(cli, monkeypatch, tmp_path, words, sentence):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "README.md").write_text("# words\n")
+    code, out, err = cli(*words.split())
+    assert code == 2 and out == "" and sentence in err
+    assert err.startswith("symgen: ") and err.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["README.md"]

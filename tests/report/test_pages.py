@@ -1,0 +1,243 @@
+"""Pages as a browser, or a reader of Markdown, meets them: whole, with all their pictures, and asking for nothing."""
+
+import base64
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from markdown_it import MarkdownIt
+
+from report.made import row, study, trace
+from symgen.errors import InputError
+from symgen.report import picture
+from symgen.report.comparison import comparison
+from symgen.report.write import check_report, html, markdown, write
+
+VOID = {"meta", "img", "br", "hr", "link", "input"}
+
+
+class Page(HTMLParser):
+    """Collects elements and refuses tags that are not closed in their order."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.elements, self.text = [], [], []
+        self.feed(text)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+    def all(self, tag):
+        """Return the attributes of all elements of a kind."""
+        return [attributes for name, attributes in self.elements if name == tag]
+
+
+STUDIES = [study(), study(mechanism="pendulum")]
+
+
+@pytest.fixture(scope="module")
+def text():
+    return html(comparison(STUDIES, "symgen compare four-bar 'a & b' -o report.html", [("Steps", "1 < 2")]))
+
+
+@pytest.fixture(scope="module")
+def page(text):
+    return Page(text)
+
+
+def test_the_page_asks_for_nothing(text, page):
+    assert text.startswith("<!DOCTYPE html>")
+    assert not {tag for tag, _ in page.elements} & {
+        "script",
+        "link",
+        "iframe",
+        "object",
+        "embed",
+        "video",
+        "base",
+        "form",
+    }
+    for _, attributes in page.elements:
+        for name, value in attributes.items():
+            assert not name.startswith("on")
+            if name in ("src", "href", "srcset", "data", "action", "poster"):
+                assert value.startswith(("data:image/svg+xml;base64,", "data:image/png;base64,", "#")), value[:80]
+    style = text[text.index("<style>") : text.index("</style>")]
+    assert "url(" not in style and "@import" not in style and "&" not in style.replace("&#", "")
+
+
+def test_every_picture_is_whole(page):
+    images = page.all("img")
+    assert len(images) > 10
+    for attributes in images:
+        assert len(attributes["alt"]) > 20
+        kind, _, data = attributes["src"].partition(",")
+        content = base64.b64decode(data, validate=True)
+        if "png" in kind:
+            assert content.startswith(b"\x89PNG") and content.endswith(b"IEND\xaeB`\x82")
+            continue
+        root = ElementTree.fromstring(content)
+        assert root.tag == "{http://www.w3.org/2000/svg}svg" and "viewBox" in root.attrib
+        for element in root.iter():
+            for name, value in element.attrib.items():
+                if name.endswith("href"):
+                    assert value.startswith("#")
+        assert b"<script" not in content and b"@import" not in content
+
+
+def test_links_lead_to_parts_of_the_page(page):
+    places = [a["id"] for _, a in page.elements if "id" in a]
+    assert len(places) == len(set(places))
+    targets = [a["href"].removeprefix("#") for a in page.all("a")]
+    assert targets == ["side-by-side", "four-bar", "pendulum", "beside-the-source"]
+    assert set(targets) <= set(places)
+
+
+def test_words_are_escaped(text, page):
+    whole = " ".join(page.text)
+    assert 'A linkage <with> odd & "quoted" words' in whole
+    assert "symgen compare four-bar 'a & b' -o report.html" in whole and "1 < 2" in whole
+    assert "<with>" not in text
+
+
+def test_the_head_says_what_it_was_made_with(page):
+    whole = " ".join(page.text)
+    for word in (
+        "symgen 0.",
+        "Python 3.",
+        "numpy",
+        "numba",
+        "sympy",
+        "core",
+        "0123456789abcdef",
+        "at least 3 timed runs",
+    ):
+        assert word in whole
+
+
+def test_every_row_stands_in_the_tables(page):
+    whole = "\n".join(page.text)
+    for title in ("All rows of four-bar", "All rows of pendulum"):
+        part = whole.split(title)[1].split("All rows of")[0]
+        assert part.count("step 0.001 s") >= 8 and "failed: the state is no longer finite" in part
+    tables = page.all("table")
+    assert len(tables) == 2 + 2 * 4 + 1
+    assert len([a for a in page.all("div") if a.get("class") == "scroll"]) == len(tables)
+
+
+def test_rows_below_the_reference_are_marked(page):
+    assert any(t.strip() == "10⁻¹³ *" for t in page.text)
+    assert "* below the error of the reference itself" in page.text
+
+
+def test_the_source_stands_beside_ours(page):
+    whole = " ".join(page.text)
+    assert "second hand: Carvalho 2022" in whole
+    for ratio in ("1.62", "1.82", "1.21", "1.16", "1.33", "1.28", "1.30", "1.39", "1.10", "1.17", "1.25"):
+        assert ratio in whole
+    assert "1.30 ± 0.13" in whole  # direct-correction at 1 ms
+    assert "not in this report" in whole
+    alone = html(comparison([study(mechanism="pendulum")]))
+    assert "Carvalho" not in alone
+
+
+def test_the_same_studies_give_the_same_page(text):
+    code = (
+        "import sys; sys.path.insert(0, 'tests')\n"
+        "from report.test_pages import STUDIES, comparison, html\n"
+        "import hashlib\n"
+        "page = html(comparison(STUDIES, \"symgen compare four-bar 'a & b' -o report.html\", [('Steps', '1 < 2')]))\n"
+        "print(hashlib.sha256(page.encode()).hexdigest())"
+    )
+    import hashlib
+    from pathlib import Path
+
+    root = Path(__file__).parents[2]
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=root)
+    assert done.stdout.strip() == hashlib.sha256(text.encode()).hexdigest()
+
+
+def test_large_pictures_become_pixels(monkeypatch):
+    monkeypatch.setattr(picture, "LARGEST_SVG", 10)
+    made = picture.drawn("x", "caption", "words", lambda figure: figure.subplots().plot([1, 2]))
+    assert made.kind == "png" and made.data.startswith(b"\x89PNG")
+
+
+def test_lines_of_methods_can_be_told_apart():
+    from symgen.methods import METHODS
+    from symgen.report.select import line_number
+
+    looks = [tuple(map(str, picture.style(line_number(m)).values())) for m in METHODS.names]
+    assert len(set(looks)) == len(looks)
+    assert len({(picture.style(i)["color"], str(picture.style(i)["linestyle"])) for i in range(28)}) == 28
+
+
+def test_studies_with_nothing_to_draw_still_make_a_page():
+    failed = [row("lagrange", 1e-3, None, 0.0, status="failed", reason="no", position_violation_max=float("nan"))]
+    for made in (study(failed, traces=(trace(),)), study([], traces=(), interrupted=True)):
+        found = Page(html(comparison([made])))
+        assert found.all("h2")
+    assert "interrupted" in " ".join(found.text)
+
+
+# -- Markdown ----------------------------------------------------------------------------------------------------------
+
+
+def test_markdown_says_the_same_with_pictures_beside_it(tmp_path):
+    document = comparison(STUDIES, "symgen compare four-bar -o report.md")
+    write(document, tmp_path / "report.md")
+    content = (tmp_path / "report.md").read_text(encoding="utf-8")
+    tokens = MarkdownIt("commonmark").enable("table").parse(content)
+    images = [child for token in tokens if token.children for child in token.children if child.type == "image"]
+    assert len(images) == len(document.pictures())
+    files = {i.attrs["src"] for i in images}
+    assert len(files) == len(images)
+    for name in files:
+        assert (tmp_path / name).stat().st_size > 1000
+    assert len(list((tmp_path / "report-files").iterdir())) == len(files)
+    assert sum(token.type == "table_open" for token in tokens) == len(Page(html(document)).all("table")) + 1
+    cells = re.findall(r"^\|.*\|$", content, re.MULTILINE)
+    assert cells and all(line.count("|") - line.count("\\|") >= 3 for line in cells)
+    assert "\\|Φ\\|" in content  # bars within a cell
+
+
+def test_what_a_pipe_in_a_cell_does():
+    assert markdown(comparison([study()]), "x").count("max \\|Φ\\| |") == 1
+
+
+# -- what is wrong -----------------------------------------------------------------------------------------------------
+
+
+def test_files_that_cannot_be_written_are_refused(tmp_path):
+    for name, sentence in (
+        ("report.pdf", "a file ending in .html, .md"),
+        ("report", "a file ending in .html, .md"),
+        ("nowhere/report.html", "a file in a folder that exists"),
+    ):
+        with pytest.raises(InputError) as caught:
+            check_report("--output", tmp_path / name)
+        assert sentence in str(caught.value)
+    (tmp_path / "report-files").write_text("in the way")
+    with pytest.raises(InputError, match="to be a folder"):
+        check_report("--output", tmp_path / "report.md")
+
+
+def test_without_matplotlib_the_sentence_says_what_to_install(tmp_path, monkeypatch):
+    from symgen.result import export
+
+    monkeypatch.setattr(export, "find_spec", lambda name: None)
+    with pytest.raises(InputError, match=r"pip install 'symgen\[plot\]'"):
+        check_report("--output", tmp_path / "report.html")

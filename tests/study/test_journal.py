@@ -1,0 +1,198 @@
+"""The journal of long studies and the runner: kills, torn lines, foreign files, two processes, dying workers."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from symgen.errors import InputError
+from symgen.study.journal import HEADER, Journal, cell_key
+from symgen.study.runner import Cell, run_cells
+from tests.study import killed_study
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def start(folder, processes):
+    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
+    command = [sys.executable, "-m", "tests.study.killed_study", str(folder), str(processes)]
+    return subprocess.Popen(
+        command,
+        cwd=ROOT,
+        env=environment,
+        stdout=subprocess.PIPE,
+        text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
+    )
+
+
+def recorded(folder):
+    path = folder / "journal.jsonl"
+    content = path.read_bytes() if path.exists() else b""
+    return [json.loads(line)["key"] for line in content[: content.rfind(b"\n") + 1].split(b"\n")[1:-1]]
+
+
+def traced(folder):
+    path = folder / "trace.txt"
+    return [int(line) for line in path.read_text().split()] if path.exists() else []
+
+
+def wait_for(condition, seconds=60.0):
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end, "what was waited for did not happen"
+        time.sleep(0.01)
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_killed_in_the_middle_and_resumed(tmp_path, processes):
+    process = start(tmp_path, processes)
+    wait_for(lambda: len(recorded(tmp_path)) >= 5)
+    process.kill()
+    process.communicate()
+    before = recorded(tmp_path)
+    assert 5 <= len(before) < killed_study.COUNT
+    time.sleep(0.5)  # workers left behind would go on leaving traces
+    left = len(traced(tmp_path))
+    time.sleep(0.3)
+    assert len(traced(tmp_path)) == left, "a worker outlived the study"
+
+    begun = Counter(traced(tmp_path))
+    again = start(tmp_path, processes)
+    out, _ = again.communicate(timeout=120)
+    assert (again.returncode, out.split()) == (0, [str(killed_study.COUNT), "False"])
+    after = recorded(tmp_path)
+    assert after[: len(before)] == before
+    assert len(after) == len(set(after)) == killed_study.COUNT
+    # nothing that was recorded is computed again; what was under way at the kill, at most one a process, is
+    keys = {cell.key: cell.task[1] for cell in killed_study.cells(tmp_path)}
+    repeated = Counter(traced(tmp_path)) - begun
+    assert set(repeated).isdisjoint({keys[key] for key in before})
+    assert all(count == 1 for count in repeated.values())
+    assert sum(begun.values()) <= len(before) + processes
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_interrupted_keeps_what_is_done(tmp_path, processes):
+    process = start(tmp_path, processes)
+    wait_for(lambda: len(recorded(tmp_path)) >= 3)
+    process.send_signal(signal.SIGINT)
+    out, _ = process.communicate(timeout=60)
+    done = recorded(tmp_path)
+    assert process.returncode == 130
+    assert out.split() == [str(len(done)), "True"]
+    assert 3 <= len(done) < killed_study.COUNT
+
+
+def test_every_place_at_which_a_line_can_be_torn(tmp_path):
+    path = tmp_path / "journal.jsonl"
+    with Journal(path) as journal:
+        for i in range(3):
+            journal.add(cell_key(i=i), {"value": 0.1 + i, "text": 'a "quoted" é\n'})
+    whole = path.read_bytes()
+    for cut in range(len(whole) + 1):
+        path.write_bytes(whole[:cut])
+        complete = max(0, whole[:cut].count(b"\n") - 1)
+        with Journal(path) as journal:
+            assert len(journal) == complete
+            journal.add("more", {"value": 1})
+        with Journal(path) as journal:
+            assert list(journal) == [cell_key(i=i) for i in range(complete)] + ["more"]
+            assert all(journal.get(cell_key(i=i))["value"] == 0.1 + i for i in range(complete))
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        (b"name,value\n1,2\n", 1),
+        (b"\x89PNG\r\n", 1),
+        (b"no newline", 1),
+        (HEADER + b"{}\n", 2),
+        (HEADER + b'{"key": "a", "outcome": {}}\nnot json\n{"key": "b", "outcome": {}}\n', 3),
+        (HEADER + b'[1, 2]\n{"key": "b"', 2),
+        (HEADER.replace(b"1", b"999"), 1),
+    ],
+)
+def test_a_foreign_file_is_refused_and_left_as_it_is(tmp_path, content, line):
+    path = tmp_path / "other.txt"
+    path.write_bytes(content)
+    with pytest.raises(InputError, match=f"a journal of symgen, got something else in line {line}"):
+        Journal(path)
+    assert path.read_bytes() == content
+
+
+def test_a_folder_and_a_missing_folder_are_refused(tmp_path):
+    with pytest.raises(InputError, match="a file that can be written"):
+        Journal(tmp_path)
+    with pytest.raises(InputError, match="a file in a folder that exists"):
+        Journal(tmp_path / "missing" / "journal.jsonl")
+    assert not list(tmp_path.iterdir())
+
+
+def test_two_processes_do_not_share_a_journal(tmp_path):
+    process = start(tmp_path, 1)
+    wait_for(lambda: len(recorded(tmp_path)) >= 1)
+    with pytest.raises(InputError, match="one that no other process uses"):
+        Journal(tmp_path / "journal.jsonl")
+    assert process.communicate(timeout=120)[0].split() == [str(killed_study.COUNT), "False"]
+    with Journal(tmp_path / "journal.jsonl") as journal:
+        assert len(journal) == killed_study.COUNT
+
+
+def test_a_cell_is_kept_once_and_only_as_json(tmp_path):
+    with Journal(tmp_path / "j") as journal:
+        assert journal.add("a", {"pair": (1, 2.5)}) == {"pair": [1, 2.5]}
+        with pytest.raises(ValueError, match="already"):
+            journal.add("a", {})
+        with pytest.raises(ValueError):
+            journal.add("b", {"x": float("nan")})
+        assert "b" not in journal
+    with Journal(tmp_path / "j") as journal:
+        assert list(journal) == ["a"]
+
+
+def test_keys_tell_apart_whatever_differs():
+    parts = [
+        *({}, {"step": None}, {"step": 1e-3}, {"step": 1e-3 * (1 + 2**-52)}, {"step": "0.001"}, {"step": 1}),
+        *({"step": 1.0}, {"rtol": 1e-3}, {"step": True}, {"step": [1e-3]}, {"step": [1, 2]}, {"step": [2, 1]}),
+        *({"p": {"a": 1.0}}, {"p": {"a": 2.0}}, {"step": float("inf")}, {"step": float("nan")}),
+    ]
+    keys = [cell_key(**p) for p in parts]
+    assert len(set(keys)) == len(keys)
+    assert cell_key(a=1.0, b={"x": 1, "y": 2}) == cell_key(b={"y": 2, "x": 1}, a=1.0)
+    with pytest.raises(TypeError):
+        cell_key(model=object())
+
+
+def test_a_cell_whose_process_dies_does_not_end_the_study(tmp_path):
+    cells = [*killed_study.cells(tmp_path, 4), Cell("dies", "group 0", (str(tmp_path), "dies"))]
+    outcomes, interrupted = run_cells(cells, killed_study.compute, Journal(), processes=2)
+    assert not interrupted and len(outcomes) == 5
+    assert outcomes.pop("dies") == {"crashed": True}
+    assert sorted(o["square"] for o in outcomes.values()) == [0, 1, 4, 9]
+
+
+@pytest.mark.parametrize("processes", [1, 2])
+def test_an_error_of_a_cell_ends_the_study_and_keeps_what_is_done(tmp_path, processes):
+    with Journal(tmp_path / "j") as journal, pytest.raises(TypeError, match="can't multiply"):
+        run_cells([Cell("a", "a", (str(tmp_path), "word"))], killed_study.compute, journal, processes)
+    with Journal(tmp_path / "j") as journal:
+        assert len(journal) == 0
+
+
+def test_progress_counts_what_was_found_and_estimates_the_rest(tmp_path):
+    journal, seen = Journal(), []
+    cells = killed_study.cells(tmp_path, 6)
+    run_cells(cells[:2], killed_study.compute, journal)
+    run_cells(cells, killed_study.compute, journal, progress=seen.append)
+    assert [s.done for s in seen] == [2, 3, 4, 5, 6]
+    assert seen[0].seconds_left is None and seen[-1].seconds_left == 0.0
+    # three cells of at least 0.05 s each are left after the first of four
+    assert seen[1].seconds_left > 0.14
+    assert sorted(traced(tmp_path)) == [0, 1, 2, 3, 4, 5]

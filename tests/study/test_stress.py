@@ -1,0 +1,350 @@
+"""Stress studies on small models: known limits, known errors, known motions."""
+
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import InputError, SimulationError
+from symgen.study.bench import Base
+from symgen.study.cases import CASES
+from symgen.study.findings import largest_root
+from symgen.study.journal import Journal
+from symgen.study.motion import CompiledEquations, decay, motion
+from symgen.study.points import Points
+from symgen.study.reference import integrated
+from symgen.study.stress import pairs, stress
+from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress_reference import parallelogram
+from symgen.study.stress_rows import save_csv
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+# -- references --------------------------------------------------------------------------------------------------------
+
+
+def start_of(mechanism, parameters):
+    from symgen.plan import Settings, make_plan
+
+    model = symgen.load(mechanism)
+    compiled, start = model.ready(make_plan(model, Settings(method="lagrange")), parameters)
+    return start.y[: compiled.info.nq], start.y[compiled.info.nq : compiled.info.nq + compiled.info.nv]
+
+
+def test_compiled_equations_are_the_interpreted_ones():
+    """SciPy's DOP853 on lambdified equations and extrapolation on compiled ones agree, at other parameter values."""
+    mechanism = Base.of("slider-crank").stressed
+    values = symgen.load(mechanism).parameters()
+    equations = CompiledEquations(mechanism, values)
+    changed = {**values, "stress_stiffness": 300.0, "stress_damping": 2.0, "stress_mass": 3.0, "stress_gravity": 0.5}
+    q, v = start_of(mechanism, changed)
+    times = np.linspace(0.0, 0.5, 6)
+    equations.set_parameters(changed)
+    found = motion(equations, q, v, times)
+    other = integrated(mechanism, changed, q, v, times)
+    apart = Points.of(mechanism, changed).distance(found.q, other.q)
+    assert apart < 1e-9
+    assert apart < 10.0 * (found.estimated_error + other.estimated_error)
+    assert found.estimated_error < 1e-9
+
+
+def test_a_stiff_motion_has_a_reference_too():
+    """A point mass that sinks against a strong damper: v = m g / c along the damper, in closed form."""
+    builder = symgen.MechanismBuilder("sinking", gravity=(0.0, -9.81))
+    builder.parameter("c", 1e8)
+    builder.body("bob", type="point", mass=2.0, position=(0.0, -1.0), velocity=(0.0, 0.0))
+    builder.joint("guide", "distance", between=("ground", "bob"), at=((1e6, -1.0), "centre"), length=1e6)
+    builder.force("damper", "spring-damper", between=("ground", "bob"), at=((0.0, 0.0), "centre"), damping="c")
+    mechanism = builder.build()
+    values = {"c": 1e8}
+    times = np.linspace(0.0, 1.0, 5)
+    found = motion(CompiledEquations(mechanism, values), np.array([0.0, -1.0]), np.zeros(2), times)
+    assert "Radau" in found.how
+    np.testing.assert_allclose(found.q[:, 1], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
+
+
+def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
+    """SciPy's Radau raises ValueError where the Jacobian is not finite; the study goes on without that reference."""
+
+    def gives_up(*arguments, **options):
+        raise ValueError("array must not contain infs or NaNs")
+
+    monkeypatch.setattr("scipy.integrate.solve_ivp", gives_up)
+    monkeypatch.setattr("symgen.study.motion.decay", lambda equations, y: 1e9)
+    mechanism = symgen.load("pendulum").mechanism
+    equations = CompiledEquations(mechanism, {p.name: p.value for p in mechanism.parameters})
+    with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: array must not"):
+        motion(equations, np.array([-1.0, 0.0]), np.zeros(2), np.array([0.0, 0.1]))
+
+
+def test_the_parallelogram_is_the_catalogue_s():
+    from symgen.study.reference import n_four_bar
+
+    times = np.linspace(0.0, 4.0, 41)
+    mechanism = symgen.load("n-four-bar:1").mechanism
+    _, _, expected = n_four_bar(mechanism, {}, np.zeros(9), times)
+    by_name = {body.name: expected[:, 3 * i : 3 * i + 3] for i, body in enumerate(mechanism.bodies)}
+    found = parallelogram(times)[2]
+    for i, name in enumerate(("vertical0", "coupler0", "vertical1")):
+        np.testing.assert_allclose(found[:, 3 * i : 3 * i + 3], by_name[name], atol=1e-11)
+
+
+# -- families ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("family", CASES.names)
+@pytest.mark.parametrize("quick", [True, False])
+def test_families_make_cases(family, quick):
+    kind = CASES.get(family)
+    levels = kind.levels(Base.of("four-bar"), quick)
+    assert levels and len({level.label for level in levels}) == len(levels)
+    for level in levels:
+        assert level.family == family and len(level.values) == len(kind.axes)
+        assert level.until > 0.0 and level.step > 0.0
+        known = {p.name for p in level.mechanism.parameters}
+        assert set(level.parameters) <= known
+
+
+def test_one_compiled_module_serves_all_cases_but_those_with_other_joints():
+    """What compiles is told by the digest: the base, two redundant ones, and the linkage of adjustable lengths."""
+    from symgen.describe.digest import digest
+
+    base = Base.of("four-bar")
+    found = {digest(level.mechanism) for name in CASES.names for level in CASES.get(name).levels(base, False)}
+    assert len(found) == 4
+
+
+def test_neutral_handles_change_nothing():
+    base = Base.of("four-bar")
+    plain = symgen.load("four-bar").simulate(integrator="dop853", rtol=1e-10, until=1.0)
+    same = symgen.load(base.stressed).simulate(integrator="dop853", rtol=1e-10, until=1.0)
+    np.testing.assert_allclose(same["coupler.x"][-1], plain["coupler.x"][-1], atol=1e-9)
+
+
+def test_handles_turn_what_they_say():
+    """Twice the mass factor and twice gravity, by the independent equations: forces and masses double."""
+    base = Base.of("four-bar")
+    values = symgen.load(base.stressed).parameters()
+    equations = CompiledEquations(base.stressed, values)
+    q, v = np.linspace(0.1, 0.9, 9), np.zeros(9)
+    before, mass = equations.evaluate(0.0, q, v)[4], equations.mass.copy()
+    equations.set_parameters({**values, "stress_mass": 2.0, "stress_gravity": 3.0})
+    after = equations.evaluate(0.0, q, v)[4]
+    assert equations.mass[3:6] == pytest.approx(2.0 * mass[3:6]) and equations.mass[0] == mass[0]
+    assert after[1] == pytest.approx(3.0 * before[1]) and after[4] == pytest.approx(6.0 * before[4])
+
+
+def test_families_say_why_they_do_not_apply():
+    study = stress(["pendulum"], ["mass-ratio", "redundancy", "spin-rate"], ["lagrange"], quick=True)
+    assert not study.rows
+    assert {family for _, family, _ in study.skipped} == {"mass-ratio", "redundancy", "spin-rate"}
+
+
+# -- known truths ------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def damped():
+    """The four-bar with a stiff damper, its reference, and the fastest decay by the independent equations."""
+    level = CASES.get("damping").levels(Base.of("four-bar"), False)[1]
+    known = compute(ReferenceTask(level))
+    values = symgen.load(level.mechanism).parameters(level.parameters)
+    equations = CompiledEquations(level.mechanism, values)
+    y = equations.project(0.0, np.concatenate([known["q"][0], np.zeros(equations.n)]))
+    return level, known, decay(equations, y)
+
+
+def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
+    level, known, fastest = damped
+    for method in ("lagrange", "coordinate-partitioning"):
+        found = compute(LimitTask(level, method, "rk4", known))
+        assert found["stable_step"] == pytest.approx(2.785 / fastest, rel=0.04)
+
+
+def test_the_size_of_a_point_on_a_link_is_that_of_its_motion():
+    """Else nothing of a pendulum would be within a tenth of its size: the largest step would be that of an error."""
+    level = CASES.get("duration").levels(Base.of("pendulum"), True)[0]
+    known = compute(ReferenceTask(level))
+    assert known["size"] == pytest.approx(1.0, rel=1e-3)
+    found = compute(LimitTask(level, "lagrange", "rk4", known))
+    assert found["accurate_step"] < found["stable_step"] and found["stable_step"] > 0.02
+
+
+def test_an_l_stable_integrator_has_no_such_limit(damped):
+    level, known, fastest = damped
+    found = compute(LimitTask(level, "ggl", "radau5", known))
+    assert found["stable_step"] > 10.0 * 2.785 / fastest
+
+
+def test_baumgarte_s_gains_are_stable_up_to_the_limit_of_rk4():
+    study = stress(["four-bar"], ["alpha-beta"], ["baumgarte"], quick=True)
+    assert len(study.rows) == 49
+    real = [
+        (largest_root(*row.values) * row.step, row.outcome == "ok")
+        for row in study.rows
+        if row.values[0] >= row.values[1]
+    ]
+    assert all(good == (reach < 2.785) for reach, good in real)
+    assert {good for _, good in real} == {True, False}
+
+
+def test_the_error_of_a_penalty_falls_with_its_factor():
+    study = stress(["four-bar"], ["penalty-factor"], ["penalty"])
+    error = {row.values[0]: row.error for row in study.rows if row.integrator == "dop853"}
+    assert error[1e6] / error[1e4] == pytest.approx(1e-2, rel=0.5)
+    assert 0.005 < error[1e8] / error[1e6] < 0.03  # the tolerance of the integrator shows already
+    assert error[1e12] > 10.0 * error[1e8]  # rounding has taken over
+
+
+def test_a_branch_is_lost_at_the_singular_position_without_correction():
+    study = stress([], ["singular-passage"], ["lagrange", "direct-correction", "auto"], quick=True)
+    found = {(row.method, row.values[0]): row for row in study.rows}
+    assert found["lagrange", 0.0].outcome in ("singular", "wrong branch")
+    assert found["lagrange", 0.0].status != "ok"
+    assert found["direct-correction", 0.0].outcome == "ok"
+    assert found["auto", 0.0].outcome == "ok"
+    assert all(row.model == "-" for row in study.rows)
+
+
+def test_what_is_too_slow_is_told_without_a_clock():
+    level = CASES.get("duration").levels(Base.of("four-bar"), True)[0]
+    from dataclasses import replace
+
+    known = {"unusable": "not needed", "parameters": {}}
+    predicted = compute(RunTask(replace(level, step=1e-7), "lagrange", "rk4", known))
+    assert predicted["outcome"] == "too slow" and predicted["evaluations"] == 0
+    assert predicted["reason"] == "4e+08 evaluations, more than 1e+07"
+    refused = compute(RunTask(level, "lagrange", "generalized-alpha", known))
+    assert refused["outcome"] == "refused" and "one that solves the form of lagrange" in refused["reason"]
+
+
+def test_a_measured_budget_stops_a_run():
+    from dataclasses import replace
+
+    from symgen.plan import Settings, make_plan
+    from symgen.runtime import abi
+    from symgen.runtime.run import integrate
+
+    model = symgen.load("four-bar")
+    plan = make_plan(model, Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3))
+    compiled, start = model.ready(plan)
+    outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=1000, max_violation=1e30))
+    assert outcome.code == abi.STOPPED and outcome.evaluations > 1000 and not outcome.interrupted
+
+
+def test_a_run_that_stops_itself_is_judged_by_what_it_was_doing():
+    """A redundant bar makes lagrange drift off its constraints although its motion is still right."""
+    study = stress(["four-bar"], ["redundancy"], ["lagrange"], quick=True)
+    (row,) = study.rows
+    assert row.status == "failed" and row.outcome in ("inaccurate", "diverged")
+    assert row.note.startswith("ended at t = ")
+
+
+# -- the study ---------------------------------------------------------------------------------------------------------
+
+
+def test_rows_come_in_order_and_fit_the_contract(tmp_path):
+    study = stress(["pendulum"], ["duration", "gravity"], ["lagrange", "ggl", "auto"])
+    assert [row.family for row in study.rows] == ["duration"] * 15 + ["gravity"] * 25
+    found = study.to_json()
+    assert json.loads(json.dumps(found, allow_nan=False))
+    keys = {"models", "quick", "interrupted", "accurate", "budget", "cells", "outcomes", "rows", "limits", "skipped"}
+    assert set(found) == keys | {"unusable", "false_successes", "findings"}
+    assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
+    assert not [row for row in study.false_successes if row.method == "auto"]
+    path = save_csv(study, tmp_path / "cells.csv")
+    with path.open(newline="") as handle:
+        rows = list(csv.DictReader(handle))
+    assert len(rows) == len(study.rows)
+    assert float(rows[0]["error"]) == study.rows[0].error
+
+
+def test_a_journal_keeps_cells_and_changes_nothing(tmp_path):
+    journal = tmp_path / "journal.jsonl"
+    with Journal(journal) as kept:
+        first = stress(["pendulum"], ["gravity"], ["lagrange"], quick=True, journal=kept)
+    lines = journal.read_bytes()
+    with Journal(journal) as kept:
+        again = stress(["pendulum"], ["gravity"], ["lagrange"], quick=True, journal=kept)
+        assert again == first and journal.read_bytes() == lines
+        more = stress(["pendulum"], ["gravity"], ["lagrange", "baumgarte"], quick=True, journal=kept)
+    assert [row for row in more.rows if row.method == "lagrange"] == list(first.rows)
+    assert journal.read_bytes().startswith(lines)
+
+
+def test_several_processes_find_the_same():
+    alone = stress(["pendulum"], ["gravity"], ["lagrange", "penalty"], quick=True)
+    together = stress(["pendulum"], ["gravity"], ["lagrange", "penalty"], quick=True, jobs=2)
+    assert together == alone
+
+
+def test_pairs_of_methods_and_integrators():
+    assert pairs("lagrange") == (("lagrange", "rk4"), ("lagrange", "dop853"), ("lagrange", "radau5"))
+    assert pairs("lagrange", constant_steps=True) == (("lagrange", "rk4"),)
+    assert pairs("ggl") == (("ggl", "radau5"),)
+    assert pairs("auto") == (("auto", "auto"),) and pairs("auto", constant_steps=True) == ()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ((["four-bar"], ["stifness"]), "did you mean 'stiffness'"),
+        ((["four-bar"], [], ["lagrnage"]), "did you mean 'lagrange'"),
+        ((["five-bar"],), "a catalogue name or the path of a file"),
+    ],
+)
+def test_bad_input_is_refused_before_anything_is_run(arguments, sentence):
+    with pytest.raises(InputError, match=sentence):
+        stress(*arguments)
+
+
+def test_killed_and_resumed(tmp_path):
+    """A study killed in the middle goes on where it was: rows are those of an undisturbed one, none computed twice."""
+    journal = tmp_path / "journal.jsonl"
+    script = (
+        "from pathlib import Path; from symgen.study.journal import Journal; from symgen.study.stress import stress; "
+        "stress(['pendulum'], ['gravity', 'step'], ['lagrange', 'penalty'], "
+        f"journal=Journal(Path({str(journal)!r})))"
+    )
+    environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
+    process = subprocess.Popen([sys.executable, "-c", script], env=environment)
+    end = time.monotonic() + 120.0
+    while not (journal.exists() and journal.read_bytes().count(b"\n") >= 12):
+        assert process.poll() is None and time.monotonic() < end
+        time.sleep(0.002)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    before = journal.read_bytes()
+    before = before[: before.rfind(b"\n") + 1]
+    with Journal(journal) as kept:
+        study = stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"], journal=kept)
+    after = journal.read_bytes()
+    assert after.startswith(before)
+    keys = [json.loads(line)["key"] for line in after.splitlines()[1:]]
+    assert len(keys) == len(set(keys))
+    assert study == stress(["pendulum"], ["gravity", "step"], ["lagrange", "penalty"])
+    assert not study.interrupted and math.isfinite(study.rows[0].error)
+
+
+def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
+    from symgen.study import motion as compiled
+
+    mechanism = symgen.load("pendulum").mechanism
+    times = np.linspace(0.0, 1.0, 5)
+    equations = CompiledEquations(mechanism, {"bob_mass": 1.0})
+    best = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
+    monkeypatch.setattr(compiled, "FINE", 1e-18)
+    monkeypatch.setattr(compiled, "BUDGET", 20_000)
+    found = motion(equations, np.array([-1.0, 0.0]), np.zeros(2), times)
+    assert "at 3e-14" in best.how and "at 1e-10" in found.how
+    np.testing.assert_allclose(found.q, best.q, atol=1e-8)
