@@ -1,0 +1,135 @@
+"""The site: every page of docs/ as it stands in the repository, with navigation, rendered equations and the API.
+
+``make docs`` builds it into out/site; warnings are errors. The source folder is the repository's root, so that links
+between pages, to benchmarks/ and to CHANGELOG.md are the same here and in a checkout.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from docutils import nodes
+from docutils.utils.math import latex2mathml
+
+from symgen import __version__
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+ROOT = Path(__file__).resolve().parents[1]
+
+# -- navigation --------------------------------------------------------------------------------------------------------
+
+#: The sidebar: caption -> pages, relative to the root. A page of docs/ that stands nowhere else comes last in "Guides";
+#: pages in a folder with a README stand below that README.
+NAVIGATION = {
+    "Start": ("docs/tutorial", "docs/tutorial-space", "docs/gallery/README", "docs/findings"),
+    "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
+    "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs"),
+    "Reference": ("docs/file-format", "docs/command-line", "docs/options", "docs/python", "docs/api"),
+    "Development": (
+        "docs/architecture",
+        "docs/extending",
+        "CONTRIBUTING",
+        "docs/decisions/README",
+        "benchmarks/README",
+        "CHANGELOG",
+    ),
+}
+
+
+def _navigation() -> dict[str, list[str]]:
+    """Return the sidebar, with what stands nowhere else behind the guides."""
+    found = {caption: list(pages) for caption, pages in NAVIGATION.items()}
+    named = {page for pages in NAVIGATION.values() for page in pages}
+    own = [f"docs/{path.stem}" for path in sorted((ROOT / "docs").glob("*.md")) if path.stem != "README"]
+    found["Guides"] += [page for page in own if page not in named]
+    return found
+
+
+def _toctree(pages: list[str], caption: str = "", glob: bool = False) -> str:
+    options = [f":caption: {caption}"] if caption else []
+    options += [":glob:"] if glob else []
+    return "\n".join(["", ":::{toctree}", ":hidden:", *options, "", *pages, ":::", ""])
+
+
+def _navigate(app: Sphinx, docname: str, content: list[str]) -> None:
+    """Append the navigation to the pages that have pages below them; in a checkout they read as plain Markdown."""
+    path = Path(docname)
+    if docname == root_doc:
+        content[0] += "".join(_toctree([f"/{p}" for p in pages], caption) for caption, pages in _navigation().items())
+    elif path.name == "README":
+        below = any(p.name != "README.md" for p in (ROOT / path.parent).glob("*.md"))
+        folders = [f"{p.parent.name}/README" for p in sorted((ROOT / path.parent).glob("*/README.md"))]
+        content[0] += _toctree([*(["[!R]*"] if below else []), *folders], glob=True)
+
+
+# -- equations ---------------------------------------------------------------------------------------------------------
+
+
+#: Brackets round a matrix are drawn by the style sheet: without a font for mathematics browsers do not stretch them.
+_BRACKETS = re.compile(r"<mo>\[</mo>\s*<mtable>(.*?)</mtable>\s*<mo>\]</mo>", re.DOTALL)
+
+
+def _inline(translator: Any, node: nodes.math) -> None:
+    translator.body.append(latex2mathml.tex2mathml(node.astext()))
+    raise nodes.SkipNode
+
+
+def _block(translator: Any, node: nodes.math_block) -> None:
+    """Write an equation as MathML, which browsers draw themselves: no script, nothing from elsewhere."""
+    inside = latex2mathml.tex2mathml(node.astext(), as_block=True)
+    inside = _BRACKETS.sub(r'<mtable class="matrix">\1</mtable>', inside)
+    translator.body.append(f'<div class="math">{inside}</div>\n')
+    raise nodes.SkipNode
+
+
+def setup(app: Sphinx) -> None:
+    """Connect what is written here."""
+    app.connect("source-read", _navigate)
+    app.add_html_math_renderer("mathml", inline_renderers=(_inline, None), block_renderers=(_block, None))
+
+
+# -- Sphinx ------------------------------------------------------------------------------------------------------------
+
+project = "symgen"
+author = "The symgen developers"
+project_copyright = "The symgen developers, BSD 3-Clause"
+version = release = __version__
+
+root_doc = "docs/README"
+source_suffix = {".md": "markdown"}
+include_patterns = ["docs/**", "benchmarks/**", "CONTRIBUTING.md", "CHANGELOG.md"]
+exclude_patterns = [".*", "out", "build", "dist", "generated", "tests", "symgen", "templates", "**/__pycache__"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_click", "sphinx_copybutton"]
+
+myst_enable_extensions = ["colon_fence", "dollarmath"]
+myst_heading_anchors = 4
+myst_fence_as_directive = ["math"]
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+python_maximum_signature_line_length = 80
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_custom_sections = [("Class attributes", "params_style")]
+default_role = "py:obj"
+smartquotes = False  # an apostrophe is a derivative here
+copybutton_prompt_text = "$ "
+
+html_theme = "furo"
+html_title = f"symgen {__version__}"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
+html_extra_path = ["_extra"]
+html_show_sourcelink = False
+html_copy_source = False
+html_theme_options = {
+    "light_css_variables": {"color-brand-primary": "#005a8f", "color-brand-content": "#005a8f"},
+    "dark_css_variables": {"color-brand-primary": "#56B4E9", "color-brand-content": "#56B4E9"},
+}
