@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 1, templates 2b445adb8ae4f174
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 2, templates a71b04144b412898
 option solver = elimination
 p[4] alpha (default 5.0)
 p[5] beta (default 5.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 33  # sections of w
-SAVED = 53
-PIVOT = 113
-CHANGE = 133
+MASK = 35  # sections of w
+SAVED = 55
+PIVOT = 115
+CHANGE = 135
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -44,69 +44,69 @@ def rhs(t, y, p, w, iw, ydot):
     # inputs
     p0 = p[0]  # drive_torque [N m]
     q0 = y[0]  # K1.x [m]
-    v0 = y[21]  # K1.vx [m/s]
     q1 = y[1]  # K1.y [m]
-    v1 = y[22]  # K1.vy [m/s]
     q2 = y[2]  # K1.theta [rad]
+    v0 = y[21]  # K1.vx [m/s]
+    v1 = y[22]  # K1.vy [m/s]
     v2 = y[23]  # K1.omega [rad/s]
     q3 = y[3]  # K2.x [m]
-    v3 = y[24]  # K2.vx [m/s]
     q4 = y[4]  # K2.y [m]
-    v4 = y[25]  # K2.vy [m/s]
     q5 = y[5]  # K2.theta [rad]
+    v3 = y[24]  # K2.vx [m/s]
+    v4 = y[25]  # K2.vy [m/s]
     v5 = y[26]  # K2.omega [rad/s]
     q6 = y[6]  # K3.x [m]
-    v6 = y[27]  # K3.vx [m/s]
     q7 = y[7]  # K3.y [m]
-    v7 = y[28]  # K3.vy [m/s]
     q8 = y[8]  # K3.theta [rad]
+    v6 = y[27]  # K3.vx [m/s]
+    v7 = y[28]  # K3.vy [m/s]
     v8 = y[29]  # K3.omega [rad/s]
     q9 = y[9]  # K4.x [m]
-    v9 = y[30]  # K4.vx [m/s]
     q10 = y[10]  # K4.y [m]
-    v10 = y[31]  # K4.vy [m/s]
     q11 = y[11]  # K4.theta [rad]
+    v9 = y[30]  # K4.vx [m/s]
+    v10 = y[31]  # K4.vy [m/s]
     v11 = y[32]  # K4.omega [rad/s]
     q12 = y[12]  # K5.x [m]
-    v12 = y[33]  # K5.vx [m/s]
     q13 = y[13]  # K5.y [m]
-    v13 = y[34]  # K5.vy [m/s]
     q14 = y[14]  # K5.theta [rad]
+    v12 = y[33]  # K5.vx [m/s]
+    v13 = y[34]  # K5.vy [m/s]
     v14 = y[35]  # K5.omega [rad/s]
     q15 = y[15]  # K6.x [m]
-    v15 = y[36]  # K6.vx [m/s]
     q16 = y[16]  # K6.y [m]
-    v16 = y[37]  # K6.vy [m/s]
     q17 = y[17]  # K6.theta [rad]
+    v15 = y[36]  # K6.vx [m/s]
+    v16 = y[37]  # K6.vy [m/s]
     v17 = y[38]  # K6.omega [rad/s]
     q18 = y[18]  # K7.x [m]
-    v18 = y[39]  # K7.vx [m/s]
     q19 = y[19]  # K7.y [m]
-    v19 = y[40]  # K7.vy [m/s]
     q20 = y[20]  # K7.theta [rad]
+    v18 = y[39]  # K7.vx [m/s]
+    v19 = y[40]  # K7.vy [m/s]
     v20 = y[41]  # K7.omega [rad/s]
     p6 = p[6]
     p7 = p[7]
-    mask_0 = w[33]
-    mask_1 = w[34]
-    mask_2 = w[35]
-    mask_3 = w[36]
-    mask_4 = w[37]
-    mask_5 = w[38]
-    mask_6 = w[39]
-    mask_7 = w[40]
-    mask_8 = w[41]
-    mask_9 = w[42]
-    mask_10 = w[43]
-    mask_11 = w[44]
-    mask_12 = w[45]
-    mask_13 = w[46]
-    mask_14 = w[47]
-    mask_15 = w[48]
-    mask_16 = w[49]
-    mask_17 = w[50]
-    mask_18 = w[51]
-    mask_19 = w[52]
+    mask_0 = w[35]
+    mask_1 = w[36]
+    mask_2 = w[37]
+    mask_3 = w[38]
+    mask_4 = w[39]
+    mask_5 = w[40]
+    mask_6 = w[41]
+    mask_7 = w[42]
+    mask_8 = w[43]
+    mask_9 = w[44]
+    mask_10 = w[45]
+    mask_11 = w[46]
+    mask_12 = w[47]
+    mask_13 = w[48]
+    mask_14 = w[49]
+    mask_15 = w[50]
+    mask_16 = w[51]
+    mask_17 = w[52]
+    mask_18 = w[53]
+    mask_19 = w[54]
     p8 = p[8]
     p9 = p[9]
     p10 = p[10]
@@ -529,26 +529,26 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[40] = -18.188432157148053*(s353 + s361)
     ydot[41] = 52301.25523012552*(s91*s361 - (s75*s354 + s80*s353 + s89*s362))
     ydot[42] = p0*v2
-    w[13] = s368
-    w[14] = s367
-    w[15] = s350
-    w[16] = s349
-    w[17] = s346
-    w[18] = s343
-    w[19] = s340
-    w[20] = s337
-    w[21] = s334
-    w[22] = s331
-    w[23] = s366
-    w[24] = s365
-    w[25] = s360
-    w[26] = s357
-    w[27] = s354
-    w[28] = s353
-    w[29] = s364
-    w[30] = s363
-    w[31] = s362
-    w[32] = s361
+    w[15] = s368
+    w[16] = s367
+    w[17] = s350
+    w[18] = s349
+    w[19] = s346
+    w[20] = s343
+    w[21] = s340
+    w[22] = s337
+    w[23] = s334
+    w[24] = s331
+    w[25] = s366
+    w[26] = s365
+    w[27] = s360
+    w[28] = s357
+    w[29] = s354
+    w[30] = s353
+    w[31] = s364
+    w[32] = s363
+    w[33] = s362
+    w[34] = s361
     return int(s373)
 
 

@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 1, templates 2b445adb8ae4f174
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 2, templates a71b04144b412898
 option solver = elimination
 """
 
@@ -12,10 +12,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 33  # sections of w
-SAVED = 53
-PIVOT = 113
-CHANGE = 133
+MASK = 35  # sections of w
+SAVED = 55
+PIVOT = 115
+CHANGE = 135
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,58 +37,58 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by lagrange; 1 where a pivot of S is suspicious: 1057 operations, 7648249031 before sharing."""
     # inputs
     p0 = p[0]  # drive_torque [N m]
+    q2 = y[2]  # K1.theta [rad]
     v0 = y[21]  # K1.vx [m/s]
     v1 = y[22]  # K1.vy [m/s]
-    q2 = y[2]  # K1.theta [rad]
     v2 = y[23]  # K1.omega [rad/s]
+    q5 = y[5]  # K2.theta [rad]
     v3 = y[24]  # K2.vx [m/s]
     v4 = y[25]  # K2.vy [m/s]
-    q5 = y[5]  # K2.theta [rad]
     v5 = y[26]  # K2.omega [rad/s]
     q6 = y[6]  # K3.x [m]
-    v6 = y[27]  # K3.vx [m/s]
     q7 = y[7]  # K3.y [m]
-    v7 = y[28]  # K3.vy [m/s]
     q8 = y[8]  # K3.theta [rad]
+    v6 = y[27]  # K3.vx [m/s]
+    v7 = y[28]  # K3.vy [m/s]
     v8 = y[29]  # K3.omega [rad/s]
+    q11 = y[11]  # K4.theta [rad]
     v9 = y[30]  # K4.vx [m/s]
     v10 = y[31]  # K4.vy [m/s]
-    q11 = y[11]  # K4.theta [rad]
     v11 = y[32]  # K4.omega [rad/s]
+    q14 = y[14]  # K5.theta [rad]
     v12 = y[33]  # K5.vx [m/s]
     v13 = y[34]  # K5.vy [m/s]
-    q14 = y[14]  # K5.theta [rad]
     v14 = y[35]  # K5.omega [rad/s]
+    q17 = y[17]  # K6.theta [rad]
     v15 = y[36]  # K6.vx [m/s]
     v16 = y[37]  # K6.vy [m/s]
-    q17 = y[17]  # K6.theta [rad]
     v17 = y[38]  # K6.omega [rad/s]
+    q20 = y[20]  # K7.theta [rad]
     v18 = y[39]  # K7.vx [m/s]
     v19 = y[40]  # K7.vy [m/s]
-    q20 = y[20]  # K7.theta [rad]
     v20 = y[41]  # K7.omega [rad/s]
     p4 = p[4]
     p5 = p[5]
-    mask_0 = w[33]
-    mask_1 = w[34]
-    mask_2 = w[35]
-    mask_3 = w[36]
-    mask_4 = w[37]
-    mask_5 = w[38]
-    mask_6 = w[39]
-    mask_7 = w[40]
-    mask_8 = w[41]
-    mask_9 = w[42]
-    mask_10 = w[43]
-    mask_11 = w[44]
-    mask_12 = w[45]
-    mask_13 = w[46]
-    mask_14 = w[47]
-    mask_15 = w[48]
-    mask_16 = w[49]
-    mask_17 = w[50]
-    mask_18 = w[51]
-    mask_19 = w[52]
+    mask_0 = w[35]
+    mask_1 = w[36]
+    mask_2 = w[37]
+    mask_3 = w[38]
+    mask_4 = w[39]
+    mask_5 = w[40]
+    mask_6 = w[41]
+    mask_7 = w[42]
+    mask_8 = w[43]
+    mask_9 = w[44]
+    mask_10 = w[45]
+    mask_11 = w[46]
+    mask_12 = w[47]
+    mask_13 = w[48]
+    mask_14 = w[49]
+    mask_15 = w[50]
+    mask_16 = w[51]
+    mask_17 = w[52]
+    mask_18 = w[53]
+    mask_19 = w[54]
     p6 = p[6]
     # intermediate terms
     s0 = math.cos(q2)
@@ -482,26 +482,26 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[40] = -18.188432157148053*(s328 + s334)
     ydot[41] = 52301.25523012552*(s81*s334 - (s67*s329 + s72*s328 + s78*s335))
     ydot[42] = p0*v2
-    w[13] = s341
-    w[14] = s340
-    w[15] = s325
-    w[16] = s324
-    w[17] = s321
-    w[18] = s318
-    w[19] = s315
-    w[20] = s312
-    w[21] = s309
-    w[22] = s306
-    w[23] = s339
-    w[24] = s338
-    w[25] = -s333
-    w[26] = s332
-    w[27] = s329
-    w[28] = s328
-    w[29] = s337
-    w[30] = s336
-    w[31] = s335
-    w[32] = s334
+    w[15] = s341
+    w[16] = s340
+    w[17] = s325
+    w[18] = s324
+    w[19] = s321
+    w[20] = s318
+    w[21] = s315
+    w[22] = s312
+    w[23] = s309
+    w[24] = s306
+    w[25] = s339
+    w[26] = s338
+    w[27] = -s333
+    w[28] = s332
+    w[29] = s329
+    w[30] = s328
+    w[31] = s337
+    w[32] = s336
+    w[33] = s335
+    w[34] = s334
     return int(s346)
 
 

@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 2b445adb8ae4f174
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 2, templates a71b04144b412898
 option solver = elimination
 p[17] alpha (default 5.0)
 p[18] beta (default 5.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 22  # sections of w
-SAVED = 31
-PIVOT = 58
-CHANGE = 67
+MASK = 24  # sections of w
+SAVED = 33
+PIVOT = 60
+CHANGE = 69
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -67,35 +67,35 @@ def rhs(t, y, p, w, iw, ydot):
     p3 = p[3]  # crank_start [rad]
     p4 = p[4]  # crank_speed [rad/s]
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
-    mask_0 = w[22]
-    mask_1 = w[23]
-    mask_2 = w[24]
-    mask_3 = w[25]
-    mask_4 = w[26]
-    mask_5 = w[27]
-    mask_6 = w[28]
-    mask_7 = w[29]
-    mask_8 = w[30]
+    mask_0 = w[24]
+    mask_1 = w[25]
+    mask_2 = w[26]
+    mask_3 = w[27]
+    mask_4 = w[28]
+    mask_5 = w[29]
+    mask_6 = w[30]
+    mask_7 = w[31]
+    mask_8 = w[32]
     p22 = p[22]
     p23 = p[23]
     p24 = p[24]
@@ -254,15 +254,15 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p28*(p21 + s119 + s121)
     ydot[17] = p29*(s14*s121 - (s14*s119 - s15*s120 + s15*s122))
     ydot[18] = -p4*s114
-    w[13] = s116
-    w[14] = s115
-    w[15] = s113
-    w[16] = s110
-    w[17] = s120
-    w[18] = s119
-    w[19] = s122
-    w[20] = s121
-    w[21] = s114
+    w[15] = s116
+    w[16] = s115
+    w[17] = s113
+    w[18] = s110
+    w[19] = s120
+    w[20] = s119
+    w[21] = s122
+    w[22] = s121
+    w[23] = s114
     return int(((s123 | (s96 < 1e-06*s40)) | (s99 < 1e-06*s44)))
 
 

@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 1, templates 2b445adb8ae4f174
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = identity
 p[17] tolerance (default 1e-13)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-MASK = 22  # sections of w
-SAVED = 31
-PIVOT = 58
-CHANGE = 67
+MASK = 24  # sections of w
+SAVED = 33
+PIVOT = 60
+CHANGE = 69
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -61,30 +61,30 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by direct-correction; 1 where a pivot of S is suspicious: 335 operations, 2491705 before sharing."""
     # inputs
     p4 = p[4]  # crank_speed [rad/s]
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
     v3 = y[12]  # coupler.vx [m/s]
     v4 = y[13]  # coupler.vy [m/s]
-    q5 = y[5]  # coupler.theta [rad]
     v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
-    q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
-    mask_0 = w[22]
-    mask_1 = w[23]
-    mask_2 = w[24]
-    mask_3 = w[25]
-    mask_4 = w[26]
-    mask_5 = w[27]
-    mask_6 = w[28]
-    mask_7 = w[29]
-    mask_8 = w[30]
+    mask_0 = w[24]
+    mask_1 = w[25]
+    mask_2 = w[26]
+    mask_3 = w[27]
+    mask_4 = w[28]
+    mask_5 = w[29]
+    mask_6 = w[30]
+    mask_7 = w[31]
+    mask_8 = w[32]
     p21 = p[21]
     p22 = p[22]
     p23 = p[23]
@@ -230,15 +230,15 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p25*(p20 + s108 + s110)
     ydot[17] = p26*(s14*s110 - (s14*s108 - s15*s109 + s15*s111))
     ydot[18] = p4*s103
-    w[13] = s105
-    w[14] = s104
-    w[15] = s102
-    w[16] = s99
-    w[17] = s109
-    w[18] = s108
-    w[19] = s111
-    w[20] = s110
-    w[21] = -s103
+    w[15] = s105
+    w[16] = s104
+    w[17] = s102
+    w[18] = s99
+    w[19] = s109
+    w[20] = s108
+    w[21] = s111
+    w[22] = s110
+    w[23] = -s103
     return int(((s112 | (s88 < 1e-06*s32)) | (s91 < 1e-06*s36)))
 
 

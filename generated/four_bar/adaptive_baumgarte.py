@@ -2,7 +2,7 @@
 
 Baumgarte's gains bounded by a multiple of one over the step
 Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492; Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 option solver = elimination
 p[15] gain (default 20.0)
 p[16] a (default 1.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -59,36 +59,36 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by adaptive-baumgarte; 1 where a pivot of S is suspicious: 364 operations, 1552175 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
     p15 = p[15]
     p16 = p[16]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     status_8 = w[8]
     p20 = p[20]
     p21 = p[21]
@@ -235,14 +235,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p24*(p19 + s101 + s109)
     ydot[17] = p25*(s14*s109 - (s14*s101 - s15*s104 + s15*s110))
     ydot[18] = 0.0
-    w[13] = s112
-    w[14] = s111
-    w[15] = s108
-    w[16] = s107
-    w[17] = s104
-    w[18] = s101
-    w[19] = s110
-    w[20] = s109
+    w[15] = s112
+    w[16] = s111
+    w[17] = s108
+    w[18] = s107
+    w[19] = s104
+    w[20] = s101
+    w[21] = s110
+    w[22] = s109
     return int((s113 | (s92 < 1e-06*s53)))
 
 

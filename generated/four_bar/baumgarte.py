@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 option solver = elimination
 p[15] alpha (default 5.0)
 p[16] beta (default 5.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -63,34 +63,34 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by baumgarte; 1 where a pivot of S is suspicious: 359 operations, 1499485 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p20 = p[20]
     p21 = p[21]
     p22 = p[22]
@@ -235,14 +235,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p26*(p19 + s98 + s106)
     ydot[17] = p27*(s14*s106 - (s14*s98 - s15*s101 + s15*s107))
     ydot[18] = 0.0
-    w[13] = s109
-    w[14] = s108
-    w[15] = s105
-    w[16] = s104
-    w[17] = s101
-    w[18] = s98
-    w[19] = s107
-    w[20] = s106
+    w[15] = s109
+    w[16] = s108
+    w[17] = s105
+    w[18] = s104
+    w[19] = s101
+    w[20] = s98
+    w[21] = s107
+    w[22] = s106
     return int((s110 | (s89 < 1e-06*s50)))
 
 

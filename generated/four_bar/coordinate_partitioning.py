@@ -2,7 +2,7 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 option solver = elimination
 p[15] tolerance (default 1e-13)
 """
@@ -13,12 +13,13 @@ from numba import njit
 
 from .model import measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
-DEPENDENT = 115
-DENSE = 124
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
+MASS = 72
+DEPENDENT = 117
+DENSE = 126
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -59,29 +60,29 @@ def prepare(p):
 def accelerate(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by coordinate-partitioning; 1 where a pivot of S is suspicious: 288 operations, 1442826 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
     v3 = y[12]  # coupler.vx [m/s]
     v4 = y[13]  # coupler.vy [m/s]
-    q5 = y[5]  # coupler.theta [rad]
     v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
-    q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
     p16 = p[16]
     p17 = p[17]
     p18 = p[18]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
@@ -214,14 +215,14 @@ def accelerate(t, y, p, w, iw, ydot):
     ydot[16] = -p23*(p18 + s88 + s96)
     ydot[17] = p24*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
     ydot[18] = 0.0
-    w[13] = s99
-    w[14] = s98
-    w[15] = s95
-    w[16] = s94
-    w[17] = s91
-    w[18] = s88
-    w[19] = s97
-    w[20] = s96
+    w[15] = s99
+    w[16] = s98
+    w[17] = s95
+    w[18] = s94
+    w[19] = s91
+    w[20] = s88
+    w[21] = s97
+    w[22] = s96
     return int((s100 | (s81 < 1e-06*s42)))
 
 
@@ -229,49 +230,49 @@ def accelerate(t, y, p, w, iw, ydot):
 def expand(p, w):
     """D as a dense matrix: 0 operations, 0 before sharing."""
     # inputs
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
     # outputs
-    w[124] = 1.0
-    w[126] = jacobian_0
-    w[134] = 1.0
-    w[135] = jacobian_1
-    w[142] = -1.0
-    w[144] = jacobian_2
-    w[145] = 1.0
-    w[147] = jacobian_3
-    w[152] = -1.0
-    w[153] = jacobian_4
-    w[155] = 1.0
-    w[156] = jacobian_5
-    w[163] = -1.0
-    w[165] = jacobian_6
-    w[166] = 1.0
-    w[168] = jacobian_7
-    w[173] = -1.0
-    w[174] = jacobian_8
-    w[176] = 1.0
-    w[177] = jacobian_9
-    w[184] = 1.0
-    w[186] = jacobian_10
-    w[194] = 1.0
-    w[195] = jacobian_11
+    w[126] = 1.0
+    w[128] = jacobian_0
+    w[136] = 1.0
+    w[137] = jacobian_1
+    w[144] = -1.0
+    w[146] = jacobian_2
+    w[147] = 1.0
+    w[149] = jacobian_3
+    w[154] = -1.0
+    w[155] = jacobian_4
+    w[157] = 1.0
+    w[158] = jacobian_5
+    w[165] = -1.0
+    w[167] = jacobian_6
+    w[168] = 1.0
+    w[170] = jacobian_7
+    w[175] = -1.0
+    w[176] = jacobian_8
+    w[178] = 1.0
+    w[179] = jacobian_9
+    w[186] = 1.0
+    w[188] = jacobian_10
+    w[196] = 1.0
+    w[197] = jacobian_11
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D P D^T: 366 operations, 284401 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D P D^T: 373 operations, 475926 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -282,21 +283,21 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_7 = w[28]
-    dependent_0 = w[115]
-    dependent_1 = w[116]
-    dependent_2 = w[117]
-    dependent_3 = w[118]
-    dependent_4 = w[119]
-    dependent_5 = w[120]
-    dependent_6 = w[121]
-    dependent_7 = w[122]
-    dependent_8 = w[123]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_7 = w[30]
+    dependent_0 = w[117]
+    dependent_1 = w[118]
+    dependent_2 = w[119]
+    dependent_3 = w[120]
+    dependent_4 = w[121]
+    dependent_5 = w[122]
+    dependent_6 = w[123]
+    dependent_7 = w[124]
+    dependent_8 = w[125]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -341,171 +342,168 @@ def geometry(t, y, p, w):
     s40 = s21 - s39
     s41 = s19*s37 - s18
     s42 = -1.0 + s20 - s39
-    s43 = 1e-12*s21
-    s44 = 1.0*(s40 > mask_1 + s43)
-    s45 = 1.0 - s44
-    s46 = s44/(s40 + s45)
-    s47 = s41*s46
-    s48 = s23 - s19*s38 - s41*s47
-    s49 = s18*s38 - (s18 + s24) - s42*s47
-    s50 = 1.0/s34
-    s51 = s30*s50
-    s52 = s31*s50
-    s53 = s30*s51
-    s54 = s35 - s53
-    s55 = s30 + s31*s51
-    s56 = 1.0 - s32 + s53
-    s57 = 1e-12*s35
-    s58 = 1.0*(s54 > mask_7 + s57)
-    s59 = 1.0 - s58
-    s60 = s58/(s54 + s59)
-    s61 = s55*s60
-    s62 = 1e-12*s23
-    s63 = 1.0*(s48 > mask_2 + s62)
-    s64 = 1.0 - s63
-    s65 = s63/(s48 + s64)
-    s66 = s49*s65
-    s67 = s25*s65
-    s68 = s27 - s39 - s42*(s42*s46) - s49*s66
-    s69 = s24 + s25*s66
-    s70 = -1.0 + s26 + s24*s66
-    s71 = 1e-12*s27
-    s72 = 1.0*(s68 > mask_3 + s71)
-    s73 = 1.0 - s72
-    s74 = s72/(s68 + s73)
-    s75 = s69*s74
-    s76 = s29 - s31*s52 - s55*s61 - s25*s67 - s69*s75
-    s77 = s24*s67 - (s24 + s30 + s30*s52 + s56*s61) + s70*s75
-    s78 = 1e-12*s29
-    s79 = 1.0*(s76 > mask_4 + s78)
-    s80 = 1.0 - s79
-    s81 = s33 - s53 - s56*(s56*s60) - s24*(s24*s65) - s70*(s70*s74) - s77*(s77*(s79/(s76 + s80)))
-    s82 = 1e-12*s33
-    s83 = 1.0*(s81 > mask_5 + s82)
-    s84 = s1*dependent_2
-    s85 = s0*dependent_2
-    s86 = s8*dependent_5
-    s87 = s5*dependent_5
-    s88 = s12*dependent_8
-    s89 = s10*dependent_8
-    s90 = s1*s84
-    s91 = dependent_0 + s90
-    s92 = s0*s84
-    s93 = s90 - dependent_0
-    s94 = s0*s85
-    s95 = dependent_1 + s94
-    s96 = s8*s86
-    s97 = s5*s86
-    s98 = s96 - dependent_3
-    s99 = s5*s87
-    s100 = s12*s88
-    s101 = s10*s88
-    s102 = dependent_6 - s100
-    s103 = s10*s89
-    s104 = s12*s89
-    s105 = dependent_6 + s100
-    s106 = 1.0/s91
-    s107 = s92*s106
-    s108 = -s107
-    s109 = s93*s106
-    s110 = s92*s107
-    s111 = s95 - s110
-    s112 = s93*s107 - s1*s85
-    s113 = s94 - dependent_1 - s110
-    s114 = s44/(s45 + s111)
-    s115 = s112*s114
-    s116 = s113*s114
-    s117 = dependent_3 + s91 + s96 - s93*s109 - s112*s115
-    s118 = s92*s109 - (s92 + s97) - s113*s115
-    s119 = 1.0/s105
-    s120 = s101*s119
-    s121 = s102*s119
-    s122 = s104*s119
-    s123 = dependent_7 + s103 - s101*s120
-    s124 = s101 + s102*s120
-    s125 = dependent_7 - s103 + s104*s120
-    s126 = s58/(s59 + s123)
-    s127 = s124*s126
-    s128 = s125*s126
-    s129 = s63/(s64 + s117)
-    s130 = s118*s129
-    s131 = s98*s129
-    s132 = s97*s129
-    s133 = dependent_4 + s95 + s99 - s110 - s113*s116 - s118*s130
-    s134 = s8*s87 + s98*s130
-    s135 = s99 - dependent_4 + s97*s130
-    s136 = s72/(s73 + s133)
-    s137 = s134*s136
-    s138 = s135*s136
-    s139 = dependent_6 + dependent_3 + s96 + s100 - s102*s121 - s124*s127 - s98*s131 - s134*s137
-    s140 = s97*s131 - (s97 + s101 + s104*s121 + s125*s127) + s135*s137
-    s141 = s79/(s80 + s139)
-    s142 = s140*s141
-    s143 = dependent_7 + dependent_4 + s99 + s103 - s104*s122 - s125*s128 - s97*s132 - s135*s138 - s140*s142
-    s144 = min(min(min(1.0, s91/s17 + 1.0*(1e-12*s17 > s17)), s111/s21 + 1.0*(s43 > s40)), s105/s34 + 1.0*(1e-12*s34 > s34))
-    s145 = min(min(min(s144, s123/s35 + 1.0*(s57 > s54)), s117/s23 + 1.0*(s62 > s48)), s133/s27 + 1.0*(s71 > s68))
-    s146 = s40/s21
-    s147 = s48/s23
-    s148 = s68/s27
-    s149 = s76/s29
-    s150 = s81/s33
-    s151 = min(min(min(min(min(1.0, mask_1 + s146), mask_2 + s147), mask_3 + s148), mask_4 + s149), mask_5 + s150)
-    s152 = s54/s35
+    s43 = 1.0*(s40 > mask_1 + 1e-12*s21)
+    s44 = 1.0 - s43
+    s45 = s43/(s40 + s44)
+    s46 = s41*s45
+    s47 = s23 - s19*s38 - s41*s46
+    s48 = s18*s38 - (s18 + s24) - s42*s46
+    s49 = 1.0/s34
+    s50 = s30*s49
+    s51 = s31*s49
+    s52 = s30*s50
+    s53 = s35 - s52
+    s54 = s30 + s31*s50
+    s55 = 1.0 - s32 + s52
+    s56 = 1.0*(s53 > mask_7 + 1e-12*s35)
+    s57 = 1.0 - s56
+    s58 = s56/(s53 + s57)
+    s59 = s54*s58
+    s60 = 1.0*(s47 > mask_2 + 1e-12*s23)
+    s61 = 1.0 - s60
+    s62 = s60/(s47 + s61)
+    s63 = s48*s62
+    s64 = s25*s62
+    s65 = s27 - s39 - s42*(s42*s45) - s48*s63
+    s66 = s24 + s25*s63
+    s67 = -1.0 + s26 + s24*s63
+    s68 = 1.0*(s65 > mask_3 + 1e-12*s27)
+    s69 = 1.0 - s68
+    s70 = s68/(s65 + s69)
+    s71 = s66*s70
+    s72 = s29 - s31*s51 - s54*s59 - s25*s64 - s66*s71
+    s73 = s24*s64 - (s24 + s30 + s30*s51 + s55*s59) + s67*s71
+    s74 = 1.0*(s72 > mask_4 + 1e-12*s29)
+    s75 = 1.0 - s74
+    s76 = s74/(s72 + s75)
+    s77 = s33 - s52 - s55*(s55*s58) - s24*(s24*s62) - s67*(s67*s70) - s73*(s73*s76)
+    s78 = 1.0*(s77 > mask_5 + 1e-12*s33)
+    s79 = 1.0 - s78
+    s80 = s78/(s77 + s79)
+    s81 = s1*dependent_2
+    s82 = s0*dependent_2
+    s83 = s8*dependent_5
+    s84 = s5*dependent_5
+    s85 = s12*dependent_8
+    s86 = s10*dependent_8
+    s87 = s1*s81
+    s88 = dependent_0 + s87
+    s89 = s0*s81
+    s90 = s87 - dependent_0
+    s91 = s0*s82
+    s92 = dependent_1 + s91
+    s93 = s8*s83
+    s94 = s5*s83
+    s95 = s93 - dependent_3
+    s96 = s5*s84
+    s97 = s12*s85
+    s98 = s10*s85
+    s99 = dependent_6 - s97
+    s100 = s10*s86
+    s101 = s12*s86
+    s102 = dependent_6 + s97
+    s103 = 1.0/s88
+    s104 = s89*s103
+    s105 = -s104
+    s106 = s90*s103
+    s107 = s89*s104
+    s108 = s92 - s107
+    s109 = s90*s104 - s1*s82
+    s110 = s91 - dependent_1 - s107
+    s111 = s43/(s44 + s108)
+    s112 = s109*s111
+    s113 = s110*s111
+    s114 = dependent_3 + s88 + s93 - s90*s106 - s109*s112
+    s115 = s89*s106 - (s89 + s94) - s110*s112
+    s116 = 1.0/s102
+    s117 = s98*s116
+    s118 = s99*s116
+    s119 = s101*s116
+    s120 = dependent_7 + s100 - s98*s117
+    s121 = s98 + s99*s117
+    s122 = dependent_7 - s100 + s101*s117
+    s123 = s56/(s57 + s120)
+    s124 = s121*s123
+    s125 = s122*s123
+    s126 = s60/(s61 + s114)
+    s127 = s115*s126
+    s128 = s95*s126
+    s129 = s94*s126
+    s130 = dependent_4 + s92 + s96 - s107 - s110*s113 - s115*s127
+    s131 = s8*s84 + s95*s127
+    s132 = s96 - dependent_4 + s94*s127
+    s133 = s68/(s69 + s130)
+    s134 = s131*s133
+    s135 = s132*s133
+    s136 = dependent_6 + dependent_3 + s93 + s97 - s99*s118 - s121*s124 - s95*s128 - s131*s134
+    s137 = s94*s128 - (s94 + s98 + s101*s118 + s122*s124) + s132*s134
+    s138 = s74/(s75 + s136)
+    s139 = s137*s138
+    s140 = dependent_7 + dependent_4 + s96 + s100 - s101*s119 - s122*s125 - s94*s129 - s132*s135 - s137*s139
+    s141 = (s36*s88 + 1.0 - s17*s36)*(s45*s108 + 1.0 - s40*s45)*(s49*s102 + 1.0 - s34*s49)*(s58*s120 + 1.0 - s53*s58)
+    s142 = s141*(s62*s114 + 1.0 - s47*s62)*(s70*s130 + 1.0 - s65*s70)*(s76*s136 + 1.0 - s72*s76)*(s80*s140 + 1.0 - s77*s80)
+    s143 = s40/s21
+    s144 = s47/s23
+    s145 = s65/s27
+    s146 = s72/s29
+    s147 = s77/s33
+    s148 = min(min(min(min(min(1.0, mask_1 + s143), mask_2 + s144), mask_3 + s145), mask_4 + s146), mask_5 + s147)
+    s149 = s53/s35
     # outputs
-    w[37] = s3
-    w[38] = s4
-    w[39] = s7
-    w[40] = s9
-    w[41] = s11
-    w[42] = s13
-    w[43] = s14
-    w[44] = s15
+    w[39] = s3
+    w[40] = s4
+    w[41] = s7
+    w[42] = s9
+    w[43] = s11
+    w[44] = s13
+    w[45] = s14
+    w[46] = s15
     w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
-    w[79] = s1
-    w[80] = s2
     w[81] = s1
-    w[82] = s8
-    w[83] = s2
-    w[84] = s6
-    w[85] = s8
-    w[86] = -s12
-    w[87] = s6
-    w[88] = s10
-    w[89] = s12
-    w[90] = -s10
-    w[54] = s146
-    w[55] = s147
-    w[56] = s148
-    w[57] = s149
-    w[58] = s150
-    w[60] = s152
-    w[5] = s58 + 1.0 + s83 + s79 + s72 + s63 + 1.0 + s44
-    w[4] = min(s151, mask_7 + s152)
-    w[10] = min(min(s145, s139/s29 + 1.0*(s78 > s76)), s143/s33 + 1.0*(s82 > s81))
-    w[196] = s108
-    w[197] = s109
-    w[198] = s108
-    w[199] = s115
-    w[200] = s116
-    w[201] = -s120
-    w[202] = s121
-    w[203] = s122
-    w[204] = s127
-    w[205] = s128
-    w[206] = s130
-    w[207] = s131
-    w[208] = -s132
-    w[209] = -s137
-    w[210] = s138
-    w[211] = s142
-    w[212] = s106
-    w[213] = s114
-    w[214] = s119
-    w[215] = s126
-    w[216] = s129
-    w[217] = s136
-    w[218] = s141
-    w[219] = s83/(1.0 - s83 + s143)
+    w[82] = s2
+    w[83] = s1
+    w[84] = s8
+    w[85] = s2
+    w[86] = s6
+    w[87] = s8
+    w[88] = -s12
+    w[89] = s6
+    w[90] = s10
+    w[91] = s12
+    w[92] = -s10
+    w[56] = s143
+    w[57] = s144
+    w[58] = s145
+    w[59] = s146
+    w[60] = s147
+    w[62] = s149
+    w[5] = s56 + 1.0 + s78 + s74 + s68 + s60 + 1.0 + s43
+    w[4] = min(s148, mask_7 + s149)
+    w[10] = s142
+    w[198] = s105
+    w[199] = s106
+    w[200] = s105
+    w[201] = s112
+    w[202] = s113
+    w[203] = -s117
+    w[204] = s118
+    w[205] = s119
+    w[206] = s124
+    w[207] = s125
+    w[208] = s127
+    w[209] = s128
+    w[210] = -s129
+    w[211] = -s134
+    w[212] = s135
+    w[213] = s139
+    w[214] = s103
+    w[215] = s111
+    w[216] = s116
+    w[217] = s123
+    w[218] = s126
+    w[219] = s133
+    w[220] = s138
+    w[221] = s78/(s79 + s140)
     return 0
 
 
@@ -513,59 +511,59 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 111 operations, 6990 before sharing."""
     # inputs
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
-    dependent_0 = w[115]
-    dependent_1 = w[116]
-    dependent_2 = w[117]
-    dependent_3 = w[118]
-    dependent_4 = w[119]
-    dependent_5 = w[120]
-    dependent_6 = w[121]
-    dependent_7 = w[122]
-    dependent_8 = w[123]
-    law_lower_0 = w[196]
-    law_lower_1 = w[197]
-    law_lower_2 = w[198]
-    law_lower_3 = w[199]
-    law_lower_4 = w[200]
-    law_lower_5 = w[201]
-    law_lower_6 = w[202]
-    law_lower_7 = w[203]
-    law_lower_8 = w[204]
-    law_lower_9 = w[205]
-    law_lower_10 = w[206]
-    law_lower_11 = w[207]
-    law_lower_12 = w[208]
-    law_lower_13 = w[209]
-    law_lower_14 = w[210]
-    law_lower_15 = w[211]
-    law_reciprocal_0 = w[212]
-    law_reciprocal_1 = w[213]
-    law_reciprocal_2 = w[214]
-    law_reciprocal_3 = w[215]
-    law_reciprocal_4 = w[216]
-    law_reciprocal_5 = w[217]
-    law_reciprocal_6 = w[218]
-    law_reciprocal_7 = w[219]
-    residual_0 = w[37]
-    residual_1 = w[38]
-    residual_2 = w[39]
-    residual_3 = w[40]
-    residual_4 = w[41]
-    residual_5 = w[42]
-    residual_6 = w[43]
-    residual_7 = w[44]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
+    dependent_0 = w[117]
+    dependent_1 = w[118]
+    dependent_2 = w[119]
+    dependent_3 = w[120]
+    dependent_4 = w[121]
+    dependent_5 = w[122]
+    dependent_6 = w[123]
+    dependent_7 = w[124]
+    dependent_8 = w[125]
+    law_lower_0 = w[198]
+    law_lower_1 = w[199]
+    law_lower_2 = w[200]
+    law_lower_3 = w[201]
+    law_lower_4 = w[202]
+    law_lower_5 = w[203]
+    law_lower_6 = w[204]
+    law_lower_7 = w[205]
+    law_lower_8 = w[206]
+    law_lower_9 = w[207]
+    law_lower_10 = w[208]
+    law_lower_11 = w[209]
+    law_lower_12 = w[210]
+    law_lower_13 = w[211]
+    law_lower_14 = w[212]
+    law_lower_15 = w[213]
+    law_reciprocal_0 = w[214]
+    law_reciprocal_1 = w[215]
+    law_reciprocal_2 = w[216]
+    law_reciprocal_3 = w[217]
+    law_reciprocal_4 = w[218]
+    law_reciprocal_5 = w[219]
+    law_reciprocal_6 = w[220]
+    law_reciprocal_7 = w[221]
+    residual_0 = w[39]
+    residual_1 = w[40]
+    residual_2 = w[41]
+    residual_3 = w[42]
+    residual_4 = w[43]
+    residual_5 = w[44]
+    residual_6 = w[45]
+    residual_7 = w[46]
     # intermediate terms
     s0 = law_lower_0*residual_0 - residual_1
     s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
@@ -588,21 +586,35 @@ def spread(p, w):
     s18 = law_reciprocal_1*s0 - law_lower_3*s15 - law_lower_4*s12
     s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
     # outputs
-    w[61] = dependent_0*(s14 - s13 - s19)
-    w[62] = dependent_1*(s18 + s11 - s10)
-    w[63] = dependent_2*(jacobian_1*s18 - jacobian_0*s19 + jacobian_2*s15 + jacobian_4*s12)
-    w[64] = dependent_3*(s15 + s8 - s7)
-    w[65] = dependent_4*(s12 - s6)
-    w[66] = dependent_5*(jacobian_3*s15 + jacobian_5*s12 + jacobian_6*s9 + jacobian_8*s6)
-    w[67] = dependent_6*(s9 - s17)
-    w[68] = dependent_7*(s6 + s16)
-    w[69] = dependent_8*(jacobian_7*s9 + jacobian_9*s6 - jacobian_10*s17 + jacobian_11*s16)
+    w[63] = dependent_0*(s14 - s13 - s19)
+    w[64] = dependent_1*(s18 + s11 - s10)
+    w[65] = dependent_2*(jacobian_1*s18 - jacobian_0*s19 + jacobian_2*s15 + jacobian_4*s12)
+    w[66] = dependent_3*(s15 + s8 - s7)
+    w[67] = dependent_4*(s12 - s6)
+    w[68] = dependent_5*(jacobian_3*s15 + jacobian_5*s12 + jacobian_6*s9 + jacobian_8*s6)
+    w[69] = dependent_6*(s9 - s17)
+    w[70] = dependent_7*(s6 + s16)
+    w[71] = dependent_8*(jacobian_7*s9 + jacobian_9*s6 - jacobian_10*s17 + jacobian_11*s16)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def reduce(w, step, column):
+    """Make a column of the dense D a unit vector with its 1 in row `step` (Gauss, Jordan)."""
+    pivot = w[DENSE + 9 * step + column]
+    for j in range(9):
+        w[DENSE + 9 * step + j] /= pivot
+    for i in range(8):
+        factor = w[DENSE + 9 * i + column]
+        if i != step and factor != 0.0:
+            for j in range(9):
+                w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def choose(p, w, iw):
-    """Choose the dependent columns of D by elimination with complete pivoting."""
+    """Choose the dependent columns of D: by complete pivoting, then by exchange while that enlarges their determinant."""
     for k in range(72):
         w[DENSE + k] = 0.0
     expand(p, w)
@@ -614,6 +626,7 @@ def choose(p, w, iw):
             total += w[DENSE + 9 * i + j] ** 2
         for j in range(9):
             w[DENSE + 9 * i + j] /= math.sqrt(total)
+    rank = 0
     for step in range(8):
         largest, row, column = 0.0, -1, -1
         for i in range(step, 8):
@@ -626,11 +639,22 @@ def choose(p, w, iw):
         for j in range(9):
             a, b = DENSE + 9 * step + j, DENSE + 9 * row + j
             w[a], w[b] = w[b], w[a]
-        for i in range(step + 1, 8):
-            factor = w[DENSE + 9 * i + column] / w[DENSE + 9 * step + column]
-            if factor != 0.0:
-                for j in range(9):
-                    w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
+        reduce(w, step, column)
+        rank += 1
+    # what is left in the other columns is how fast dependent coordinates follow independent ones, with the sign changed
+    for exchange in range(9):
+        largest, row, column = 1.01, -1, -1
+        for i in range(rank):
+            for j in range(9):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 9 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 9 * i + j]), i, j
+        if row < 0:
+            break
+        for j in range(9):
+            if w[DEPENDENT + j] == 1.0 and w[DENSE + 9 * row + j] != 0.0:
+                w[DEPENDENT + j] = 0.0
+        w[DEPENDENT + column] = 1.0
+        reduce(w, row, column)
     iw[7] += 1
     return 0
 
@@ -693,15 +717,48 @@ def confirm(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def release(w):
+    """Make all coordinates dependent, weighted by M^-1: near a singular position no partition determines the motion."""
+    largest = 0.0
+    for j in range(9):
+        largest = max(largest, w[MASS + j])
+    for j in range(9):
+        w[DEPENDENT + j] = 1.0 / max(w[MASS + j], 1e-6 * largest)  # massless bodies give way, within reason
+    w[11] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Close an accepted state, choose another partition where this one has become poor, and measure."""
+    poor = False
     if iw[5] == 0:
         geometry(t, y, p, w)
-        current = w[10]
-        if iw[7] == 0 or current < 0.1 * w[11]:
-            choose(p, w, iw)
-            geometry(t, y, p, w)
-            w[11] = w[10]
+        # the root of the smallest pivot is the sine of an angle: it says whether the next step meets a singular position
+        sine = math.sqrt(max(w[4], 0.0))
+        fall = max(w[13] - sine, 0.0)
+        w[13] = sine
+        first = iw[7] == 0
+        released = w[11] == 0.0 and not first
+        if sine - fall < 0.01:
+            if not released:
+                release(w)
+                iw[7] += 1
+        else:
+            quality = w[10]
+            w[11] = max(w[11], quality)
+            ahead = quality - max(w[12] - quality, 0.0)
+            poor = released or ahead < 0.3 * w[11]
+            w[12] = quality
+            if first:
+                choose(p, w, iw)
+                geometry(t, y, p, w)
+                w[11] = w[10]
     bits = close(t, y, p, w, iw)
+    if poor:  # after closing: the partition that was integrated with is better for it than one from a singular position
+        choose(p, w, iw)
+        geometry(t, y, p, w)
+        w[11] = w[10]
+        w[12] = w[10]
     measure(t, y, p, w)
     return bits

@@ -2,7 +2,7 @@
 
 stabilised index 2: constraints at position and velocity level in every implicit stage
 Gear, Leimkuhler, Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90, doi 10.1016/0377-0427(85)90008-1
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 option solver = elimination
 """
 
@@ -12,10 +12,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -62,29 +62,29 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by ggl; 1 where a pivot of S is suspicious: 288 operations, 1442826 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
     v3 = y[12]  # coupler.vx [m/s]
     v4 = y[13]  # coupler.vy [m/s]
-    q5 = y[5]  # coupler.theta [rad]
     v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
-    q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
     p15 = p[15]
     p16 = p[16]
     p17 = p[17]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
@@ -217,14 +217,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p22*(p17 + s88 + s96)
     ydot[17] = p23*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
     ydot[18] = 0.0
-    w[13] = s99
-    w[14] = s98
-    w[15] = s95
-    w[16] = s94
-    w[17] = s91
-    w[18] = s88
-    w[19] = s97
-    w[20] = s96
+    w[15] = s99
+    w[16] = s98
+    w[17] = s95
+    w[18] = s94
+    w[19] = s91
+    w[20] = s88
+    w[21] = s97
+    w[22] = s96
     return int((s100 | (s81 < 1e-06*s42)))
 
 
@@ -236,22 +236,22 @@ def residual(t, y, k, p, w, r):
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p28 = p[28]
     p15 = p[15]
@@ -341,7 +341,7 @@ def residual(t, y, k, p, w, r):
     r[31] = q7 - q4 + s5 - s3
     r[32] = q6 - 10.0 - s4
     r[33] = q7 - s5
-    w[12] = 0.0
+    w[14] = 0.0
     return 0
 
 

@@ -2,7 +2,7 @@
 
 accelerations in a tangent basis that is carried on from step to step
 Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 p[15] tolerance (default 1e-13)
 """
 
@@ -12,15 +12,15 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-CHANGE = 61  # sections of w
-DEPENDENT = 115
-DENSE = 124
-BASIS = 196
-TRIAL = 259
-SMALL = 322
-REDUCED = 371
-FORCE = 378
-WEIGHED = 387
+CHANGE = 63  # sections of w
+DEPENDENT = 117
+DENSE = 126
+BASIS = 198
+TRIAL = 261
+SMALL = 324
+REDUCED = 373
+FORCE = 380
+WEIGHED = 389
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -51,43 +51,43 @@ def prepare(p):
 def expand(p, w):
     """D as a dense matrix: 0 operations, 0 before sharing."""
     # inputs
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
     # outputs
-    w[124] = 1.0
-    w[126] = jacobian_0
-    w[134] = 1.0
-    w[135] = jacobian_1
-    w[142] = -1.0
-    w[144] = jacobian_2
-    w[145] = 1.0
-    w[147] = jacobian_3
-    w[152] = -1.0
-    w[153] = jacobian_4
-    w[155] = 1.0
-    w[156] = jacobian_5
-    w[163] = -1.0
-    w[165] = jacobian_6
-    w[166] = 1.0
-    w[168] = jacobian_7
-    w[173] = -1.0
-    w[174] = jacobian_8
-    w[176] = 1.0
-    w[177] = jacobian_9
-    w[184] = 1.0
-    w[186] = jacobian_10
-    w[194] = 1.0
-    w[195] = jacobian_11
+    w[126] = 1.0
+    w[128] = jacobian_0
+    w[136] = 1.0
+    w[137] = jacobian_1
+    w[144] = -1.0
+    w[146] = jacobian_2
+    w[147] = 1.0
+    w[149] = jacobian_3
+    w[154] = -1.0
+    w[155] = jacobian_4
+    w[157] = 1.0
+    w[158] = jacobian_5
+    w[165] = -1.0
+    w[167] = jacobian_6
+    w[168] = 1.0
+    w[170] = jacobian_7
+    w[175] = -1.0
+    w[176] = jacobian_8
+    w[178] = 1.0
+    w[179] = jacobian_9
+    w[186] = 1.0
+    w[188] = jacobian_10
+    w[196] = 1.0
+    w[197] = jacobian_11
     return 0
 
 
@@ -115,23 +115,23 @@ def aim(t, y, p, w):
     s7 = math.cos(q8)*s6
     s8 = math.sin(q8)*s6
     # outputs
-    w[37] = s1
-    w[38] = s2
-    w[39] = s1 + s4
-    w[40] = s2 + s5
-    w[41] = s4 - s7
-    w[42] = s5 - s8
-    w[43] = s7
-    w[44] = s8
-    w[378] = 0.0
-    w[379] = p16
+    w[39] = s1
+    w[40] = s2
+    w[41] = s1 + s4
+    w[42] = s2 + s5
+    w[43] = s4 - s7
+    w[44] = s5 - s8
+    w[45] = s7
+    w[46] = s8
     w[380] = 0.0
-    w[381] = 0.0
-    w[382] = p17
+    w[381] = p16
+    w[382] = 0.0
     w[383] = 0.0
-    w[384] = 0.0
-    w[385] = p18
+    w[384] = p17
+    w[385] = 0.0
     w[386] = 0.0
+    w[387] = p18
+    w[388] = 0.0
     return 0
 
 
@@ -139,36 +139,36 @@ def aim(t, y, p, w):
 def strike(w):
     """the section `residual` = D times `change`: 28 operations, 28 before sharing."""
     # inputs
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
-    change_0 = w[61]
-    change_1 = w[62]
-    change_2 = w[63]
-    change_3 = w[64]
-    change_4 = w[65]
-    change_5 = w[66]
-    change_6 = w[67]
-    change_7 = w[68]
-    change_8 = w[69]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
+    change_0 = w[63]
+    change_1 = w[64]
+    change_2 = w[65]
+    change_3 = w[66]
+    change_4 = w[67]
+    change_5 = w[68]
+    change_6 = w[69]
+    change_7 = w[70]
+    change_8 = w[71]
     # outputs
-    w[37] = change_0 + jacobian_0*change_2
-    w[38] = change_1 + jacobian_1*change_2
-    w[39] = change_3 + jacobian_2*change_2 - change_0 + jacobian_3*change_5
-    w[40] = change_4 + jacobian_4*change_2 - change_1 + jacobian_5*change_5
-    w[41] = change_6 + jacobian_6*change_5 - change_3 + jacobian_7*change_8
-    w[42] = change_7 + jacobian_8*change_5 - change_4 + jacobian_9*change_8
-    w[43] = change_6 + jacobian_10*change_8
-    w[44] = change_7 + jacobian_11*change_8
+    w[39] = change_0 + jacobian_0*change_2
+    w[40] = change_1 + jacobian_1*change_2
+    w[41] = change_3 + jacobian_2*change_2 - change_0 + jacobian_3*change_5
+    w[42] = change_4 + jacobian_4*change_2 - change_1 + jacobian_5*change_5
+    w[43] = change_6 + jacobian_6*change_5 - change_3 + jacobian_7*change_8
+    w[44] = change_7 + jacobian_8*change_5 - change_4 + jacobian_9*change_8
+    w[45] = change_6 + jacobian_10*change_8
+    w[46] = change_7 + jacobian_11*change_8
     return 0
 
 
@@ -182,25 +182,25 @@ def weigh(p, w):
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
-    change_0 = w[61]
-    change_1 = w[62]
-    change_2 = w[63]
-    change_3 = w[64]
-    change_4 = w[65]
-    change_5 = w[66]
-    change_6 = w[67]
-    change_7 = w[68]
-    change_8 = w[69]
+    change_0 = w[63]
+    change_1 = w[64]
+    change_2 = w[65]
+    change_3 = w[66]
+    change_4 = w[67]
+    change_5 = w[68]
+    change_6 = w[69]
+    change_7 = w[70]
+    change_8 = w[71]
     # outputs
-    w[387] = p0*change_0
-    w[388] = p0*change_1
-    w[389] = p19*change_2
-    w[390] = p1*change_3
-    w[391] = p1*change_4
-    w[392] = p20*change_5
-    w[393] = p2*change_6
-    w[394] = p2*change_7
-    w[395] = p21*change_8
+    w[389] = p0*change_0
+    w[390] = p0*change_1
+    w[391] = p19*change_2
+    w[392] = p1*change_3
+    w[393] = p1*change_4
+    w[394] = p20*change_5
+    w[395] = p2*change_6
+    w[396] = p2*change_7
+    w[397] = p21*change_8
     return 0
 
 
@@ -226,42 +226,42 @@ def finish(t, y, p, w, ydot):
     p23 = p[23]
     p21 = p[21]
     p24 = p[24]
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
-    lower_0 = w[91]
-    lower_1 = w[92]
-    lower_2 = w[93]
-    lower_3 = w[94]
-    lower_4 = w[95]
-    lower_5 = w[96]
-    lower_6 = w[97]
-    lower_7 = w[98]
-    lower_8 = w[99]
-    lower_9 = w[100]
-    lower_10 = w[101]
-    lower_11 = w[102]
-    lower_12 = w[103]
-    lower_13 = w[104]
-    lower_14 = w[105]
-    lower_15 = w[106]
-    reciprocal_0 = w[107]
-    reciprocal_1 = w[108]
-    reciprocal_2 = w[109]
-    reciprocal_3 = w[110]
-    reciprocal_4 = w[111]
-    reciprocal_5 = w[112]
-    reciprocal_6 = w[113]
-    reciprocal_7 = w[114]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
+    lower_0 = w[93]
+    lower_1 = w[94]
+    lower_2 = w[95]
+    lower_3 = w[96]
+    lower_4 = w[97]
+    lower_5 = w[98]
+    lower_6 = w[99]
+    lower_7 = w[100]
+    lower_8 = w[101]
+    lower_9 = w[102]
+    lower_10 = w[103]
+    lower_11 = w[104]
+    lower_12 = w[105]
+    lower_13 = w[106]
+    lower_14 = w[107]
+    lower_15 = w[108]
+    reciprocal_0 = w[109]
+    reciprocal_1 = w[110]
+    reciprocal_2 = w[111]
+    reciprocal_3 = w[112]
+    reciprocal_4 = w[113]
+    reciprocal_5 = w[114]
+    reciprocal_6 = w[115]
+    reciprocal_7 = w[116]
     ydot_9 = ydot[9]
     ydot_10 = ydot[10]
     ydot_11 = ydot[11]
@@ -305,21 +305,35 @@ def finish(t, y, p, w, ydot):
     ydot[6] = v6
     ydot[7] = v7
     ydot[8] = v8
-    w[13] = -(reciprocal_0*s9 + lower_0*s22 + lower_1*s20 + lower_2*s19)
-    w[14] = s22
-    w[15] = s20
-    w[16] = s19
-    w[17] = s18
-    w[18] = s17
-    w[19] = -(reciprocal_2*s10 + lower_5*s21 + lower_6*s18 + lower_7*s17)
-    w[20] = s21
+    w[15] = -(reciprocal_0*s9 + lower_0*s22 + lower_1*s20 + lower_2*s19)
+    w[16] = s22
+    w[17] = s20
+    w[18] = s19
+    w[19] = s18
+    w[20] = s17
+    w[21] = -(reciprocal_2*s10 + lower_5*s21 + lower_6*s18 + lower_7*s17)
+    w[22] = s21
     ydot[18] = 0.0
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def reduce(w, step, column):
+    """Make a column of the dense D a unit vector with its 1 in row `step` (Gauss, Jordan)."""
+    pivot = w[DENSE + 9 * step + column]
+    for j in range(9):
+        w[DENSE + 9 * step + j] /= pivot
+    for i in range(8):
+        factor = w[DENSE + 9 * i + column]
+        if i != step and factor != 0.0:
+            for j in range(9):
+                w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def choose(p, w, iw):
-    """Choose the dependent columns of D by elimination with complete pivoting."""
+    """Choose the dependent columns of D: by complete pivoting, then by exchange while that enlarges their determinant."""
     for k in range(72):
         w[DENSE + k] = 0.0
     expand(p, w)
@@ -331,6 +345,7 @@ def choose(p, w, iw):
             total += w[DENSE + 9 * i + j] ** 2
         for j in range(9):
             w[DENSE + 9 * i + j] /= math.sqrt(total)
+    rank = 0
     for step in range(8):
         largest, row, column = 0.0, -1, -1
         for i in range(step, 8):
@@ -343,11 +358,22 @@ def choose(p, w, iw):
         for j in range(9):
             a, b = DENSE + 9 * step + j, DENSE + 9 * row + j
             w[a], w[b] = w[b], w[a]
-        for i in range(step + 1, 8):
-            factor = w[DENSE + 9 * i + column] / w[DENSE + 9 * step + column]
-            if factor != 0.0:
-                for j in range(9):
-                    w[DENSE + 9 * i + j] -= factor * w[DENSE + 9 * step + j]
+        reduce(w, step, column)
+        rank += 1
+    # what is left in the other columns is how fast dependent coordinates follow independent ones, with the sign changed
+    for exchange in range(9):
+        largest, row, column = 1.01, -1, -1
+        for i in range(rank):
+            for j in range(9):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 9 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 9 * i + j]), i, j
+        if row < 0:
+            break
+        for j in range(9):
+            if w[DEPENDENT + j] == 1.0 and w[DENSE + 9 * row + j] != 0.0:
+                w[DEPENDENT + j] = 0.0
+        w[DEPENDENT + column] = 1.0
+        reduce(w, row, column)
     iw[7] += 1
     return 0
 

@@ -2,7 +2,7 @@
 
 constraints as stiff elements; the error falls like 1 / penalty
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 p[15] penalty (default 1000000000.0)
 p[16] omega (default 10.0)
 p[17] mu (default 1.0)
@@ -14,12 +14,12 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 61  # sections of w
+CHANGE = 63  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def prepare(p):
-    """numbers that depend on parameters alone: 27 operations, 45 before sharing."""
+    """numbers that depend on parameters alone: 13 operations, 17 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -30,11 +30,7 @@ def prepare(p):
     # intermediate terms
     s0 = 2.0*(p16*p17)
     s1 = p16*p16
-    s2 = 1.0/(p15 + p0 + p15)
-    s3 = p15*s2
-    s4 = 1.0/(p15 + p2 + p15)
-    s5 = p15*s4
-    s6 = 1.0/p15
+    s2 = 1.0/p15
     # outputs
     p[18] = 0.3333333333333333*p0
     p[19] = 9.81*p0
@@ -45,38 +41,36 @@ def prepare(p):
     p[24] = s0
     p[25] = s1
     p[26] = s2
-    p[27] = s3
-    p[28] = s4
-    p[29] = s5
-    p[30] = p15 + p1 + p15 - p15*s3 - p15*s5
-    p[31] = s6
-    p[32] = -s0
-    p[33] = -s1
-    p[34] = -s6
+    p[27] = -s0
+    p[28] = -s1
+    p[29] = -s2
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers by penalty: 345 operations, 429969 before sharing."""
+    """q', v', power and multipliers by penalty: 453 operations, 2358711 before sharing."""
     # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p18 = p[18]
     p19 = p[19]
@@ -85,13 +79,16 @@ def rhs(t, y, p, w, iw, ydot):
     p22 = p[22]
     p23 = p[23]
     p15 = p[15]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p24 = p[24]
     p25 = p[25]
-    p26 = p[26]
-    p27 = p[27]
-    p28 = p[28]
-    p29 = p[29]
-    p30 = p[30]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -112,93 +109,121 @@ def rhs(t, y, p, w, iw, ydot):
     s16 = 2.5*(v8*v8)
     s17 = s12*s16
     s18 = s13*s16
-    s19 = v2*s1
-    s20 = v2*s0
-    s21 = v5*s8
-    s22 = v5*s7
-    s23 = v8*s15
-    s24 = v8*s14
-    s25 = s3 + (v0 + s19)*p24 + (q0 - s0)*p25
-    s26 = s4 + (v1 - s20)*p24 + (q1 - s1)*p25
-    s27 = s3 + s10 + (v3 + s19 - v0 + s21)*p24 + (q3 - q0 - s7 - s0)*p25
-    s28 = s4 + s11 + (v4 - (v1 + s20) - s22)*p24 + (q4 - q1 - s8 - s1)*p25
-    s29 = s17 - s10 - (v6 + s21 - v3 - s23)*p24 - (q6 - q3 + s14 - s7)*p25
-    s30 = s18 - s11 - (v7 - (v4 + s22) + s24)*p24 - (q7 - q4 + s15 - s8)*p25
-    s31 = s17 + (v6 + s23)*p24 + (q6 - 10.0 - s14)*p25
-    s32 = s18 + (v7 - s24)*p24 + (q7 - s15)*p25
-    s33 = p15*s25
-    s34 = p15*s26
-    s35 = p15*s27
-    s36 = p15*s28
-    s37 = p15*s29
-    s38 = p15*s30
-    s39 = p15*s31
-    s40 = p15*s32
-    s41 = s35 - s33
-    s42 = s0*s34 - s1*s33 - s1*s35 + s0*s36
-    s43 = s37 - s39
-    s44 = s14*s38 - s15*s37 - s15*s39 + s14*s40
-    s45 = s36 - s34 - p19
-    s46 = s38 - s40 - p23
-    s47 = s1*p15
-    s48 = s1*s47
-    s49 = s0*p15
-    s50 = s0*s49
-    s51 = s8*p15
-    s52 = s8*s51
-    s53 = s7*p15
-    s54 = s8*s47 + s7*s49
-    s55 = s7*s53
-    s56 = s15*p15
-    s57 = s15*s56
-    s58 = s14*p15
-    s59 = s15*s51 + s14*s53
-    s60 = s14*s58
-    s61 = s51*p26
-    s62 = s53*p26
-    s63 = s51*p28
-    s64 = s53*p28
-    s65 = 1.0/(s50 + s48 + p18 + s48 + s50)
-    s66 = s47*s65
-    s67 = s49*s65
-    s68 = s54*s65
-    s69 = 1.0/(s60 + s57 + p22 + s57 + s60)
+    s19 = p15*(1.0*(1.0 > mask_0))
+    s20 = p15*(1.0*(1.0 > mask_1))
+    s21 = p15*(1.0*(1.0 > mask_2))
+    s22 = p15*(1.0*(1.0 > mask_3))
+    s23 = p15*(1.0*(1.0 > mask_4))
+    s24 = p15*(1.0*(1.0 > mask_5))
+    s25 = p15*(1.0*(1.0 > mask_6))
+    s26 = p15*(1.0*(1.0 > mask_7))
+    s27 = v2*s1
+    s28 = v2*s0
+    s29 = v5*s8
+    s30 = v5*s7
+    s31 = v8*s15
+    s32 = v8*s14
+    s33 = s3 + (v0 + s27)*p24 + (q0 - s0)*p25
+    s34 = s4 + (v1 - s28)*p24 + (q1 - s1)*p25
+    s35 = s3 + s10 + (v3 + s27 - v0 + s29)*p24 + (q3 - q0 - s7 - s0)*p25
+    s36 = s4 + s11 + (v4 - (v1 + s28) - s30)*p24 + (q4 - q1 - s8 - s1)*p25
+    s37 = s17 - s10 - (v6 + s29 - v3 - s31)*p24 - (q6 - q3 + s14 - s7)*p25
+    s38 = s18 - s11 - (v7 - (v4 + s30) + s32)*p24 - (q7 - q4 + s15 - s8)*p25
+    s39 = s17 + (v6 + s31)*p24 + (q6 - 10.0 - s14)*p25
+    s40 = s18 + (v7 - s32)*p24 + (q7 - s15)*p25
+    s41 = s19*s33
+    s42 = s20*s34
+    s43 = s21*s35
+    s44 = s22*s36
+    s45 = s23*s37
+    s46 = s24*s38
+    s47 = s25*s39
+    s48 = s26*s40
+    s49 = s43 - s41
+    s50 = s45 - s47
+    s51 = s44 - s42 - p19
+    s52 = s46 - s48 - p23
+    s53 = s1*s19
+    s54 = s0*s20
+    s55 = s1*s21
+    s56 = s53 - s55
+    s57 = s8*s21
+    s58 = s0*s22
+    s59 = s58 - s54
+    s60 = s7*s22
+    s61 = s8*s23
+    s62 = s15*s23
+    s63 = s7*s24
+    s64 = s14*s24
+    s65 = s15*s25
+    s66 = s65 - s62
+    s67 = s14*s26
+    s68 = s64 - s67
+    s69 = 1.0/(s21 + p0 + s19)
     s70 = s56*s69
-    s71 = s58*s69
-    s72 = s59*s69
-    s73 = s49*s66 + s58*s70
-    s74 = s51*p29 - s51*p27 - s54*s66 + s59*s70
-    s75 = 1.0/(p30 - s47*s66 - s56*s70)
-    s76 = s73*s75
-    s77 = s74*s75
-    s78 = s53*p27 - s53*p29 + s54*s67 - s59*s71 - s74*s76
-    s79 = s55 + s52 + p20 + s52 + s55 - s51*s61 - s53*s62 - s51*s63 - s53*s64 - s54*s68 - s59*s72 - s74*s77
-    s80 = 1.0/(p30 - s49*s67 - s58*s71 - s73*s76)
-    s81 = s78*s80
-    s82 = s41*p27 - (s35 + s37) + s43*p29 - s42*s66 - s44*s70
-    s83 = s7*s36 - s8*s35 + s8*s37 - s7*s38 + s41*s61 - s45*s62 - s43*s63 + s46*s64 - s42*s68 + s44*s72
-    s84 = s45*p27 - (p21 + s36 + s38) + s46*p29 + s42*s67 + s44*s71 - s76*s82
-    s85 = 1.0/(s79 - s78*s81)*(s83 - s77*s82 - s81*s84)
-    s86 = s80*s84
-    s87 = s81*s85
-    s88 = s86 - s87
-    s89 = s75*s82 - s76*s88
-    s90 = s77*s85
-    s91 = s89 - s90
-    s92 = s44*s69 - s70*s91 + s71*s88 + s72*s85
-    s93 = s42*s65 - s66*s91 + s67*s88 - s68*s85
-    s94 = s46*p28 + p29*s88 + s64*s85
-    s95 = s43*p28 + p29*s91 - s63*s85
-    s96 = s45*p26 + p27*s88
-    s97 = s62*s85
-    s98 = s96 - s97
-    s99 = s41*p26 + p27*s91 + s61*s85
-    s100 = s1*s93
-    s101 = s0*s93
-    s102 = s8*s85
-    s103 = s7*s85
-    s104 = s15*s92
-    s105 = s14*s92
+    s71 = s21*s69
+    s72 = s57*s69
+    s73 = s55 + s21*s70
+    s74 = 1.0/(s22 + p0 + s20)
+    s75 = s59*s74
+    s76 = s22*s74
+    s77 = s60*s74
+    s78 = s22*s75 - s58
+    s79 = s8*s55 + s7*s58 + s57*s70 - s60*s75
+    s80 = 1.0/(s25 + p2 + s23)
+    s81 = s66*s80
+    s82 = s23*s80
+    s83 = s61*s80
+    s84 = s62 + s23*s81
+    s85 = 1.0/(s26 + p2 + s24)
+    s86 = s68*s85
+    s87 = s24*s85
+    s88 = s63*s85
+    s89 = s24*s86 - s64
+    s90 = s63*s86 - (s15*s61 + s14*s63 + s61*s81)
+    s91 = 1.0/(p18 + s1*s53 + s0*s54 + s1*s55 + s0*s58 - s56*s70 - s59*s75)
+    s92 = s73*s91
+    s93 = s78*s91
+    s94 = s79*s91
+    s95 = 1.0/(p22 + s15*s62 + s14*s64 + s15*s65 + s14*s67 - s66*s81 - s68*s86)
+    s96 = s84*s95
+    s97 = s89*s95
+    s98 = s90*s95
+    s99 = s78*s92 + s89*s96
+    s100 = s57 - s61 - s57*s71 + s61*s82 - s79*s92 - s90*s96
+    s101 = p20 + s8*s57 + s7*s60 + s8*s61 + s7*s63 - s57*s72 - s60*s77 - s61*s83 - s63*s88 - s79*s94 - s90*s98
+    s102 = 1.0/(s23 + p1 + s21 - s21*s71 - s23*s82 - s73*s92 - s84*s96)
+    s103 = s99*s102
+    s104 = s100*s102
+    s105 = s63 - s60 + s60*s76 - s63*s87 - s79*s93 - s90*s97 + s100*s103
+    s106 = 1.0/(s24 + p1 + s22 - s22*s76 - s24*s87 - s78*s93 - s89*s97 - s99*s103)
+    s107 = s105*s106
+    s108 = s0*s42 - s1*s41 - s1*s43 + s0*s44 - s49*s70 - s51*s75
+    s109 = s14*s46 - s15*s45 - s15*s47 + s14*s48 - s50*s81 - s52*s86
+    s110 = s49*s71 - (s43 + s45) + s50*s82 - s92*s108 - s96*s109
+    s111 = s7*s44 - s8*s43 + s8*s45 - s7*s46 + s49*s72 - s51*s77 - s50*s83 + s52*s88 - s94*s108 - s98*s109
+    s112 = s51*s76 - (p21 + s44 + s46) + s52*s87 - s93*s108 - s97*s109 + s103*s110
+    s113 = 1.0/(s101 - s100*s104 - s105*s107)*(s111 - s104*s110 - s107*s112)
+    s114 = s106*s112
+    s115 = s107*s113
+    s116 = s114 - s115
+    s117 = s102*s110 + s103*s116
+    s118 = s104*s113
+    s119 = s117 - s118
+    s120 = s95*s109 - s96*s119 - s97*s116 - s98*s113
+    s121 = s91*s108 - s92*s119 - s93*s116 - s94*s113
+    s122 = s52*s85 - s86*s120 + s87*s116 + s88*s113
+    s123 = s50*s80 - s81*s120 + s82*s119 - s83*s113
+    s124 = s51*s74 - s75*s121 + s76*s116
+    s125 = s77*s113
+    s126 = s124 - s125
+    s127 = s49*s69 - s70*s121 + s71*s119 + s72*s113
+    s128 = s1*s121
+    s129 = s0*s121
+    s130 = s8*s113
+    s131 = s7*s113
+    s132 = s15*s120
+    s133 = s14*s120
     # outputs
     ydot[0] = v0
     ydot[1] = v1
@@ -209,24 +234,24 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[6] = v6
     ydot[7] = v7
     ydot[8] = v8
-    ydot[9] = s99
-    ydot[10] = s98
-    ydot[11] = s93
-    ydot[12] = s91
-    ydot[13] = s88
-    ydot[14] = s85
-    ydot[15] = s95
-    ydot[16] = s94
-    ydot[17] = s92
+    ydot[9] = s127
+    ydot[10] = s126
+    ydot[11] = s121
+    ydot[12] = s119
+    ydot[13] = s116
+    ydot[14] = s113
+    ydot[15] = s123
+    ydot[16] = s122
+    ydot[17] = s120
     ydot[18] = 0.0
-    w[13] = p15*(s25 + s99 + s100)
-    w[14] = p15*(s26 + s98 - s101)
-    w[15] = p15*(s27 + s91 + s100 - s99 + s102)
-    w[16] = p15*(s28 + s88 + s97 - s96 - s101 - s103)
-    w[17] = p15*(s95 + s102 + s90 - s89 - s104 - s29)
-    w[18] = p15*(s94 + s87 - s86 - s103 + s105 - s30)
-    w[19] = p15*(s31 + s95 + s104)
-    w[20] = p15*(s32 + s94 - s105)
+    w[15] = s19*(s33 + s127 + s128)
+    w[16] = s20*(s34 + s126 - s129)
+    w[17] = s21*(s35 + s119 + s128 - s127 + s130)
+    w[18] = s22*(s36 + s116 + s125 - s124 - s129 - s131)
+    w[19] = s23*(s123 + s130 + s118 - s117 - s132 - s37)
+    w[20] = s24*(s122 + s115 - s114 - s131 + s133 - s38)
+    w[21] = s25*(s39 + s123 + s132)
+    w[22] = s26*(s40 + s122 - s133)
     return 0
 
 
@@ -238,22 +263,22 @@ def residual(t, y, k, p, w, r):
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # coupler.x [m]
-    v3 = y[12]  # coupler.vx [m/s]
     q4 = y[4]  # coupler.y [m]
-    v4 = y[13]  # coupler.vy [m/s]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
     q6 = y[6]  # rocker.x [m]
-    v6 = y[15]  # rocker.vx [m/s]
     q7 = y[7]  # rocker.y [m]
-    v7 = y[16]  # rocker.vy [m/s]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p18 = p[18]
     p19 = p[19]
@@ -263,7 +288,7 @@ def residual(t, y, k, p, w, r):
     p23 = p[23]
     p24 = p[24]
     p25 = p[25]
-    p31 = p[31]
+    p26 = p[26]
     k0 = k[0]
     k1 = k[1]
     k2 = k[2]
@@ -323,9 +348,9 @@ def residual(t, y, k, p, w, r):
     s29 = s15*k17
     s30 = s14*k17
     s31 = k16 - (k13 + s28) + s30 - (s18 - s11 - (v7 - (v4 + s22) + s24)*p24 - (q7 - q4 + s15 - s8)*p25)
-    s32 = s3 + s10 + (v3 + s19 - v0 + s21)*p24 + (q3 - q0 - s7 - s0)*p25 + k12 + s25 - k9 + s27 - p31*k20
-    s33 = s4 + s11 + (v4 - (v1 + s20) - s22)*p24 + (q4 - q1 - s8 - s1)*p25 + k13 - (k10 + s26) - s28 - p31*k21
-    s34 = k15 + s27 - k12 - s29 - (s17 - s10 - (v6 + s21 - v3 - s23)*p24 - (q6 - q3 + s14 - s7)*p25) - p31*k22
+    s32 = s3 + s10 + (v3 + s19 - v0 + s21)*p24 + (q3 - q0 - s7 - s0)*p25 + k12 + s25 - k9 + s27 - p26*k20
+    s33 = s4 + s11 + (v4 - (v1 + s20) - s22)*p24 + (q4 - q1 - s8 - s1)*p25 + k13 - (k10 + s26) - s28 - p26*k21
+    s34 = k15 + s27 - k12 - s29 - (s17 - s10 - (v6 + s21 - v3 - s23)*p24 - (q6 - q3 + s14 - s7)*p25) - p26*k22
     # outputs
     r[0] = k0 - v0
     r[1] = k1 - v1
@@ -345,15 +370,15 @@ def residual(t, y, k, p, w, r):
     r[15] = p2*k15 + k22 + k24
     r[16] = p23 + p2*k16 + k23 + k25
     r[17] = p22*k17 + s14*k23 - s15*k22 + s15*k24 - s14*k25
-    r[18] = s3 + (v0 + s19)*p24 + (q0 - s0)*p25 + k9 + s25 - p31*k18
-    r[19] = s4 + (v1 - s20)*p24 + (q1 - s1)*p25 + k10 - s26 - p31*k19
+    r[18] = s3 + (v0 + s19)*p24 + (q0 - s0)*p25 + k9 + s25 - p26*k18
+    r[19] = s4 + (v1 - s20)*p24 + (q1 - s1)*p25 + k10 - s26 - p26*k19
     r[20] = s32
     r[21] = s33
     r[22] = s34
-    r[23] = s31 - p31*k23
-    r[24] = s17 + (v6 + s23)*p24 + (q6 - 10.0 - s14)*p25 + k15 + s29 - p31*k24
-    r[25] = s18 + (v7 - s24)*p24 + (q7 - s15)*p25 + k16 - s30 - p31*k25
-    w[12] = 0.0
+    r[23] = s31 - p26*k23
+    r[24] = s17 + (v6 + s23)*p24 + (q6 - 10.0 - s14)*p25 + k15 + s29 - p26*k24
+    r[25] = s18 + (v7 - s24)*p24 + (q7 - s15)*p25 + k16 - s30 - p26*k25
+    w[14] = 0.0
     return 0
 
 
@@ -386,9 +411,9 @@ def tangent(t, y, k, p, w, j):
     k23 = k[23]
     k24 = k[24]
     k25 = k[25]
-    p32 = p[32]
-    p33 = p[33]
-    p34 = p[34]
+    p27 = p[27]
+    p28 = p[28]
+    p29 = p[29]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -485,14 +510,14 @@ def tangent(t, y, k, p, w, j):
     j[990] = s13*k24 - (s13*k22 + s14*k23) + s14*k25
     j[477] = 1.0
     j[479] = s1
-    j[486] = p34
+    j[486] = p29
     j[1000] = p25
     j[1002] = s34
     j[1009] = p24
     j[1011] = s26
     j[504] = 1.0
     j[505] = s3
-    j[513] = p34
+    j[513] = p29
     j[1019] = p25
     j[1020] = s35
     j[1028] = p24
@@ -501,12 +526,12 @@ def tangent(t, y, k, p, w, j):
     j[531] = s1
     j[532] = 1.0
     j[534] = s8
-    j[540] = p34
-    j[1036] = p33
+    j[540] = p29
+    j[1036] = p28
     j[1038] = s34
     j[1039] = p25
     j[1041] = s18 + s24 - s10 + s32
-    j[1045] = p32
+    j[1045] = p27
     j[1047] = s26
     j[1048] = p24
     j[1050] = s28
@@ -514,12 +539,12 @@ def tangent(t, y, k, p, w, j):
     j[557] = s3
     j[559] = 1.0
     j[560] = s7
-    j[567] = p34
-    j[1055] = p33
+    j[567] = p29
+    j[1055] = p28
     j[1056] = s35
     j[1058] = p25
     j[1059] = s36
-    j[1064] = p32
+    j[1064] = p27
     j[1065] = s27
     j[1067] = p24
     j[1068] = s29
@@ -527,12 +552,12 @@ def tangent(t, y, k, p, w, j):
     j[586] = s8
     j[587] = 1.0
     j[589] = s15
-    j[594] = p34
-    j[1075] = p33
+    j[594] = p29
+    j[1075] = p28
     j[1077] = s18 + s32 - (s10 - s24)
     j[1078] = p25
     j[1080] = -s37
-    j[1084] = p32
+    j[1084] = p27
     j[1086] = s28
     j[1087] = p24
     j[1089] = -s30
@@ -540,25 +565,25 @@ def tangent(t, y, k, p, w, j):
     j[612] = s7
     j[614] = 1.0
     j[615] = s13
-    j[621] = p34
-    j[1094] = p33
+    j[621] = p29
+    j[1094] = p28
     j[1095] = s36
     j[1097] = p25
     j[1098] = s33 - s31 - s19
-    j[1103] = p32
+    j[1103] = p27
     j[1104] = s29
     j[1106] = p24
     j[1107] = s25 - s23
     j[639] = 1.0
     j[641] = s14
-    j[648] = p34
+    j[648] = p29
     j[1114] = p25
     j[1116] = s37
     j[1123] = p24
     j[1125] = s30
     j[666] = 1.0
     j[667] = s17
-    j[675] = p34
+    j[675] = p29
     j[1133] = p25
     j[1134] = s19 + s31 - s33
     j[1142] = p24

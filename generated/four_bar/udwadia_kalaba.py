@@ -2,7 +2,7 @@
 
 accelerations closest to the free ones in the metric of M, by a pseudoinverse
 Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 """
 
 import math
@@ -11,10 +11,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -53,26 +53,26 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by udwadia-kalaba; 1 where a pivot of S is suspicious: 295 operations, 1659841 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
     v3 = y[12]  # coupler.vx [m/s]
     v4 = y[13]  # coupler.vy [m/s]
-    q5 = y[5]  # coupler.theta [rad]
     v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
-    q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p15 = p[15]
     p16 = p[16]
     p17 = p[17]
@@ -201,14 +201,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -(p23 + p19*(p19*s84 + p19*s88))
     ydot[17] = -p20*(s20*s84 - s19*s85 + s19*s89 - s20*s88)
     ydot[18] = 0.0
-    w[13] = s91
-    w[14] = s90
-    w[15] = s87
-    w[16] = s86
-    w[17] = s85
-    w[18] = s84
-    w[19] = s89
-    w[20] = s88
+    w[15] = s91
+    w[16] = s90
+    w[17] = s87
+    w[18] = s86
+    w[19] = s85
+    w[20] = s84
+    w[21] = s89
+    w[22] = s88
     return int((s92 | (s76 < 1e-06*s38)))
 
 

@@ -2,7 +2,7 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 1, templates 2b445adb8ae4f174
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = mass
 """
@@ -13,10 +13,10 @@ from numba import njit
 
 from .model import measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -57,29 +57,29 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by velocity-projection; 1 where a pivot of S is suspicious: 288 operations, 1442826 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # coupler.theta [rad]
     v3 = y[12]  # coupler.vx [m/s]
     v4 = y[13]  # coupler.vy [m/s]
-    q5 = y[5]  # coupler.theta [rad]
     v5 = y[14]  # coupler.omega [rad/s]
+    q8 = y[8]  # rocker.theta [rad]
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
-    q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
     p15 = p[15]
     p16 = p[16]
     p17 = p[17]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
@@ -212,14 +212,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p22*(p17 + s88 + s96)
     ydot[17] = p23*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
     ydot[18] = 0.0
-    w[13] = s99
-    w[14] = s98
-    w[15] = s95
-    w[16] = s94
-    w[17] = s91
-    w[18] = s88
-    w[19] = s97
-    w[20] = s96
+    w[15] = s99
+    w[16] = s98
+    w[17] = s95
+    w[18] = s94
+    w[19] = s91
+    w[20] = s88
+    w[21] = s97
+    w[22] = s96
     return int((s100 | (s81 < 1e-06*s42)))
 
 
@@ -236,12 +236,12 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_7 = w[28]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_7 = w[30]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
@@ -388,59 +388,59 @@ def geometry(t, y, p, w):
     s136 = min(min(min(min(min(1.0, mask_1 + s131), mask_2 + s132), mask_3 + s133), mask_4 + s134), mask_5 + s135)
     s137 = s73/s55
     # outputs
-    w[37] = s3
-    w[38] = s4
-    w[39] = s7
-    w[40] = s9
-    w[41] = s11
-    w[42] = s13
-    w[43] = s14
-    w[44] = s15
+    w[39] = s3
+    w[40] = s4
+    w[41] = s7
+    w[42] = s9
+    w[43] = s11
+    w[44] = s13
+    w[45] = s14
+    w[46] = s15
     w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
-    w[79] = s1
-    w[80] = s2
     w[81] = s1
-    w[82] = s8
-    w[83] = s2
-    w[84] = s6
-    w[85] = s8
-    w[86] = -s12
-    w[87] = s6
-    w[88] = s10
-    w[89] = s12
-    w[90] = -s10
-    w[54] = s131
-    w[55] = s132
-    w[56] = s133
-    w[57] = s134
-    w[58] = s135
-    w[60] = s137
+    w[82] = s2
+    w[83] = s1
+    w[84] = s8
+    w[85] = s2
+    w[86] = s6
+    w[87] = s8
+    w[88] = -s12
+    w[89] = s6
+    w[90] = s10
+    w[91] = s12
+    w[92] = -s10
+    w[56] = s131
+    w[57] = s132
+    w[58] = s133
+    w[59] = s134
+    w[60] = s135
+    w[62] = s137
     w[5] = s76 + 1.0 + s97 + s94 + s88 + s80 + 1.0 + s63
     w[4] = min(s136, mask_7 + s137)
-    w[115] = s100
-    w[116] = s101
     w[117] = s100
-    w[118] = s106
-    w[119] = s107
-    w[120] = -s110
-    w[121] = s111
-    w[122] = s112
-    w[123] = s116
-    w[124] = s117
-    w[125] = s119
-    w[126] = s120
-    w[127] = -s121
-    w[128] = -s125
-    w[129] = s126
-    w[130] = s129
-    w[131] = s98
-    w[132] = s105
-    w[133] = s109
-    w[134] = s115
-    w[135] = s118
-    w[136] = s124
-    w[137] = s128
-    w[138] = s97/s130
+    w[118] = s101
+    w[119] = s100
+    w[120] = s106
+    w[121] = s107
+    w[122] = -s110
+    w[123] = s111
+    w[124] = s112
+    w[125] = s116
+    w[126] = s117
+    w[127] = s119
+    w[128] = s120
+    w[129] = -s121
+    w[130] = -s125
+    w[131] = s126
+    w[132] = s129
+    w[133] = s98
+    w[134] = s105
+    w[135] = s109
+    w[136] = s115
+    w[137] = s118
+    w[138] = s124
+    w[139] = s128
+    w[140] = s97/s130
     return 0
 
 
@@ -454,50 +454,50 @@ def spread(p, w):
     p21 = p[21]
     p22 = p[22]
     p23 = p[23]
-    law_lower_0 = w[115]
-    law_lower_1 = w[116]
-    law_lower_2 = w[117]
-    law_lower_3 = w[118]
-    law_lower_4 = w[119]
-    law_lower_5 = w[120]
-    law_lower_6 = w[121]
-    law_lower_7 = w[122]
-    law_lower_8 = w[123]
-    law_lower_9 = w[124]
-    law_lower_10 = w[125]
-    law_lower_11 = w[126]
-    law_lower_12 = w[127]
-    law_lower_13 = w[128]
-    law_lower_14 = w[129]
-    law_lower_15 = w[130]
-    law_reciprocal_0 = w[131]
-    law_reciprocal_1 = w[132]
-    law_reciprocal_2 = w[133]
-    law_reciprocal_3 = w[134]
-    law_reciprocal_4 = w[135]
-    law_reciprocal_5 = w[136]
-    law_reciprocal_6 = w[137]
-    law_reciprocal_7 = w[138]
-    residual_0 = w[37]
-    residual_1 = w[38]
-    residual_2 = w[39]
-    residual_3 = w[40]
-    residual_4 = w[41]
-    residual_5 = w[42]
-    residual_6 = w[43]
-    residual_7 = w[44]
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
-    jacobian_8 = w[87]
-    jacobian_9 = w[88]
-    jacobian_10 = w[89]
-    jacobian_11 = w[90]
+    law_lower_0 = w[117]
+    law_lower_1 = w[118]
+    law_lower_2 = w[119]
+    law_lower_3 = w[120]
+    law_lower_4 = w[121]
+    law_lower_5 = w[122]
+    law_lower_6 = w[123]
+    law_lower_7 = w[124]
+    law_lower_8 = w[125]
+    law_lower_9 = w[126]
+    law_lower_10 = w[127]
+    law_lower_11 = w[128]
+    law_lower_12 = w[129]
+    law_lower_13 = w[130]
+    law_lower_14 = w[131]
+    law_lower_15 = w[132]
+    law_reciprocal_0 = w[133]
+    law_reciprocal_1 = w[134]
+    law_reciprocal_2 = w[135]
+    law_reciprocal_3 = w[136]
+    law_reciprocal_4 = w[137]
+    law_reciprocal_5 = w[138]
+    law_reciprocal_6 = w[139]
+    law_reciprocal_7 = w[140]
+    residual_0 = w[39]
+    residual_1 = w[40]
+    residual_2 = w[41]
+    residual_3 = w[42]
+    residual_4 = w[43]
+    residual_5 = w[44]
+    residual_6 = w[45]
+    residual_7 = w[46]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
+    jacobian_8 = w[89]
+    jacobian_9 = w[90]
+    jacobian_10 = w[91]
+    jacobian_11 = w[92]
     # intermediate terms
     s0 = law_lower_0*residual_0 - residual_1
     s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
@@ -520,15 +520,15 @@ def spread(p, w):
     s18 = law_reciprocal_1*s0 - law_lower_3*s15 - law_lower_4*s12
     s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
     # outputs
-    w[61] = p18*(s14 - s13 - s19)
-    w[62] = p18*(s18 + s11 - s10)
-    w[63] = p19*(s18*jacobian_1 - s19*jacobian_0 + s15*jacobian_2 + s12*jacobian_4)
-    w[64] = p20*(s15 + s8 - s7)
-    w[65] = p20*(s12 - s6)
-    w[66] = p21*(s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8)
-    w[67] = p22*(s9 - s17)
-    w[68] = p22*(s6 + s16)
-    w[69] = p23*(s9*jacobian_7 + s6*jacobian_9 - s17*jacobian_10 + s16*jacobian_11)
+    w[63] = p18*(s14 - s13 - s19)
+    w[64] = p18*(s18 + s11 - s10)
+    w[65] = p19*(s18*jacobian_1 - s19*jacobian_0 + s15*jacobian_2 + s12*jacobian_4)
+    w[66] = p20*(s15 + s8 - s7)
+    w[67] = p20*(s12 - s6)
+    w[68] = p21*(s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8)
+    w[69] = p22*(s9 - s17)
+    w[70] = p22*(s6 + s16)
+    w[71] = p23*(s9*jacobian_7 + s6*jacobian_9 - s17*jacobian_10 + s16*jacobian_11)
     return 0
 
 

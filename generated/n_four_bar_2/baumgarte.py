@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 1, templates 2b445adb8ae4f174
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 2, templates a71b04144b412898
 option solver = elimination
 p[0] alpha (default 5.0)
 p[1] beta (default 5.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 27  # sections of w
-SAVED = 41
-PIVOT = 83
-CHANGE = 97
+MASK = 29  # sections of w
+SAVED = 43
+PIVOT = 85
+CHANGE = 99
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,49 +37,49 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by baumgarte; 1 where a pivot of S is suspicious: 695 operations, 69731186 before sharing."""
     # inputs
     q0 = y[0]  # vertical0.x [m]
-    v0 = y[15]  # vertical0.vx [m/s]
     q1 = y[1]  # vertical0.y [m]
-    v1 = y[16]  # vertical0.vy [m/s]
     q2 = y[2]  # vertical0.theta [rad]
+    v0 = y[15]  # vertical0.vx [m/s]
+    v1 = y[16]  # vertical0.vy [m/s]
     v2 = y[17]  # vertical0.omega [rad/s]
     q3 = y[3]  # coupler0.x [m]
-    v3 = y[18]  # coupler0.vx [m/s]
     q4 = y[4]  # coupler0.y [m]
-    v4 = y[19]  # coupler0.vy [m/s]
     q5 = y[5]  # coupler0.theta [rad]
+    v3 = y[18]  # coupler0.vx [m/s]
+    v4 = y[19]  # coupler0.vy [m/s]
     v5 = y[20]  # coupler0.omega [rad/s]
     q6 = y[6]  # vertical1.x [m]
-    v6 = y[21]  # vertical1.vx [m/s]
     q7 = y[7]  # vertical1.y [m]
-    v7 = y[22]  # vertical1.vy [m/s]
     q8 = y[8]  # vertical1.theta [rad]
+    v6 = y[21]  # vertical1.vx [m/s]
+    v7 = y[22]  # vertical1.vy [m/s]
     v8 = y[23]  # vertical1.omega [rad/s]
     q9 = y[9]  # coupler1.x [m]
-    v9 = y[24]  # coupler1.vx [m/s]
     q10 = y[10]  # coupler1.y [m]
-    v10 = y[25]  # coupler1.vy [m/s]
     q11 = y[11]  # coupler1.theta [rad]
+    v9 = y[24]  # coupler1.vx [m/s]
+    v10 = y[25]  # coupler1.vy [m/s]
     v11 = y[26]  # coupler1.omega [rad/s]
     q12 = y[12]  # vertical2.x [m]
-    v12 = y[27]  # vertical2.vx [m/s]
     q13 = y[13]  # vertical2.y [m]
-    v13 = y[28]  # vertical2.vy [m/s]
     q14 = y[14]  # vertical2.theta [rad]
+    v12 = y[27]  # vertical2.vx [m/s]
+    v13 = y[28]  # vertical2.vy [m/s]
     v14 = y[29]  # vertical2.omega [rad/s]
-    mask_0 = w[27]
-    mask_1 = w[28]
-    mask_2 = w[29]
-    mask_3 = w[30]
-    mask_4 = w[31]
-    mask_5 = w[32]
-    mask_6 = w[33]
-    mask_7 = w[34]
-    mask_8 = w[35]
-    mask_9 = w[36]
-    mask_10 = w[37]
-    mask_11 = w[38]
-    mask_12 = w[39]
-    mask_13 = w[40]
+    mask_0 = w[29]
+    mask_1 = w[30]
+    mask_2 = w[31]
+    mask_3 = w[32]
+    mask_4 = w[33]
+    mask_5 = w[34]
+    mask_6 = w[35]
+    mask_7 = w[36]
+    mask_8 = w[37]
+    mask_9 = w[38]
+    mask_10 = w[39]
+    mask_11 = w[40]
+    mask_12 = w[41]
+    mask_13 = w[42]
     p2 = p[2]
     p3 = p[3]
     # intermediate terms
@@ -331,20 +331,20 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[28] = -9.81 - (s204 + s210)
     ydot[29] = -12.0*(s31*s211 - s30*s210 - s31*s205 + s30*s204)
     ydot[30] = 0.0
-    w[13] = s213
-    w[14] = s212
-    w[15] = s209
-    w[16] = s208
-    w[17] = s201
-    w[18] = s200
-    w[19] = s199
-    w[20] = s196
-    w[21] = s193
-    w[22] = s190
-    w[23] = s211
-    w[24] = s210
-    w[25] = s205
-    w[26] = s204
+    w[15] = s213
+    w[16] = s212
+    w[17] = s209
+    w[18] = s208
+    w[19] = s201
+    w[20] = s200
+    w[21] = s199
+    w[22] = s196
+    w[23] = s193
+    w[24] = s190
+    w[25] = s211
+    w[26] = s210
+    w[27] = s205
+    w[28] = s204
     return int(((s215 | (s169 < 1e-06*s85)) | (s172 < 1e-06*s86)))
 
 

@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 1, templates 2b445adb8ae4f174
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = identity
 p[0] tolerance (default 1e-13)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-MASK = 27  # sections of w
-SAVED = 41
-PIVOT = 83
-CHANGE = 97
+MASK = 29  # sections of w
+SAVED = 43
+PIVOT = 85
+CHANGE = 99
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -30,40 +30,40 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by direct-correction; 1 where a pivot of S is suspicious: 567 operations, 68682633 before sharing."""
     # inputs
+    q2 = y[2]  # vertical0.theta [rad]
     v0 = y[15]  # vertical0.vx [m/s]
     v1 = y[16]  # vertical0.vy [m/s]
-    q2 = y[2]  # vertical0.theta [rad]
     v2 = y[17]  # vertical0.omega [rad/s]
+    q5 = y[5]  # coupler0.theta [rad]
     v3 = y[18]  # coupler0.vx [m/s]
     v4 = y[19]  # coupler0.vy [m/s]
-    q5 = y[5]  # coupler0.theta [rad]
     v5 = y[20]  # coupler0.omega [rad/s]
+    q8 = y[8]  # vertical1.theta [rad]
     v6 = y[21]  # vertical1.vx [m/s]
     v7 = y[22]  # vertical1.vy [m/s]
-    q8 = y[8]  # vertical1.theta [rad]
     v8 = y[23]  # vertical1.omega [rad/s]
+    q11 = y[11]  # coupler1.theta [rad]
     v9 = y[24]  # coupler1.vx [m/s]
     v10 = y[25]  # coupler1.vy [m/s]
-    q11 = y[11]  # coupler1.theta [rad]
     v11 = y[26]  # coupler1.omega [rad/s]
+    q14 = y[14]  # vertical2.theta [rad]
     v12 = y[27]  # vertical2.vx [m/s]
     v13 = y[28]  # vertical2.vy [m/s]
-    q14 = y[14]  # vertical2.theta [rad]
     v14 = y[29]  # vertical2.omega [rad/s]
-    mask_0 = w[27]
-    mask_1 = w[28]
-    mask_2 = w[29]
-    mask_3 = w[30]
-    mask_4 = w[31]
-    mask_5 = w[32]
-    mask_6 = w[33]
-    mask_7 = w[34]
-    mask_8 = w[35]
-    mask_9 = w[36]
-    mask_10 = w[37]
-    mask_11 = w[38]
-    mask_12 = w[39]
-    mask_13 = w[40]
+    mask_0 = w[29]
+    mask_1 = w[30]
+    mask_2 = w[31]
+    mask_3 = w[32]
+    mask_4 = w[33]
+    mask_5 = w[34]
+    mask_6 = w[35]
+    mask_7 = w[36]
+    mask_8 = w[37]
+    mask_9 = w[38]
+    mask_10 = w[39]
+    mask_11 = w[40]
+    mask_12 = w[41]
+    mask_13 = w[42]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -296,20 +296,20 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[28] = -9.81 - (s187 + s193)
     ydot[29] = -12.0*(s31*s194 - s30*s193 - s31*s188 + s30*s187)
     ydot[30] = 0.0
-    w[13] = s196
-    w[14] = s195
-    w[15] = s192
-    w[16] = s191
-    w[17] = s184
-    w[18] = s183
-    w[19] = s182
-    w[20] = s179
-    w[21] = s176
-    w[22] = s173
-    w[23] = s194
-    w[24] = s193
-    w[25] = s188
-    w[26] = s187
+    w[15] = s196
+    w[16] = s195
+    w[17] = s192
+    w[18] = s191
+    w[19] = s184
+    w[20] = s183
+    w[21] = s182
+    w[22] = s179
+    w[23] = s176
+    w[24] = s173
+    w[25] = s194
+    w[26] = s193
+    w[27] = s188
+    w[28] = s187
     return int(((s198 | (s156 < 1e-06*s72)) | (s159 < 1e-06*s73)))
 
 

@@ -2,7 +2,7 @@
 
 Baumgarte's gains bounded by a multiple of one over the step
 Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492; Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 p[3] gain (default 20.0)
 p[4] a (default 1.0)
@@ -14,7 +14,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,13 +37,13 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by adaptive-baumgarte: 37 operations, 115 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
     p3 = p[3]
     p4 = p[4]
-    mask_0 = w[14]
+    mask_0 = w[16]
     status_8 = w[8]
     p6 = p[6]
     p7 = p[7]
@@ -56,7 +56,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p6*(q0*s1)
     ydot[3] = -p6*(p5 + q1*s1)
     ydot[4] = 0.0
-    w[13] = s1
+    w[15] = s1
     return 0
 
 

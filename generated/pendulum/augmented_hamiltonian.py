@@ -2,7 +2,7 @@
 
 momenta are integrated; velocities satisfy their constraint in every evaluation
 Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 p[3] penalty (default 10000000.0)
 p[4] iteration_tolerance (default 1e-13)
 """
@@ -13,7 +13,7 @@ from numba import njit
 
 from .model import measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -36,11 +36,11 @@ def rates(t, y, p, w, iw, ydot):
     """q', v' and multipliers for results: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p6 = p[6]
     p7 = p[7]
     # intermediate terms
@@ -51,36 +51,39 @@ def rates(t, y, p, w, iw, ydot):
     ydot[2] = -p6*(q0*s0)
     ydot[3] = -p6*(p5 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def begin(t, y, p, w):
-    """matrices and start of the iteration: 14 operations, 28 before sharing."""
+    """matrices and start of the iteration: 16 operations, 44 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p3 = p[3]
+    mask_0 = w[16]
     # intermediate terms
-    s0 = q0*p3
-    s1 = q1*s0
-    s2 = 1.0/(p0 + q0*s0)
-    s3 = s1*s2
+    s0 = p3*(1.0*(1.0 > mask_0))
+    s1 = q0*s0
+    s2 = q1*s1
+    s3 = 1.0/(p0 + q0*s1)
+    s4 = s2*s3
     # outputs
-    w[26] = s3
-    w[27] = s2
-    w[28] = 1.0/(p0 + q1*(q1*p3) - s1*s3)
-    w[29] = q0
-    w[30] = q1
-    w[31] = p0*v0
-    w[32] = p0*v1
-    w[33] = v0
-    w[34] = v1
-    w[35] = 0.0
+    w[28] = s4
+    w[29] = s3
+    w[30] = 1.0/(p0 + q1*(q1*s0) - s2*s4)
+    w[31] = s0
+    w[32] = q0
+    w[33] = q1
+    w[34] = p0*v0
+    w[35] = p0*v1
+    w[36] = v0
+    w[37] = v1
+    w[38] = 0.0
     return 0
 
 
@@ -89,28 +92,28 @@ def iterate(p, w):
     """one iteration of augmented-hamiltonian: 35 operations, 346 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
-    p3 = p[3]
-    kept_factor_0 = w[26]
-    kept_factor_1 = w[27]
-    kept_factor_2 = w[28]
-    kept_jacobian_0 = w[29]
-    kept_jacobian_1 = w[30]
-    kept_momentum_0 = w[31]
-    kept_momentum_1 = w[32]
-    kept_velocity_0 = w[33]
-    kept_velocity_1 = w[34]
-    kept_impulse_0 = w[35]
+    kept_factor_0 = w[28]
+    kept_factor_1 = w[29]
+    kept_factor_2 = w[30]
+    kept_penalties_0 = w[31]
+    kept_jacobian_0 = w[32]
+    kept_jacobian_1 = w[33]
+    kept_momentum_0 = w[34]
+    kept_momentum_1 = w[35]
+    kept_velocity_0 = w[36]
+    kept_velocity_1 = w[37]
+    kept_impulse_0 = w[38]
     # intermediate terms
-    s0 = kept_impulse_0 + p3*(kept_jacobian_0*kept_velocity_0 + kept_jacobian_1*kept_velocity_1)
+    s0 = kept_impulse_0 + kept_penalties_0*(kept_jacobian_0*kept_velocity_0 + kept_jacobian_1*kept_velocity_1)
     s1 = kept_momentum_0 - p0*kept_velocity_0 - kept_jacobian_0*s0
     s2 = kept_factor_2*(kept_momentum_1 - p0*kept_velocity_1 - kept_jacobian_1*s0 - kept_factor_0*s1)
     s3 = kept_factor_1*s1 - kept_factor_0*s2
     s4 = kept_velocity_0 + s3
     s5 = kept_velocity_1 + s2
     # outputs
-    w[33] = s4
-    w[34] = s5
-    w[35] = kept_impulse_0 + p3*(kept_jacobian_0*s4 + kept_jacobian_1*s5)
+    w[36] = s4
+    w[37] = s5
+    w[38] = kept_impulse_0 + kept_penalties_0*(kept_jacobian_0*s4 + kept_jacobian_1*s5)
     w[9] = math.sqrt((s3*s3 + s2*s2)/(1.0 + s4*s4 + s5*s5))
     return 0
 
@@ -120,9 +123,9 @@ def finish(t, y, p, w, ydot):
     """rates of the state, and power: 5 operations, 5 before sharing."""
     # inputs
     p5 = p[5]
-    kept_velocity_0 = w[33]
-    kept_velocity_1 = w[34]
-    kept_impulse_0 = w[35]
+    kept_velocity_0 = w[36]
+    kept_velocity_1 = w[37]
+    kept_impulse_0 = w[38]
     p6 = p[6]
     # outputs
     ydot[0] = kept_velocity_0
@@ -143,13 +146,13 @@ def geometry(t, y, p, w):
     # intermediate terms
     s0 = 0.5*(q0*q0 + q1*q1 - 1.0)
     # outputs
-    w[16] = s0
+    w[18] = s0
     w[0] = math.sqrt(s0*s0)
-    w[23] = q0
-    w[24] = q1
+    w[25] = q0
+    w[26] = q1
     w[5] = 1.0
     w[4] = 1.0
-    w[36] = 1.0/(q0*(q0*p6) + q1*(q1*p6))
+    w[39] = 1.0/(q0*(q0*p6) + q1*(q1*p6))
     return 0
 
 
@@ -158,15 +161,15 @@ def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 7 operations, 8 before sharing."""
     # inputs
     p6 = p[6]
-    law_reciprocal_0 = w[36]
-    residual_0 = w[16]
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
+    law_reciprocal_0 = w[39]
+    residual_0 = w[18]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
     # intermediate terms
     s0 = law_reciprocal_0*residual_0
     # outputs
-    w[19] = -p6*(s0*jacobian_0)
-    w[20] = -p6*(s0*jacobian_1)
+    w[21] = -p6*(s0*jacobian_0)
+    w[22] = -p6*(s0*jacobian_1)
     return 0
 
 

@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = augmented
 p[3] alpha (default 5.0)
 p[4] beta (default 5.0)
@@ -14,7 +14,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,34 +37,37 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def begin(t, y, p, w):
-    """matrices and start of the iteration: 28 operations, 42 before sharing."""
+    """matrices and start of the iteration: 30 operations, 58 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
+    mask_0 = w[16]
     p6 = p[6]
     p7 = p[7]
     p8 = p[8]
     p9 = p[9]
     # intermediate terms
-    s0 = q0*p6
-    s1 = q1*s0
-    s2 = 1.0/(p0 + q0*s0)
-    s3 = s1*s2
+    s0 = p6*(1.0*(1.0 > mask_0))
+    s1 = q0*s0
+    s2 = q1*s1
+    s3 = 1.0/(p0 + q0*s1)
+    s4 = s2*s3
     # outputs
-    w[26] = s3
-    w[27] = s2
-    w[28] = 1.0/(p0 + q1*(q1*p6) - s1*s3)
-    w[29] = q0
-    w[30] = q1
-    w[31] = p5
-    w[32] = -(v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p7 + 0.5*(q0*q0 + q1*q1 - 1.0)*p8)
-    w[33] = 0.0
-    w[34] = p9
-    w[13] = 0.0
+    w[28] = s4
+    w[29] = s3
+    w[30] = 1.0/(p0 + q1*(q1*s0) - s2*s4)
+    w[31] = s0
+    w[32] = q0
+    w[33] = q1
+    w[34] = p5
+    w[35] = -(v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p7 + 0.5*(q0*q0 + q1*q1 - 1.0)*p8)
+    w[36] = 0.0
+    w[37] = p9
+    w[15] = 0.0
     return 0
 
 
@@ -73,19 +76,19 @@ def iterate(p, w):
     """one iteration of baumgarte: 36 operations, 359 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
-    p6 = p[6]
-    kept_factor_0 = w[26]
-    kept_factor_1 = w[27]
-    kept_factor_2 = w[28]
-    kept_jacobian_0 = w[29]
-    kept_jacobian_1 = w[30]
-    kept_force_0 = w[31]
-    kept_target_0 = w[32]
-    kept_acceleration_0 = w[33]
-    kept_acceleration_1 = w[34]
-    multipliers_0 = w[13]
+    kept_factor_0 = w[28]
+    kept_factor_1 = w[29]
+    kept_factor_2 = w[30]
+    kept_penalties_0 = w[31]
+    kept_jacobian_0 = w[32]
+    kept_jacobian_1 = w[33]
+    kept_force_0 = w[34]
+    kept_target_0 = w[35]
+    kept_acceleration_0 = w[36]
+    kept_acceleration_1 = w[37]
+    multipliers_0 = w[15]
     # intermediate terms
-    s0 = p6*(kept_jacobian_0*kept_acceleration_0 + kept_jacobian_1*kept_acceleration_1 - kept_target_0)
+    s0 = kept_penalties_0*(kept_jacobian_0*kept_acceleration_0 + kept_jacobian_1*kept_acceleration_1 - kept_target_0)
     s1 = multipliers_0 + s0
     s2 = p0*kept_acceleration_0 + kept_jacobian_0*s1
     s3 = kept_factor_2*(kept_force_0 - p0*kept_acceleration_1 - kept_jacobian_1*s1 + kept_factor_0*s2)
@@ -93,9 +96,9 @@ def iterate(p, w):
     s5 = kept_acceleration_0 - s4
     s6 = kept_acceleration_1 + s3
     # outputs
-    w[33] = s5
-    w[34] = s6
-    w[13] = multipliers_0 + p6*(kept_jacobian_0*s5 + kept_jacobian_1*s6 - kept_target_0)
+    w[36] = s5
+    w[37] = s6
+    w[15] = multipliers_0 + kept_penalties_0*(kept_jacobian_0*s5 + kept_jacobian_1*s6 - kept_target_0)
     w[9] = math.sqrt((s4*s4 + s3*s3)/(1.0 + s5*s5 + s6*s6))
     return 0
 
@@ -106,8 +109,8 @@ def finish(t, y, p, w, ydot):
     # inputs
     v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
-    kept_acceleration_0 = w[33]
-    kept_acceleration_1 = w[34]
+    kept_acceleration_0 = w[36]
+    kept_acceleration_1 = w[37]
     # outputs
     ydot[0] = v0
     ydot[1] = v1

@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 p[3] alpha (default 5.0)
 p[4] beta (default 5.0)
@@ -14,7 +14,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -41,11 +41,11 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by baumgarte: 32 operations, 82 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p6 = p[6]
     p7 = p[7]
     p8 = p[8]
@@ -58,7 +58,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p8*(q0*s0)
     ydot[3] = -p8*(p5 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
@@ -68,8 +68,8 @@ def residual(t, y, k, p, w, r):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
     p6 = p[6]
@@ -85,7 +85,7 @@ def residual(t, y, k, p, w, r):
     r[2] = p0*k2 + q0*k4
     r[3] = p5 + p0*k3 + q1*k4
     r[4] = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p6 + 0.5*(q0*q0 + q1*q1 - 1.0)*p7 + q0*k2 + q1*k3
-    w[12] = 0.0
+    w[14] = 0.0
     return 0
 
 
@@ -95,8 +95,8 @@ def tangent(t, y, k, p, w, j):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p6 = p[6]
     p7 = p[7]

@@ -2,7 +2,7 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 p[3] tolerance (default 1e-13)
 """
@@ -13,9 +13,10 @@ from numba import njit
 
 from .model import measure
 
-CHANGE = 19  # sections of w
-DEPENDENT = 26
-DENSE = 28
+CHANGE = 21  # sections of w
+MASS = 23
+DEPENDENT = 28
+DENSE = 30
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -38,11 +39,11 @@ def accelerate(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by coordinate-partitioning: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p5 = p[5]
     p6 = p[6]
     # intermediate terms
@@ -53,7 +54,7 @@ def accelerate(t, y, p, w, iw, ydot):
     ydot[2] = -p5*(q0*s0)
     ydot[3] = -p5*(p4 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
@@ -61,35 +62,36 @@ def accelerate(t, y, p, w, iw, ydot):
 def expand(p, w):
     """D as a dense matrix: 0 operations, 0 before sharing."""
     # inputs
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
     # outputs
-    w[28] = jacobian_0
-    w[29] = jacobian_1
+    w[30] = jacobian_0
+    w[31] = jacobian_1
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D P D^T: 18 operations, 42 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of D P D^T: 18 operations, 43 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
-    dependent_0 = w[26]
-    dependent_1 = w[27]
+    dependent_0 = w[28]
+    dependent_1 = w[29]
     # intermediate terms
     s0 = q0*q0 + q1*q1
     s1 = 0.5*(s0 - 1.0)
-    s2 = q0*(q0*dependent_0) + q1*(q1*dependent_1)
+    s2 = 1.0/s0
+    s3 = q0*(q0*dependent_0) + q1*(q1*dependent_1)
     # outputs
-    w[16] = s1
+    w[18] = s1
     w[0] = math.sqrt(s1*s1)
-    w[23] = q0
-    w[24] = q1
+    w[25] = q0
+    w[26] = q1
     w[5] = 1.0
     w[4] = 1.0
-    w[10] = min(1.0, s2/s0 + 1.0*(1e-12*s0 > s0))
-    w[30] = 1.0/s2
+    w[10] = s2*s3 + 1.0 - s0*s2
+    w[32] = 1.0/s3
     return 0
 
 
@@ -97,23 +99,37 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 7 operations, 8 before sharing."""
     # inputs
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
-    dependent_0 = w[26]
-    dependent_1 = w[27]
-    law_reciprocal_0 = w[30]
-    residual_0 = w[16]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
+    dependent_0 = w[28]
+    dependent_1 = w[29]
+    law_reciprocal_0 = w[32]
+    residual_0 = w[18]
     # intermediate terms
     s0 = law_reciprocal_0*residual_0
     # outputs
-    w[19] = -dependent_0*(jacobian_0*s0)
-    w[20] = -dependent_1*(jacobian_1*s0)
+    w[21] = -dependent_0*(jacobian_0*s0)
+    w[22] = -dependent_1*(jacobian_1*s0)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def reduce(w, step, column):
+    """Make a column of the dense D a unit vector with its 1 in row `step` (Gauss, Jordan)."""
+    pivot = w[DENSE + 2 * step + column]
+    for j in range(2):
+        w[DENSE + 2 * step + j] /= pivot
+    for i in range(1):
+        factor = w[DENSE + 2 * i + column]
+        if i != step and factor != 0.0:
+            for j in range(2):
+                w[DENSE + 2 * i + j] -= factor * w[DENSE + 2 * step + j]
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def choose(p, w, iw):
-    """Choose the dependent columns of D by elimination with complete pivoting."""
+    """Choose the dependent columns of D: by complete pivoting, then by exchange while that enlarges their determinant."""
     for k in range(2):
         w[DENSE + k] = 0.0
     expand(p, w)
@@ -125,6 +141,7 @@ def choose(p, w, iw):
             total += w[DENSE + 2 * i + j] ** 2
         for j in range(2):
             w[DENSE + 2 * i + j] /= math.sqrt(total)
+    rank = 0
     for step in range(1):
         largest, row, column = 0.0, -1, -1
         for i in range(step, 1):
@@ -137,11 +154,22 @@ def choose(p, w, iw):
         for j in range(2):
             a, b = DENSE + 2 * step + j, DENSE + 2 * row + j
             w[a], w[b] = w[b], w[a]
-        for i in range(step + 1, 1):
-            factor = w[DENSE + 2 * i + column] / w[DENSE + 2 * step + column]
-            if factor != 0.0:
-                for j in range(2):
-                    w[DENSE + 2 * i + j] -= factor * w[DENSE + 2 * step + j]
+        reduce(w, step, column)
+        rank += 1
+    # what is left in the other columns is how fast dependent coordinates follow independent ones, with the sign changed
+    for exchange in range(2):
+        largest, row, column = 1.01, -1, -1
+        for i in range(rank):
+            for j in range(2):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 2 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 2 * i + j]), i, j
+        if row < 0:
+            break
+        for j in range(2):
+            if w[DEPENDENT + j] == 1.0 and w[DENSE + 2 * row + j] != 0.0:
+                w[DEPENDENT + j] = 0.0
+        w[DEPENDENT + column] = 1.0
+        reduce(w, row, column)
     iw[7] += 1
     return 0
 
@@ -185,15 +213,48 @@ def rhs(t, y, p, w, iw, ydot):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def release(w):
+    """Make all coordinates dependent, weighted by M^-1: near a singular position no partition determines the motion."""
+    largest = 0.0
+    for j in range(2):
+        largest = max(largest, w[MASS + j])
+    for j in range(2):
+        w[DEPENDENT + j] = 1.0 / max(w[MASS + j], 1e-6 * largest)  # massless bodies give way, within reason
+    w[11] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Close an accepted state, choose another partition where this one has become poor, and measure."""
+    poor = False
     if iw[5] == 0:
         geometry(t, y, p, w)
-        current = w[10]
-        if iw[7] == 0 or current < 0.1 * w[11]:
-            choose(p, w, iw)
-            geometry(t, y, p, w)
-            w[11] = w[10]
+        # the root of the smallest pivot is the sine of an angle: it says whether the next step meets a singular position
+        sine = math.sqrt(max(w[4], 0.0))
+        fall = max(w[13] - sine, 0.0)
+        w[13] = sine
+        first = iw[7] == 0
+        released = w[11] == 0.0 and not first
+        if sine - fall < 0.01:
+            if not released:
+                release(w)
+                iw[7] += 1
+        else:
+            quality = w[10]
+            w[11] = max(w[11], quality)
+            ahead = quality - max(w[12] - quality, 0.0)
+            poor = released or ahead < 0.3 * w[11]
+            w[12] = quality
+            if first:
+                choose(p, w, iw)
+                geometry(t, y, p, w)
+                w[11] = w[10]
     bits = close(t, y, p, w, iw)
+    if poor:  # after closing: the partition that was integrated with is better for it than one from a singular position
+        choose(p, w, iw)
+        geometry(t, y, p, w)
+        w[11] = w[10]
+        w[12] = w[10]
     measure(t, y, p, w)
     return bits

@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = identity
 p[3] tolerance (default 1e-13)
@@ -14,7 +14,7 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,11 +37,11 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by direct-correction: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p5 = p[5]
     p6 = p[6]
     # intermediate terms
@@ -52,7 +52,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p5*(q0*s0)
     ydot[3] = -p5*(p4 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 

@@ -2,7 +2,7 @@
 
 trapezoidal rule in positions with iterated multipliers, velocities and accelerations projected (ALI3-P)
 Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73; Dopico, Gonzalez, Cuadrado, Kovecses, J. Comput. Nonlinear Dyn. 9 (2014) 041006
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 p[3] penalty (default 1000000000.0)
 """
@@ -13,7 +13,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -36,11 +36,11 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by index3-augmented-lagrangian: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p5 = p[5]
     p6 = p[6]
     # intermediate terms
@@ -51,7 +51,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p5*(q0*s0)
     ydot[3] = -p5*(p4 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
@@ -61,8 +61,8 @@ def residual(t, y, k, p, w, r):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
     k0 = k[0]
@@ -78,7 +78,7 @@ def residual(t, y, k, p, w, r):
     r[4] = 0.5*(q0*q0 + q1*q1 - 1.0)
     r[5] = q0*v0 + q1*v1
     r[6] = v0*v0 + v1*v1 + q0*k2 + q1*k3
-    w[12] = 0.0
+    w[14] = 0.0
     return 0
 
 

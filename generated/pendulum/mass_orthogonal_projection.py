@@ -2,7 +2,7 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 p[3] penalty (default 10000000.0)
 p[4] tolerance (default 1e-13)
@@ -14,10 +14,11 @@ from numba import njit
 
 from .model import measure
 
-RESIDUAL = 16  # sections of w
-CHANGE = 19
-MOVED = 29
-FORCE_OF_CONSTRAINTS = 31
+MASK = 16  # sections of w
+RESIDUAL = 18
+CHANGE = 21
+MOVED = 31
+FORCE_OF_CONSTRAINTS = 33
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -40,11 +41,11 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by mass-orthogonal-projection: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p6 = p[6]
     p7 = p[7]
     # intermediate terms
@@ -55,65 +56,68 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p6*(q0*s0)
     ydot[3] = -p6*(p5 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 19 operations, 43 before sharing."""
+    """Phi, nu, D, the pivots of D D^T that decide rank, and the factorisation of M + a D^T D: 21 operations, 57 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
     p3 = p[3]
+    mask_0 = w[16]
     # intermediate terms
     s0 = 0.5*(q0*q0 + q1*q1 - 1.0)
-    s1 = q0*p3
-    s2 = q1*s1
-    s3 = 1.0/(p0 + q0*s1)
-    s4 = s2*s3
+    s1 = p3*(1.0*(1.0 > mask_0))
+    s2 = q0*s1
+    s3 = q1*s2
+    s4 = 1.0/(p0 + q0*s2)
+    s5 = s3*s4
     # outputs
-    w[16] = s0
+    w[18] = s0
     w[0] = math.sqrt(s0*s0)
-    w[23] = q0
-    w[24] = q1
+    w[25] = q0
+    w[26] = q1
     w[5] = 1.0
     w[4] = 1.0
-    w[26] = s4
-    w[27] = s3
-    w[28] = 1.0/(p0 + q1*(q1*p3) - s2*s4)
+    w[28] = s5
+    w[29] = s4
+    w[30] = 1.0/(p0 + q1*(q1*s1) - s3*s5)
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """one iteration of the mass-orthogonal projection: 18 operations, 93 before sharing."""
+    """one iteration of the mass-orthogonal projection: 20 operations, 135 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     p3 = p[3]
-    residual_0 = w[16]
-    moved_0 = w[29]
-    moved_1 = w[30]
-    force_of_constraints_0 = w[31]
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
-    law_lower_0 = w[26]
-    law_reciprocal_0 = w[27]
-    law_reciprocal_1 = w[28]
+    mask_0 = w[16]
+    residual_0 = w[18]
+    moved_0 = w[31]
+    moved_1 = w[32]
+    force_of_constraints_0 = w[33]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
+    law_lower_0 = w[28]
+    law_reciprocal_0 = w[29]
+    law_reciprocal_1 = w[30]
     # intermediate terms
-    s0 = p3*residual_0
+    s0 = p3*(1.0*(1.0 > mask_0))*residual_0
     s1 = force_of_constraints_0 + s0
     s2 = s0 + s1
     s3 = p0*moved_0 + s2*jacobian_0
     s4 = law_reciprocal_1*(s3*law_lower_0 - (p0*moved_1 + s2*jacobian_1))
     s5 = s3*law_reciprocal_0 + law_lower_0*s4
     # outputs
-    w[19] = -s5
-    w[20] = s4
-    w[29] = moved_0 - s5
-    w[30] = moved_1 + s4
-    w[31] = s1
+    w[21] = -s5
+    w[22] = s4
+    w[31] = moved_0 - s5
+    w[32] = moved_1 + s4
+    w[33] = s1
     return 0
 
 
@@ -130,7 +134,7 @@ def accept(t, y, p, w, iw):
         violation = w[0]
         if round == 0:
             for i in range(1):
-                w[FORCE_OF_CONSTRAINTS + i] = -p[3] * w[RESIDUAL + i]
+                w[FORCE_OF_CONSTRAINTS + i] = -p[3] * w[RESIDUAL + i] if w[MASK + i] == 0.0 else 0.0
         if violation <= tolerance or (violation > 0.9 * last and violation <= 1e4 * tolerance):
             break
         last = violation
@@ -150,7 +154,7 @@ def accept(t, y, p, w, iw):
         violation = w[1]
         if round == 0:
             for i in range(1):
-                w[FORCE_OF_CONSTRAINTS + i] = -p[3] * w[RESIDUAL + i]
+                w[FORCE_OF_CONSTRAINTS + i] = -p[3] * w[RESIDUAL + i] if w[MASK + i] == 0.0 else 0.0
         if violation <= tolerance or violation > 0.9 * last:
             break
         last = violation

@@ -1,6 +1,6 @@
 """Model `pendulum`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 2 coordinates, 2 velocities, 1 constraint rows, 1 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -47,45 +47,45 @@ def geometry(t, y, p, w):
     s0 = q0*q0 + q1*q1
     s1 = 0.5*(s0 - 1.0)
     # outputs
-    w[16] = s1
+    w[18] = s1
     w[0] = math.sqrt(s1*s1)
-    w[23] = q0
-    w[24] = q1
+    w[25] = q0
+    w[26] = q1
     w[5] = 1.0
     w[4] = 1.0
-    w[25] = 1.0/s0
+    w[27] = 1.0/s0
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 5 operations, 6 before sharing."""
     # inputs
-    reciprocal_0 = w[25]
-    residual_0 = w[16]
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
+    reciprocal_0 = w[27]
+    residual_0 = w[18]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
     # intermediate terms
     s0 = reciprocal_0*residual_0
     # outputs
-    w[19] = -s0*jacobian_0
-    w[20] = -s0*jacobian_1
+    w[21] = -s0*jacobian_0
+    w[22] = -s0*jacobian_1
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
     """D v - nu with the D and nu that `geometry` left, and the energies: 11 operations, 17 before sharing."""
     # inputs
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p1 = p[1]
     p2 = p[2]
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
     # intermediate terms
     s0 = v0*jacobian_0 + v1*jacobian_1
     # outputs
-    w[16] = s0
+    w[18] = s0
     w[1] = math.sqrt(s0*s0)
     w[2] = v0*v0*p1 + v1*v1*p1
     w[3] = q1*p2
@@ -96,8 +96,8 @@ def observe(t, y, p, w, ydot, out):
     """D v' - gamma, then joint coordinates and their rates: 7 operations, 7 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     ydot_2 = ydot[2]
     ydot_3 = ydot[3]
@@ -111,6 +111,6 @@ def masses(p, w):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     # outputs
-    w[21] = p0
-    w[22] = p0
+    w[23] = p0
+    w[24] = p0
     return 0

@@ -2,7 +2,7 @@
 
 accelerations in a tangent basis that is carried on from step to step
 Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 p[3] tolerance (default 1e-13)
 """
 
@@ -12,15 +12,15 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-CHANGE = 19  # sections of w
-DEPENDENT = 26
-DENSE = 28
-BASIS = 30
-TRIAL = 34
-SMALL = 38
-REDUCED = 42
-FORCE = 44
-WEIGHED = 46
+CHANGE = 21  # sections of w
+DEPENDENT = 28
+DENSE = 30
+BASIS = 32
+TRIAL = 36
+SMALL = 40
+REDUCED = 44
+FORCE = 46
+WEIGHED = 48
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -40,11 +40,11 @@ def prepare(p):
 def expand(p, w):
     """D as a dense matrix: 0 operations, 0 before sharing."""
     # inputs
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
     # outputs
-    w[28] = jacobian_0
-    w[29] = jacobian_1
+    w[30] = jacobian_0
+    w[31] = jacobian_1
     return 0
 
 
@@ -56,9 +56,9 @@ def aim(t, y, p, w):
     v1 = y[3]  # bob.vy [m/s]
     p4 = p[4]
     # outputs
-    w[16] = v0*v0 + v1*v1
-    w[44] = 0.0
-    w[45] = p4
+    w[18] = v0*v0 + v1*v1
+    w[46] = 0.0
+    w[47] = p4
     return 0
 
 
@@ -66,12 +66,12 @@ def aim(t, y, p, w):
 def strike(w):
     """the section `residual` = D times `change`: 3 operations, 3 before sharing."""
     # inputs
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
-    change_0 = w[19]
-    change_1 = w[20]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
+    change_0 = w[21]
+    change_1 = w[22]
     # outputs
-    w[16] = jacobian_0*change_0 + jacobian_1*change_1
+    w[18] = jacobian_0*change_0 + jacobian_1*change_1
     return 0
 
 
@@ -80,11 +80,11 @@ def weigh(p, w):
     """the section `weighed` = M times `change`: 2 operations, 2 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
-    change_0 = w[19]
-    change_1 = w[20]
+    change_0 = w[21]
+    change_1 = w[22]
     # outputs
-    w[46] = p0*change_0
-    w[47] = p0*change_1
+    w[48] = p0*change_0
+    w[49] = p0*change_1
     return 0
 
 
@@ -96,22 +96,36 @@ def finish(t, y, p, w, ydot):
     v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p5 = p[5]
-    jacobian_0 = w[23]
-    jacobian_1 = w[24]
-    reciprocal_0 = w[25]
+    jacobian_0 = w[25]
+    jacobian_1 = w[26]
+    reciprocal_0 = w[27]
     ydot_2 = ydot[2]
     ydot_3 = ydot[3]
     # outputs
     ydot[0] = v0
     ydot[1] = v1
-    w[13] = -reciprocal_0*(jacobian_0*(p0*ydot_2) + jacobian_1*(p5 + p0*ydot_3))
+    w[15] = -reciprocal_0*(jacobian_0*(p0*ydot_2) + jacobian_1*(p5 + p0*ydot_3))
     ydot[4] = 0.0
     return 0
 
 
 @njit(error_model="numpy", fastmath={"contract"})
+def reduce(w, step, column):
+    """Make a column of the dense D a unit vector with its 1 in row `step` (Gauss, Jordan)."""
+    pivot = w[DENSE + 2 * step + column]
+    for j in range(2):
+        w[DENSE + 2 * step + j] /= pivot
+    for i in range(1):
+        factor = w[DENSE + 2 * i + column]
+        if i != step and factor != 0.0:
+            for j in range(2):
+                w[DENSE + 2 * i + j] -= factor * w[DENSE + 2 * step + j]
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
 def choose(p, w, iw):
-    """Choose the dependent columns of D by elimination with complete pivoting."""
+    """Choose the dependent columns of D: by complete pivoting, then by exchange while that enlarges their determinant."""
     for k in range(2):
         w[DENSE + k] = 0.0
     expand(p, w)
@@ -123,6 +137,7 @@ def choose(p, w, iw):
             total += w[DENSE + 2 * i + j] ** 2
         for j in range(2):
             w[DENSE + 2 * i + j] /= math.sqrt(total)
+    rank = 0
     for step in range(1):
         largest, row, column = 0.0, -1, -1
         for i in range(step, 1):
@@ -135,11 +150,22 @@ def choose(p, w, iw):
         for j in range(2):
             a, b = DENSE + 2 * step + j, DENSE + 2 * row + j
             w[a], w[b] = w[b], w[a]
-        for i in range(step + 1, 1):
-            factor = w[DENSE + 2 * i + column] / w[DENSE + 2 * step + column]
-            if factor != 0.0:
-                for j in range(2):
-                    w[DENSE + 2 * i + j] -= factor * w[DENSE + 2 * step + j]
+        reduce(w, step, column)
+        rank += 1
+    # what is left in the other columns is how fast dependent coordinates follow independent ones, with the sign changed
+    for exchange in range(2):
+        largest, row, column = 1.01, -1, -1
+        for i in range(rank):
+            for j in range(2):
+                if w[DEPENDENT + j] == 0.0 and abs(w[DENSE + 2 * i + j]) > largest:
+                    largest, row, column = abs(w[DENSE + 2 * i + j]), i, j
+        if row < 0:
+            break
+        for j in range(2):
+            if w[DEPENDENT + j] == 1.0 and w[DENSE + 2 * row + j] != 0.0:
+                w[DEPENDENT + j] = 0.0
+        w[DEPENDENT + column] = 1.0
+        reduce(w, row, column)
     iw[7] += 1
     return 0
 

@@ -2,7 +2,7 @@
 
 constraints as stiff elements; the error falls like 1 / penalty
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 p[3] penalty (default 1000000000.0)
 p[4] omega (default 10.0)
 p[5] mu (default 1.0)
@@ -14,7 +14,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -38,34 +38,36 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers by penalty: 43 operations, 323 before sharing."""
+    """q', v', power and multipliers by penalty: 45 operations, 405 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p6 = p[6]
     p3 = p[3]
+    mask_0 = w[16]
     p7 = p[7]
     p8 = p[8]
     # intermediate terms
-    s0 = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p7 + 0.5*(q0*q0 + q1*q1 - 1.0)*p8
-    s1 = p3*s0
-    s2 = q0*s1
-    s3 = q0*p3
-    s4 = q1*s3
-    s5 = 1.0/(p0 + q0*s3)
-    s6 = s4*s5
-    s7 = 1.0/(p0 + q1*(q1*p3) - s4*s6)*(s2*s6 - (p6 + q1*s1))
-    s8 = s2*s5 + s6*s7
+    s0 = p3*(1.0*(1.0 > mask_0))
+    s1 = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p7 + 0.5*(q0*q0 + q1*q1 - 1.0)*p8
+    s2 = s0*s1
+    s3 = q0*s2
+    s4 = q0*s0
+    s5 = q1*s4
+    s6 = 1.0/(p0 + q0*s4)
+    s7 = s5*s6
+    s8 = 1.0/(p0 + q1*(q1*s0) - s5*s7)*(s3*s7 - (p6 + q1*s2))
+    s9 = s3*s6 + s7*s8
     # outputs
     ydot[0] = v0
     ydot[1] = v1
-    ydot[2] = -s8
-    ydot[3] = s7
+    ydot[2] = -s9
+    ydot[3] = s8
     ydot[4] = 0.0
-    w[13] = p3*(s0 + q1*s7 - q0*s8)
+    w[15] = s0*(s1 + q1*s8 - q0*s9)
     return 0
 
 
@@ -75,8 +77,8 @@ def residual(t, y, k, p, w, r):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p6 = p[6]
     p7 = p[7]
@@ -93,7 +95,7 @@ def residual(t, y, k, p, w, r):
     r[2] = p0*k2 + q0*k4
     r[3] = p6 + p0*k3 + q1*k4
     r[4] = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p7 + 0.5*(q0*q0 + q1*q1 - 1.0)*p8 + q0*k2 + q1*k3 - p9*k4
-    w[12] = 0.0
+    w[14] = 0.0
     return 0
 
 
@@ -103,8 +105,8 @@ def tangent(t, y, k, p, w, j):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p7 = p[7]
     p8 = p[8]

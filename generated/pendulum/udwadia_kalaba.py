@@ -2,7 +2,7 @@
 
 accelerations closest to the free ones in the metric of M, by a pseudoinverse
 Udwadia, Kalaba, Proc. R. Soc. Lond. A 439 (1992) 407-410, doi 10.1098/rspa.1992.0158
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 """
 
 import math
@@ -11,7 +11,7 @@ from numba import njit
 
 from .model import geometry, measure
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -30,10 +30,10 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by udwadia-kalaba: 20 operations, 54 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p3 = p[3]
     p4 = p[4]
     # intermediate terms
@@ -46,7 +46,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p3*(s0*s2)
     ydot[3] = -(p4 + p3*(s1*s2))
     ydot[4] = 0.0
-    w[13] = s2
+    w[15] = s2
     return 0
 
 

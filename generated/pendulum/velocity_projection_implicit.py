@@ -2,7 +2,7 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 1, templates 2b445adb8ae4f174
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = identity
 """
@@ -13,7 +13,7 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-CHANGE = 19  # sections of w
+CHANGE = 21  # sections of w
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -36,11 +36,11 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by velocity-projection: 20 operations, 46 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p3 = p[3]
-    mask_0 = w[14]
+    mask_0 = w[16]
     p4 = p[4]
     p5 = p[5]
     # intermediate terms
@@ -51,7 +51,7 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[2] = -p4*(q0*s0)
     ydot[3] = -p4*(p3 + q1*s0)
     ydot[4] = 0.0
-    w[13] = s0
+    w[15] = s0
     return 0
 
 
@@ -61,8 +61,8 @@ def residual(t, y, k, p, w, r):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p3 = p[3]
     k0 = k[0]
@@ -76,7 +76,7 @@ def residual(t, y, k, p, w, r):
     r[2] = p0*k2 + q0*k4
     r[3] = p3 + p0*k3 + q1*k4
     r[4] = v0*v0 + v1*v1 + q0*k2 + q1*k3
-    w[12] = 0.0
+    w[14] = 0.0
     return 0
 
 
@@ -86,8 +86,8 @@ def tangent(t, y, k, p, w, j):
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
-    v0 = y[2]  # bob.vx [m/s]
     q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     k2 = k[2]
     k3 = k[3]

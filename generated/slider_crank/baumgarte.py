@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 2b445adb8ae4f174
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 2, templates a71b04144b412898
 option solver = elimination
 p[13] alpha (default 5.0)
 p[14] beta (default 5.0)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -62,34 +62,34 @@ def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by baumgarte; 1 where a pivot of S is suspicious: 277 operations, 170110 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
-    v1 = y[10]  # crank.vy [m/s]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
     q3 = y[3]  # rod.x [m]
-    v3 = y[12]  # rod.vx [m/s]
     q4 = y[4]  # rod.y [m]
-    v4 = y[13]  # rod.vy [m/s]
     q5 = y[5]  # rod.theta [rad]
+    v3 = y[12]  # rod.vx [m/s]
+    v4 = y[13]  # rod.vy [m/s]
     v5 = y[14]  # rod.omega [rad/s]
     q6 = y[6]  # slider.x [m]
-    v6 = y[15]  # slider.vx [m/s]
     q7 = y[7]  # slider.y [m]
-    v7 = y[16]  # slider.vy [m/s]
     q8 = y[8]  # slider.theta [rad]
+    v6 = y[15]  # slider.vx [m/s]
+    v7 = y[16]  # slider.vy [m/s]
     v8 = y[17]  # slider.omega [rad/s]
     p15 = p[15]
     p16 = p[16]
     p17 = p[17]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
-    mask_7 = w[28]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
+    mask_7 = w[30]
     p18 = p[18]
     p19 = p[19]
     p20 = p[20]
@@ -206,14 +206,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p24*(p17 + s78 + s82)
     ydot[17] = -2000.0*s83
     ydot[18] = 0.0
-    w[13] = s81
-    w[14] = s80
-    w[15] = s75
-    w[16] = s72
-    w[17] = s79
-    w[18] = s78
-    w[19] = s82
-    w[20] = s83
+    w[15] = s81
+    w[16] = s80
+    w[17] = s75
+    w[18] = s72
+    w[19] = s79
+    w[20] = s78
+    w[21] = s82
+    w[22] = s83
     return int(((((s47 < 1e-06*s30) | (s57 < 1e-06*s38)) | (s62 < 1e-06*s32)) | (s65 < 1e-06*s36)))
 
 

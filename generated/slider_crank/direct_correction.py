@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 2b445adb8ae4f174
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = identity
 p[13] tolerance (default 1e-13)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import geometry, measure, spread
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -57,13 +57,13 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by direct-correction; 1 where a pivot of S is suspicious: 214 operations, 156132 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # rod.theta [rad]
     v3 = y[12]  # rod.vx [m/s]
     v4 = y[13]  # rod.vy [m/s]
-    q5 = y[5]  # rod.theta [rad]
     v5 = y[14]  # rod.omega [rad/s]
     v6 = y[15]  # slider.vx [m/s]
     v7 = y[16]  # slider.vy [m/s]
@@ -71,13 +71,13 @@ def rhs(t, y, p, w, iw, ydot):
     p14 = p[14]
     p15 = p[15]
     p16 = p[16]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
@@ -182,14 +182,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p21*(p16 + s69 - s73)
     ydot[17] = 0.0
     ydot[18] = 0.0
-    w[13] = s72
-    w[14] = s71
-    w[15] = s66
-    w[16] = s63
-    w[17] = s70
-    w[18] = s69
-    w[19] = -s73
-    w[20] = 0.0
+    w[15] = s72
+    w[16] = s71
+    w[17] = s66
+    w[18] = s63
+    w[19] = s70
+    w[20] = s69
+    w[21] = -s73
+    w[22] = 0.0
     return int(((((s40 < 1e-06*s23) | (s50 < 1e-06*s31)) | (s55 < 1e-06*s25)) | (s58 < 1e-06*s29)))
 
 

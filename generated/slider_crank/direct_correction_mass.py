@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 2b445adb8ae4f174
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 2, templates a71b04144b412898
 option solver = elimination
 option weight = mass
 p[13] tolerance (default 1e-13)
@@ -14,10 +14,10 @@ from numba import njit
 
 from .model import measure
 
-MASK = 21  # sections of w
-SAVED = 29
-PIVOT = 53
-CHANGE = 61
+MASK = 23  # sections of w
+SAVED = 31
+PIVOT = 55
+CHANGE = 63
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -62,13 +62,13 @@ def prepare(p):
 def rhs(t, y, p, w, iw, ydot):
     """q', v', power and multipliers by direct-correction; 1 where a pivot of S is suspicious: 214 operations, 156132 before sharing."""
     # inputs
+    q2 = y[2]  # crank.theta [rad]
     v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
-    q2 = y[2]  # crank.theta [rad]
     v2 = y[11]  # crank.omega [rad/s]
+    q5 = y[5]  # rod.theta [rad]
     v3 = y[12]  # rod.vx [m/s]
     v4 = y[13]  # rod.vy [m/s]
-    q5 = y[5]  # rod.theta [rad]
     v5 = y[14]  # rod.omega [rad/s]
     v6 = y[15]  # slider.vx [m/s]
     v7 = y[16]  # slider.vy [m/s]
@@ -76,13 +76,13 @@ def rhs(t, y, p, w, iw, ydot):
     p14 = p[14]
     p15 = p[15]
     p16 = p[16]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_4 = w[25]
-    mask_5 = w[26]
-    mask_6 = w[27]
+    mask_0 = w[23]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_4 = w[27]
+    mask_5 = w[28]
+    mask_6 = w[29]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
@@ -187,14 +187,14 @@ def rhs(t, y, p, w, iw, ydot):
     ydot[16] = -p21*(p16 + s69 - s73)
     ydot[17] = 0.0
     ydot[18] = 0.0
-    w[13] = s72
-    w[14] = s71
-    w[15] = s66
-    w[16] = s63
-    w[17] = s70
-    w[18] = s69
-    w[19] = -s73
-    w[20] = 0.0
+    w[15] = s72
+    w[16] = s71
+    w[17] = s66
+    w[18] = s63
+    w[19] = s70
+    w[20] = s69
+    w[21] = -s73
+    w[22] = 0.0
     return int(((((s40 < 1e-06*s23) | (s50 < 1e-06*s31)) | (s55 < 1e-06*s25)) | (s58 < 1e-06*s29)))
 
 
@@ -211,10 +211,10 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_5 = w[26]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_5 = w[28]
     p17 = p[17]
     p18 = p[18]
     p19 = p[19]
@@ -319,48 +319,48 @@ def geometry(t, y, p, w):
     s92 = s66/s38
     s93 = s55/s39
     # outputs
-    w[37] = s2
-    w[38] = s4
-    w[39] = s7
-    w[40] = s9
-    w[41] = s10
-    w[42] = s11
-    w[43] = q7
-    w[44] = q8
+    w[39] = s2
+    w[40] = s4
+    w[41] = s7
+    w[42] = s9
+    w[43] = s10
+    w[44] = s11
+    w[45] = q7
+    w[46] = q8
     w[0] = math.sqrt(s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7 + q8*q8)
-    w[79] = s3
-    w[80] = s1
     w[81] = s3
-    w[82] = s8
-    w[83] = s1
-    w[84] = s6
-    w[85] = s8
+    w[82] = s1
+    w[83] = s3
+    w[84] = s8
+    w[85] = s1
     w[86] = s6
-    w[54] = s90
-    w[55] = s91
-    w[56] = s92
-    w[58] = s93
+    w[87] = s8
+    w[88] = s6
+    w[56] = s90
+    w[57] = s91
+    w[58] = s92
+    w[60] = s93
     w[5] = 1.0 + 1.0 + s58 + 1.0 + s67 + s64 + 1.0 + s47
     w[4] = min(min(min(min(1.0, mask_1 + s90), mask_2 + s91), mask_3 + s92), mask_5 + s93)
-    w[104] = p27
-    w[105] = s70
-    w[106] = s71
+    w[106] = p27
     w[107] = s70
-    w[108] = s76
-    w[109] = s77
-    w[110] = -s79
-    w[111] = s80
-    w[112] = -s81
-    w[113] = s85
-    w[114] = s86
-    w[115] = s89
-    w[116] = p26
-    w[117] = s68
-    w[118] = s75
-    w[119] = s78
-    w[120] = s84
-    w[121] = s88
-    w[122] = s67/(1.0 - s67 + p19 + s21 + s25 - s72 - s74*s77 - s26*s81 - s83*s86 - s87*s89)
+    w[108] = s71
+    w[109] = s70
+    w[110] = s76
+    w[111] = s77
+    w[112] = -s79
+    w[113] = s80
+    w[114] = -s81
+    w[115] = s85
+    w[116] = s86
+    w[117] = s89
+    w[118] = p26
+    w[119] = s68
+    w[120] = s75
+    w[121] = s78
+    w[122] = s84
+    w[123] = s88
+    w[124] = s67/(1.0 - s67 + p19 + s21 + s25 - s72 - s74*s77 - s26*s81 - s83*s86 - s87*s89)
     return 0
 
 
@@ -373,41 +373,41 @@ def spread(p, w):
     p19 = p[19]
     p20 = p[20]
     p21 = p[21]
-    law_lower_0 = w[104]
-    law_lower_1 = w[105]
-    law_lower_2 = w[106]
-    law_lower_3 = w[107]
-    law_lower_4 = w[108]
-    law_lower_5 = w[109]
-    law_lower_6 = w[110]
-    law_lower_7 = w[111]
-    law_lower_8 = w[112]
-    law_lower_9 = w[113]
-    law_lower_10 = w[114]
-    law_lower_11 = w[115]
-    law_reciprocal_0 = w[116]
-    law_reciprocal_1 = w[117]
-    law_reciprocal_2 = w[118]
-    law_reciprocal_3 = w[119]
-    law_reciprocal_4 = w[120]
-    law_reciprocal_5 = w[121]
-    law_reciprocal_6 = w[122]
-    residual_0 = w[37]
-    residual_1 = w[38]
-    residual_2 = w[39]
-    residual_3 = w[40]
-    residual_4 = w[41]
-    residual_5 = w[42]
-    residual_6 = w[43]
-    residual_7 = w[44]
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
+    law_lower_0 = w[106]
+    law_lower_1 = w[107]
+    law_lower_2 = w[108]
+    law_lower_3 = w[109]
+    law_lower_4 = w[110]
+    law_lower_5 = w[111]
+    law_lower_6 = w[112]
+    law_lower_7 = w[113]
+    law_lower_8 = w[114]
+    law_lower_9 = w[115]
+    law_lower_10 = w[116]
+    law_lower_11 = w[117]
+    law_reciprocal_0 = w[118]
+    law_reciprocal_1 = w[119]
+    law_reciprocal_2 = w[120]
+    law_reciprocal_3 = w[121]
+    law_reciprocal_4 = w[122]
+    law_reciprocal_5 = w[123]
+    law_reciprocal_6 = w[124]
+    residual_0 = w[39]
+    residual_1 = w[40]
+    residual_2 = w[41]
+    residual_3 = w[42]
+    residual_4 = w[43]
+    residual_5 = w[44]
+    residual_6 = w[45]
+    residual_7 = w[46]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
     # intermediate terms
     s0 = law_lower_1*residual_0 - residual_1
     s1 = law_lower_0*residual_6 - residual_5 + law_lower_6*residual_4
@@ -424,15 +424,15 @@ def spread(p, w):
     s12 = law_reciprocal_2*s0 - law_lower_4*s7 - law_lower_5*s4
     s13 = law_reciprocal_1*residual_0 + law_lower_1*s12 + law_lower_2*s7 + law_lower_3*s4
     # outputs
-    w[61] = p17*(s6 - s5 - s13)
-    w[62] = p17*(s12 - s4)
-    w[63] = p18*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)
-    w[64] = p19*(s7 + s11)
-    w[65] = p19*(s4 + s9 - s8)
-    w[66] = p20*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)
-    w[67] = -p21*s11
-    w[68] = p21*(s10 - (law_reciprocal_0*residual_6 + law_lower_0*s10))
-    w[69] = -residual_7
+    w[63] = p17*(s6 - s5 - s13)
+    w[64] = p17*(s12 - s4)
+    w[65] = p18*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)
+    w[66] = p19*(s7 + s11)
+    w[67] = p19*(s4 + s9 - s8)
+    w[68] = p20*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)
+    w[69] = -p21*s11
+    w[70] = p21*(s10 - (law_reciprocal_0*residual_6 + law_lower_0*s10))
+    w[71] = -residual_7
     return 0
 
 

@@ -1,6 +1,6 @@
 """Model `slider-crank`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 1, templates 2b445adb8ae4f174
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 2, templates a71b04144b412898
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -85,10 +85,10 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
-    mask_1 = w[22]
-    mask_2 = w[23]
-    mask_3 = w[24]
-    mask_5 = w[26]
+    mask_1 = w[24]
+    mask_2 = w[25]
+    mask_3 = w[26]
+    mask_5 = w[28]
     # intermediate terms
     s0 = 0.075*math.cos(q2)
     s1 = -s0
@@ -151,85 +151,85 @@ def geometry(t, y, p, w):
     s58 = s54/s23
     s59 = s42/s24
     # outputs
-    w[37] = s2
-    w[38] = s4
-    w[39] = s7
-    w[40] = s9
-    w[41] = s10
-    w[42] = s11
-    w[43] = q7
-    w[44] = q8
+    w[39] = s2
+    w[40] = s4
+    w[41] = s7
+    w[42] = s9
+    w[43] = s10
+    w[44] = s11
+    w[45] = q7
+    w[46] = q8
     w[0] = math.sqrt(s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7 + q8*q8)
-    w[79] = s3
-    w[80] = s1
     w[81] = s3
-    w[82] = s8
-    w[83] = s1
-    w[84] = s6
-    w[85] = s8
+    w[82] = s1
+    w[83] = s3
+    w[84] = s8
+    w[85] = s1
     w[86] = s6
-    w[54] = s56
-    w[55] = s57
-    w[56] = s58
-    w[58] = s59
+    w[87] = s8
+    w[88] = s6
+    w[56] = s56
+    w[57] = s57
+    w[58] = s58
+    w[60] = s59
     w[5] = 1.0 + 1.0 + s45 + 1.0 + s55 + s51 + 1.0 + s33
     w[4] = min(min(min(min(1.0, mask_1 + s56), mask_2 + s57), mask_3 + s58), mask_5 + s59)
-    w[87] = s27
-    w[88] = s28
     w[89] = s27
-    w[90] = s35
-    w[91] = s36
-    w[92] = s39
-    w[93] = s40
+    w[90] = s28
+    w[91] = s27
+    w[92] = s35
+    w[93] = s36
     w[94] = s39
-    w[95] = s47
-    w[96] = s48
-    w[97] = s53
-    w[98] = s25
-    w[99] = s34
-    w[100] = s37
-    w[101] = s46
-    w[102] = s52
-    w[103] = s55/(s54 + 1.0 - s55)
+    w[95] = s40
+    w[96] = s39
+    w[97] = s47
+    w[98] = s48
+    w[99] = s53
+    w[100] = s25
+    w[101] = s34
+    w[102] = s37
+    w[103] = s46
+    w[104] = s52
+    w[105] = s55/(s54 + 1.0 - s55)
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 75 operations, 1621 before sharing."""
     # inputs
-    lower_0 = w[87]
-    lower_1 = w[88]
-    lower_2 = w[89]
-    lower_3 = w[90]
-    lower_4 = w[91]
-    lower_5 = w[92]
-    lower_6 = w[93]
-    lower_7 = w[94]
-    lower_8 = w[95]
-    lower_9 = w[96]
-    lower_10 = w[97]
-    reciprocal_0 = w[98]
-    reciprocal_1 = w[99]
-    reciprocal_2 = w[100]
-    reciprocal_3 = w[101]
-    reciprocal_4 = w[102]
-    reciprocal_5 = w[103]
-    residual_0 = w[37]
-    residual_1 = w[38]
-    residual_2 = w[39]
-    residual_3 = w[40]
-    residual_4 = w[41]
-    residual_5 = w[42]
-    residual_6 = w[43]
-    residual_7 = w[44]
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
+    lower_0 = w[89]
+    lower_1 = w[90]
+    lower_2 = w[91]
+    lower_3 = w[92]
+    lower_4 = w[93]
+    lower_5 = w[94]
+    lower_6 = w[95]
+    lower_7 = w[96]
+    lower_8 = w[97]
+    lower_9 = w[98]
+    lower_10 = w[99]
+    reciprocal_0 = w[100]
+    reciprocal_1 = w[101]
+    reciprocal_2 = w[102]
+    reciprocal_3 = w[103]
+    reciprocal_4 = w[104]
+    reciprocal_5 = w[105]
+    residual_0 = w[39]
+    residual_1 = w[40]
+    residual_2 = w[41]
+    residual_3 = w[42]
+    residual_4 = w[43]
+    residual_5 = w[44]
+    residual_6 = w[45]
+    residual_7 = w[46]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = residual_6 - residual_5 + lower_5*residual_4
@@ -246,31 +246,31 @@ def spread(p, w):
     s12 = reciprocal_1*s0 - lower_3*s7 - lower_4*s4
     s13 = reciprocal_0*residual_0 + lower_0*s12 + lower_1*s7 + lower_2*s4
     # outputs
-    w[61] = s6 - s5 - s13
-    w[62] = s12 - s4
-    w[63] = s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4
-    w[64] = s7 + s11
-    w[65] = s4 + s9 - s8
-    w[66] = s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7
-    w[67] = -s11
-    w[68] = s10 - (residual_6 + s10)
-    w[69] = -residual_7
+    w[63] = s6 - s5 - s13
+    w[64] = s12 - s4
+    w[65] = s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4
+    w[66] = s7 + s11
+    w[67] = s4 + s9 - s8
+    w[68] = s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7
+    w[69] = -s11
+    w[70] = s10 - (residual_6 + s10)
+    w[71] = -residual_7
     return 0
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
     """D v - nu with the D and nu that `geometry` left, and the energies: 65 operations, 107 before sharing."""
     # inputs
-    v0 = y[9]  # crank.vx [m/s]
     q1 = y[1]  # crank.y [m]
+    v0 = y[9]  # crank.vx [m/s]
     v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
-    v3 = y[12]  # rod.vx [m/s]
     q4 = y[4]  # rod.y [m]
+    v3 = y[12]  # rod.vx [m/s]
     v4 = y[13]  # rod.vy [m/s]
     v5 = y[14]  # rod.omega [rad/s]
-    v6 = y[15]  # slider.vx [m/s]
     q7 = y[7]  # slider.y [m]
+    v6 = y[15]  # slider.vx [m/s]
     v7 = y[16]  # slider.vy [m/s]
     v8 = y[17]  # slider.omega [rad/s]
     p3 = p[3]
@@ -281,14 +281,14 @@ def measure(t, y, p, w):
     p8 = p[8]
     p9 = p[9]
     p10 = p[10]
-    jacobian_0 = w[79]
-    jacobian_1 = w[80]
-    jacobian_2 = w[81]
-    jacobian_3 = w[82]
-    jacobian_4 = w[83]
-    jacobian_5 = w[84]
-    jacobian_6 = w[85]
-    jacobian_7 = w[86]
+    jacobian_0 = w[81]
+    jacobian_1 = w[82]
+    jacobian_2 = w[83]
+    jacobian_3 = w[84]
+    jacobian_4 = w[85]
+    jacobian_5 = w[86]
+    jacobian_6 = w[87]
+    jacobian_7 = w[88]
     # intermediate terms
     s0 = v8*v8
     s1 = v7*v7
@@ -300,14 +300,14 @@ def measure(t, y, p, w):
     s7 = v6 + v5*jacobian_6 - v3
     s8 = v7 + v5*jacobian_7 - v4
     # outputs
-    w[37] = s3
-    w[38] = s4
-    w[39] = s5
-    w[40] = s6
-    w[41] = s7
-    w[42] = s8
-    w[43] = v7
-    w[44] = v8
+    w[39] = s3
+    w[40] = s4
+    w[41] = s5
+    w[42] = s6
+    w[43] = s7
+    w[44] = s8
+    w[45] = v7
+    w[46] = v8
     w[1] = math.sqrt(s0 + s1 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
     w[2] = s2 + 0.00025*s0
     w[3] = q1*p4 + q4*p7 + q7*p10
@@ -322,8 +322,8 @@ def observe(t, y, p, w, ydot, out):
     q5 = y[5]  # rod.theta [rad]
     v5 = y[14]  # rod.omega [rad/s]
     q6 = y[6]  # slider.x [m]
-    v6 = y[15]  # slider.vx [m/s]
     q8 = y[8]  # slider.theta [rad]
+    v6 = y[15]  # slider.vx [m/s]
     v8 = y[17]  # slider.omega [rad/s]
     ydot_9 = ydot[9]
     ydot_10 = ydot[10]
@@ -378,13 +378,13 @@ def masses(p, w):
     p11 = p[11]
     p12 = p[12]
     # outputs
-    w[70] = p0
-    w[71] = p0
-    w[72] = p11
-    w[73] = p1
-    w[74] = p1
-    w[75] = p12
-    w[76] = p2
-    w[77] = p2
-    w[78] = 0.0005
+    w[72] = p0
+    w[73] = p0
+    w[74] = p11
+    w[75] = p1
+    w[76] = p1
+    w[77] = p12
+    w[78] = p2
+    w[79] = p2
+    w[80] = 0.0005
     return 0
