@@ -13,9 +13,10 @@ BENCH_VENV ?= .bench-venv
 VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/.installed
+DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow lint format generated bench clean
+.PHONY: help demo test slow lint format generated docs gallery bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -30,6 +31,11 @@ $(INSTALLED): pyproject.toml
 	@"$(BIN)/python" -m pip install -qq --disable-pip-version-check --editable '.[test]'
 	@touch $@
 
+$(DOCS_INSTALLED): $(INSTALLED)
+	@echo "installing what the site needs into $(VENV), once"
+	@"$(BIN)/python" -m pip install -qq --disable-pip-version-check --editable '.[docs]'
+	@touch $@
+
 demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every method; table, result and plot in out/
 	@mkdir -p out
 	@echo; echo "== describe and assemble"
@@ -39,7 +45,7 @@ demo: $(INSTALLED)  ## derive, generate, compile and run a mechanism with every 
 	@echo; echo "== compile and simulate one run"
 	@"$(BIN)/symgen" run $(DEMO_MODEL) --save out/$(DEMO_MODEL).nc --plot out/$(DEMO_MODEL).png
 	@echo; echo "== compile and simulate every method: error against run time"
-	@"$(BIN)/symgen" compare $(DEMO_MODEL) --csv out/$(DEMO_MODEL).csv
+	@"$(BIN)/symgen" compare $(DEMO_MODEL) --csv out/$(DEMO_MODEL).csv --output out/$(DEMO_MODEL).html
 
 test: $(INSTALLED)  ## run the tests, except slow ones
 	@"$(BIN)/python" -m pytest -n $(WORKERS)
@@ -61,11 +67,19 @@ generated: $(INSTALLED)  ## write the checked-in modules under generated/ anew
 	@SYMGEN_UPDATE_GENERATED=1 "$(BIN)/python" -m pytest tests/project/test_generated.py
 	@git --no-pager diff --stat -- generated 2>/dev/null || true
 
-bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, peers if installed
+docs: $(DOCS_INSTALLED)  ## build the site into out/site; a warning is an error
+	@"$(BIN)/python" -m sphinx -q -W --keep-going -c docs -d out/site-doctrees . out/site
+	@echo "wrote out/site/index.html"
+
+gallery: $(INSTALLED)  ## measure the catalogue anew: data, pictures and pages of docs/gallery and docs/pictures
+	@"$(BIN)/python" -m benchmarks.gallery
+
+bench: $(INSTALLED)  ## measure: right-hand side against gcc, time to first result, singular passages, space, peers if installed
 	@"$(BIN)/python" -m benchmarks.against_gcc
 	@"$(BIN)/python" -m benchmarks.first_result
 	@"$(BIN)/python" -m benchmarks.singular
 	@"$(BIN)/python" -m benchmarks.against_peers --peers-python "$(BENCH_VENV)/bin/python"
+	@"$(BIN)/python" -m benchmarks.space --peers-python "$(BENCH_VENV)/bin/python"
 
 clean:  ## remove .venv and everything that can be made again
 	@rm -rf $(VENV) out build dist .mypy_cache .ruff_cache .pytest_cache .import_linter_cache .hypothesis

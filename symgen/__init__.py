@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from symgen.api import simulate as simulate
     from symgen.describe.builder import MechanismBuilder
     from symgen.describe.mechanism import Mechanism
+    from symgen.ensemble.study import Sweep
+    from symgen.ensemble.sweep import sweep
     from symgen.errors import AssemblyError, InputError, SimulationError, SymgenError
     from symgen.plan import Settings
     from symgen.result.labelled import Labelled
@@ -38,10 +40,12 @@ _WHERE = {
     "Settings": "symgen.plan",
     "SimulationError": "symgen.errors",
     "Study": "symgen.study.compare",
+    "Sweep": "symgen.ensemble.study",
     "SymgenError": "symgen.errors",
     "compare": "symgen.study.compare",
     "load": "symgen.api",
     "simulate": "symgen.api",
+    "sweep": "symgen.ensemble.sweep",
 }
 
 __all__ = [
@@ -55,11 +59,13 @@ __all__ = [
     "Settings",
     "SimulationError",
     "Study",
+    "Sweep",
     "SymgenError",
     "__version__",
     "compare",
     "load",
     "simulate",
+    "sweep",
 ]
 
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symgen.describe.evaluate import evaluate
+from symgen.describe.evaluate import evaluate, orientation
 from symgen.describe.load import load as load_mechanism
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Mechanism, SpatialBody
+from symgen.describe.orientation import matrix, rotate
 from symgen.errors import InputError, nearest
 from symgen.pipeline import choose_method, compile_model
 from symgen.plan import Plan, Settings, changed, make_plan
@@ -77,7 +78,9 @@ class Model:
             values[name] = float(value)
         return values
 
-    def compile(self, method: str = "direct-correction", options: Mapping[str, str] | None = None) -> CompiledModel:
+    def compile(
+        self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
+    ) -> CompiledModel:
         """Return the emitted functions for one method, generated if the cache does not have them.
 
         Parameters
@@ -86,8 +89,10 @@ class Model:
             Name of the method.
         options : mapping, optional
             Its structural options, e.g. ``{"weight": "mass"}``.
+        shape : {"straight", "looped"}
+            Code for this mechanism alone, or loops over tables that all mechanisms share.
         """
-        return compile_model(self.mechanism, choose_method(method, options))
+        return compile_model(self.mechanism, replace(choose_method(method, options), shape=shape))
 
     def initial_state(self, parameters: Mapping[str, float]) -> tuple[Array, list[float | None]]:
         """Return q as described (not yet closed) and the given velocities, None where there is none.
@@ -105,12 +110,19 @@ class Model:
 
         for body in self.mechanism.bodies:
             where = f"bodies.{body.name}"
-            angle = value(body.angle, f"{where}.angle")
-            x, y = (value(e, f"{where}.position") for e in body.position)
-            cx, cy = (value(e, f"{where}.centre_of_mass") for e in body.centre_of_mass)
-            c, s = math.cos(angle), math.sin(angle)
-            q += [x + c * cx - s * cy, y + s * cx + c * cy]
+            position = [value(e, f"{where}.position") for e in body.position]
+            centre = [value(e, f"{where}.centre_of_mass") for e in body.centre_of_mass]
             v += [None if e is None else value(e, f"{where}.velocity") for e in body.velocity]
+            if isinstance(body, SpatialBody):
+                e = orientation(body, parameters, self.name)
+                q += [x + dx for x, dx in zip(position, rotate(matrix(e), tuple(centre)), strict=True)]
+                if not body.is_point:
+                    q += e
+                    v += [None if x is None else value(x, f"{where}.angular_velocity") for x in body.angular_velocity]
+                continue
+            angle = value(body.angle, f"{where}.angle")
+            c, s = math.cos(angle), math.sin(angle)
+            q += [position[0] + c * centre[0] - s * centre[1], position[1] + s * centre[0] + c * centre[1]]
             if not body.is_point:
                 q.append(angle)
                 omega = body.angular_velocity
@@ -170,24 +182,32 @@ class Model:
             ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
             ``options`` (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (settle an
             `unverified` run by a rerun at another step), ``max_violation``, ``max_energy_error``, ``repeat`` (warm
-            up, then time that many runs and report the shortest).
+            up, then time that many runs and report the shortest), ``shape`` (``auto``, ``straight`` or ``looped``).
 
         Returns
         -------
         Result
             Also of a failed or interrupted run, with status and reason.
         """
-        from symgen.auto import resolve
+        from symgen.auto import resolve, settle
         from symgen.result.build import build_result
         from symgen.store.stats import seconds_in_cache
         from symgen.study.timing import repeated
 
-        chosen, reasons = resolve(self, changed(settings or Settings(), changes))
+        asked = changed(settings or Settings(), changes)
+        chosen, reasons = resolve(self, asked)
         plan = make_plan(self, chosen)
         before = seconds_in_cache()
         compiled, start = self.ready(plan, chosen.parameters, chosen.strict)
         start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
+        doubt = None
+        if reasons:  # something was chosen automatically
+            settled = settle(self, asked, plan, compiled, outcome)
+            plan, outcome, doubt = settled.plan, settled.outcome, settled.doubt
+            if settled.note is not None:
+                notes = (*outcome.start.notes, settled.note)
+                outcome = replace(outcome, start=replace(outcome.start, notes=notes))
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(self, chosen, plan, compiled, outcome, spread)
+        return build_result(self, chosen, plan, compiled, outcome, spread, doubt)

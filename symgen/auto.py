@@ -1,4 +1,8 @@
-"""Automatic choice of method and integrator from facts of the model, each with its reason."""
+"""Automatic choice of method and integrator from facts of the model, each with its reason, and a check of the result.
+
+Who leaves the choice to the program has not looked at tolerances either. So a run with anything chosen is repeated with
+finer steps until two runs agree; where they do not, the result says so and is not ok.
+"""
 
 from __future__ import annotations
 
@@ -12,13 +16,16 @@ from numpy.typing import NDArray
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
+from symgen.runtime import abi
 from symgen.runtime.probe import call_rhs
+from symgen.runtime.run import integrate
 
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.model import CompiledModel
-    from symgen.plan import Settings
+    from symgen.plan import Plan, Settings
     from symgen.runtime.assembly import Start
+    from symgen.runtime.run import Outcome
 
 #: What asks for an automatic choice.
 AUTO = "auto"
@@ -28,6 +35,12 @@ STIFF_RATIO = 20.0
 _STEPS_A_CHANGE = 8.0
 #: From this many unknowns of a stage on, dense Newton matrices cost more than short explicit steps.
 LARGEST_IMPLICIT = 400
+#: Runs agree when no point of a body differs by more than this [m], and by this share of the largest body's length.
+AGREEMENT, AGREEMENT_SHARE = 2.5e-4, 1e-3
+#: Finer runs have this share of the tolerances, where they differ by far the square of it, or this share of the step.
+FINER, FINER_STEP = 0.1, 0.5
+#: Tolerances are not made smaller than this.
+SMALLEST_RTOL = 1e-13
 
 
 @dataclass(frozen=True)
@@ -94,7 +107,9 @@ def gather(model: Model, parameters: Mapping[str, float]) -> Facts:
     plan = make_plan(model, Settings(method="lagrange", integrator="dop853"))
     compiled, start = model.ready(plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
-    jacobian = linearised(compiled, start)
+    # above this size no implicit scheme is chosen, and eigenvalues would take longer than a run
+    small = 2 * nq + compiled.info.m <= LARGEST_IMPLICIT
+    jacobian = linearised(compiled, start) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)
@@ -152,6 +167,8 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
     if not forms & set(INTEGRATORS.get("dop853").forms):
         name = chosen.default_integrator
         return name, f"integrator {name}: it solves the form of {method} ({', '.join(chosen.forms)})"
+    if unknowns > LARGEST_IMPLICIT and facts.stiffness <= STIFF_RATIO:
+        return "dop853", f"integrator dop853: {unknowns} unknowns a stage are too many for dense Newton matrices"
     if facts.stiffness <= STIFF_RATIO:
         asks = f"the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
         return "dop853", f"integrator dop853: {asks}"
@@ -186,3 +203,97 @@ def resolve(model: Model, settings: Settings) -> tuple[Settings, tuple[str, ...]
     if settings.method == AUTO and method == "direct-correction" and not facts.massless:
         options.setdefault("method.weight", "mass")
     return replace(settings, method=method, integrator=integrator, options=options), reasons
+
+
+# -- the check ---------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Settled:
+    """A run that was repeated with finer steps.
+
+    Attributes
+    ----------
+    plan, outcome : Plan, Outcome
+        The finest run and what it was.
+    doubt : str or None
+        Why the motion is not known well enough; None where two runs agree.
+    note : str or None
+        What was done, one sentence.
+    evaluations : int
+        Of all runs together.
+    """
+
+    plan: Plan
+    outcome: Outcome
+    doubt: str | None
+    note: str | None
+    evaluations: int
+
+
+def settle(model: Model, asked: Settings, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Settled:
+    """Repeat a run with finer steps until two runs agree.
+
+    Tolerances that were not asked for are made smaller until they do; a tolerance or step that was asked for is kept,
+    and its run is compared with one finer run.
+
+    Parameters
+    ----------
+    model : Model
+        What was run.
+    asked : Settings
+        As asked for, with ``auto``.
+    plan, compiled, outcome : Plan, CompiledModel, Outcome
+        The run.
+
+    Returns
+    -------
+    Settled
+        The run as it is where it did not come to its end.
+    """
+    from symgen.study.points import Points
+
+    total = outcome.evaluations
+    if outcome.code != abi.DONE:
+        return Settled(plan, outcome, None, None, total)
+    points = Points.of(model.mechanism, model.parameters(asked.parameters))
+    longest = max((length for _, length in points.bodies), default=0.0)
+    limit = min(AGREEMENT, AGREEMENT_SHARE * longest) if longest > 0.0 else AGREEMENT
+    free = plan.spec.adaptive and asked.rtol is None and asked.atol is None
+    share, apart = FINER, 0.0
+    nq = compiled.info.nq
+    while True:
+        finer = _finer(plan, share)
+        name = _steps_of(finer)
+        if free and apart > 0.0 and finer.spec.rtol < SMALLEST_RTOL:
+            return Settled(plan, outcome, f"two runs still differ by {apart:.2g} m at {_steps_of(plan)}", None, total)
+        second = integrate(compiled, plan.tableau, outcome.start, finer.spec)
+        total += second.evaluations
+        if second.interrupted:
+            note = "the check with finer steps was interrupted"
+            return Settled(plan, replace(outcome, interrupted=True), note, None, total)
+        if second.code != abi.DONE:
+            what = second.reason if second.code != abi.STOPPED else "it takes too many evaluations"
+            return Settled(plan, outcome, f"a check with {name} did not come to its end: {what}", None, total)
+        with np.errstate(all="ignore"):
+            apart = points.distance(outcome.states[:, :nq], second.states[:, :nq])
+        if apart <= limit:
+            kept, result = (finer, second) if free else (plan, outcome)
+            return Settled(kept, result, None, f"checked: a run with {name} agrees within {apart:.2g} m", total)
+        if not free:
+            return Settled(plan, outcome, f"a run with {name} differs by {apart:.2g} m", None, total)
+        # errors fall about as tolerances do: far from agreement, the next but one is tried
+        share = FINER**2 if apart > limit / FINER else FINER
+        plan, outcome = finer, second
+
+
+def _finer(plan: Plan, share: float) -> Plan:
+    spec = plan.spec
+    if spec.adaptive:
+        return replace(plan, spec=replace(spec, rtol=spec.rtol * share, atol=spec.atol * share))
+    assert spec.step is not None, "a constant step is given"
+    return replace(plan, spec=replace(spec, step=spec.step * FINER_STEP))
+
+
+def _steps_of(plan: Plan) -> str:
+    return f"rtol = {plan.spec.rtol:g}" if plan.spec.adaptive else f"step = {plan.spec.step:g} s"

@@ -12,7 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.store.modules import load_module
+from symgen.store.modules import interpreted, load_module
 
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
@@ -41,7 +41,8 @@ class ModelInfo(msgspec.Struct, frozen=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
-    or None, slot or None) of D's structural entries.
+    or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
+    for each body with Euler parameters where these begin in q and its angular velocity in v.
     """
 
     name: str
@@ -56,6 +57,8 @@ class ModelInfo(msgspec.Struct, frozen=True):
     hoisted: int
     dropped_rows: tuple[str, ...]
     massless: tuple[int, ...]
+    windings: int
+    spins: tuple[tuple[int, int], ...]
     operations: dict[str, int]
 
     @classmethod
@@ -79,6 +82,8 @@ class ModelInfo(msgspec.Struct, frozen=True):
                 for i, j in enumerate(b.columns)
                 if equations.graph.value(b.entries[i][i]) == 0.0
             ),
+            windings=len(equations.windings),
+            spins=equations.spins,
             operations={b.name: b.operations for b in program.blocks},
         )
 
@@ -134,8 +139,7 @@ class LawInfo(msgspec.Struct, frozen=True):
             parameters=program.parameters,
             parameter_offset=program.parameter_offset,
             hoisted=program.hoisted,
-            # closing dependent coordinates keeps the constraints but not the branch: a poor partition meets both
-            position_correction=program.correction.position != "none" and program.correction.metric != "independent",
+            position_correction=program.correction.position != "none",
             velocity_correction=program.correction.velocity,
             nw=program.layout.nw,
             unknowns=program.unknowns,
@@ -163,6 +167,16 @@ class CompiledModel:
     derive_seconds: float = 0.0
     emit_seconds: float = 0.0
 
+    @property
+    def shape(self) -> str:
+        """Return ``straight`` or ``looped``."""
+        return "straight"
+
+    @property
+    def sparse(self) -> bool:
+        """Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra."""
+        return False
+
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""
         law = self.law
@@ -183,6 +197,18 @@ class CompiledModel:
         """Return a view of one section of ``w``."""
         offset, size = self.info.sections[name]
         return w[offset : offset + size]
+
+    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
+        """Call ``measure`` once, for which straight code is not worth compiling."""
+        interpreted(self.model.measure)(t, y, p, w)
+
+    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
+        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+        if not self.info.spins:
+            y[: self.info.nq] += change
+            return
+        self.section(w, "change")[:] = change
+        interpreted(self.model.move)(y, w)
 
     def jacobian(self, w: Array) -> Array:
         """Return D as a dense matrix from what ``geometry`` left in ``w``; shape (m, nv)."""

@@ -20,6 +20,7 @@ from typing import Any
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.program import FORMAT
+from symgen.looped import compile_looped, generate_looped, shared_folder
 from symgen.methods import METHODS
 from symgen.methods._base import Method
 from symgen.model import CompiledModel, LawInfo, ModelInfo, load_compiled
@@ -38,11 +39,12 @@ class Generated:
 
 @dataclass(frozen=True)
 class MethodChoice:
-    """A method with its structural options, as asked for."""
+    """A method with its structural options, as asked for, and the shape of its code."""
 
     method: Method
     options: Mapping[str, str]
     implicit: bool = False
+    shape: str = "straight"
 
     @property
     def stem(self) -> str:
@@ -77,9 +79,9 @@ def generator_digest() -> str:
     templates = inside if inside.is_dir() else beside
     digest = hashlib.sha256(_sympy_version().encode())
     for folder in ("formulate", "ir", "lower", "emit", "methods"):
-        for path in sorted((package / folder).glob("*.py")):
+        for path in sorted((package / folder).rglob("*.py")):
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    for path in sorted((templates / "numba").glob("*.j2")):
+    for path in sorted(path for folder in ("numba", "looped") for path in (templates / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
@@ -92,7 +94,7 @@ def _sympy_version() -> str:
     return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
 
 
-def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...]) -> Generated:
+def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight") -> Generated:
     """Derive, lower and emit `mechanism` with every method of `choices`.
 
     Parameters
@@ -101,12 +103,18 @@ def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...]) -> Generat
         A validated mechanism.
     choices : tuple of MethodChoice
         One law module is emitted for each.
+    shape : {"straight", "looped"}
+        Code for this mechanism alone, or loops over tables.
 
     Returns
     -------
     Generated
         The source of ``model`` and of every law, with metadata.
     """
+    if shape == "looped":
+        began = time.perf_counter()
+        found = generate_looped(mechanism, [(c.method, c.options) for c in choices], generator_digest())
+        return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     from symgen.emit.emit import emit_law, emit_model
     from symgen.formulate.formulate import formulate
     from symgen.lower.law import lower_law
@@ -139,6 +147,8 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, entries: Entries |
         The cache; by default the user's.
     """
     store = Entries() if entries is None else entries
+    if choice.shape == "looped":
+        return compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
     folder = folder_of(mechanism)
     derive_seconds = emit_seconds = 0.0
     found = _find(store, folder, choice.stem)

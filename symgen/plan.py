@@ -14,7 +14,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.pipeline import MethodChoice, choose_method
 from symgen.runtime.run import Array, RunSpec
-from symgen.vocabulary.expressions import ZERO
+from symgen.shapes import choose_shape
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 #: Adaptive runs without asked output times report this many equidistant ones.
 DEFAULT_OUTPUTS = 1001
+#: Evaluations of an adaptive run in a second of motion, where nothing is known of the motion.
+ADAPTIVE_EVALUATIONS = 2000.0
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
 
@@ -45,6 +47,7 @@ class Settings:
     max_violation: float = 1e-6
     max_energy_error: float = 0.05
     repeat: int = 1
+    shape: str = "auto"
 
 
 def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
@@ -72,6 +75,12 @@ class Plan:
     spec: RunSpec
     warnings: tuple[str, ...]
     solver_is_free: bool = False  # the solver was not asked for and may be chosen by the start
+    shape_reason: str = ""
+
+    @property
+    def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
+        """What a compiled model and its start depend on: module, shape and parameters of the method."""
+        return f"{self.choice.stem} {self.choice.shape}", tuple(sorted(self.method_parameters.items()))
 
 
 def make_plan(model: Model, s: Settings) -> Plan:
@@ -113,6 +122,7 @@ def make_plan(model: Model, s: Settings) -> Plan:
         warnings.append(
             f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
         )
+    max_violation = _positive("max_violation", s.max_violation)
     spec = RunSpec(
         until=until,
         step=step,
@@ -121,7 +131,9 @@ def make_plan(model: Model, s: Settings) -> Plan:
         rtol=rtol,
         atol=atol,
         largest_step=np.inf if limit is None else limit,
-        max_violation=_positive("max_violation", s.max_violation),
+        max_violation=max_violation,
+        # an error of the discretisation, not drift: half the digits are asked of it
+        max_velocity_violation=math.sqrt(max_violation) if method.velocities_follow else None,
         max_energy_error=_positive("max_energy_error", s.max_energy_error),
         integrator_parameters={
             q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
@@ -129,12 +141,21 @@ def make_plan(model: Model, s: Settings) -> Plan:
     )
     asked = any(key.partition(".")[2] == "solver" for key in s.options)
     free = "solver" in choice.options and not asked
-    if any(ZERO in (body.mass, body.inertia) for body in model.mechanism.bodies):
+    if any(body.massless for body in model.mechanism.bodies):
         if method.needs_regular_mass(choice.options):
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
-    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free)
+    shape = choose_shape(model.mechanism, choice, s.shape, expected_evaluations(tableau, until, step, adaptive))
+    choice = replace(choice, shape=shape.shape)
+    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason)
+
+
+def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:
+    """Return about how many evaluations a run takes, to choose the shape of its code by."""
+    if adaptive or step is None:
+        return ADAPTIVE_EVALUATIONS * until
+    return float(getattr(tableau, "stages", 1) + 1) * until / step  # an accepted state costs about one more
 
 
 def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:

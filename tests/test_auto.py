@@ -8,6 +8,7 @@ from support.models import parallelogram
 
 from benchmarks.pairs import forms_in_common
 from benchmarks.stiff import model as stiff_model
+from symgen import auto
 from symgen.api import Model, load
 from symgen.auto import STIFF_RATIO, Facts, decide, gather, resolve
 from symgen.methods import METHODS
@@ -124,3 +125,53 @@ def test_the_facts_of_the_stiff_case():
     found = gather(stiff_model(), {})
     assert found.rank == found.rows == 10 and found.coordinates == 12
     assert found.fastest_decay == pytest.approx(5.5e4, rel=0.05)  # damping over the reduced mass
+
+
+# -- the check ---------------------------------------------------------------------------------------------------------
+
+
+def test_two_runs_agree():
+    result = load("four-bar").simulate(method="auto", integrator="auto", until=2.0)
+    assert result.status == "ok" and result.rtol == pytest.approx(1e-9)
+    assert any(note.startswith("checked: a run with rtol = 1e-09 agrees within") for note in result.notes)
+
+
+def test_tolerances_fall_until_two_runs_agree(monkeypatch):
+    """What is reported then is as near to an independent reference as the runs are to each other."""
+    import numpy as np
+
+    from symgen.study.points import Points
+    from symgen.study.reference import reference
+
+    model, times = load("four-bar"), np.linspace(0.0, 2.0, 21)
+    monkeypatch.setattr(auto, "AGREEMENT", 1e-10)
+    result = model.simulate(method="auto", integrator="auto", until=2.0, times=times)
+    assert result.status == "ok" and 1e-13 <= result.rtol < 5e-10
+    q, v = result.q.values, result.v.values
+    known = reference(model.mechanism, model.parameters(), q[0], v[0], times)
+    assert Points.of(model.mechanism, model.parameters()).distance(q, known.q) < 1e-10 + known.estimated_error
+
+
+def test_runs_that_never_agree_are_unverified(monkeypatch):
+    monkeypatch.setattr(auto, "AGREEMENT", 0.0)
+    result = load("four-bar").simulate(method="auto", integrator="auto", until=1.0)
+    assert result.status == "unverified" and result.reason.startswith("two runs still differ by ")
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [
+        ({"integrator": "auto", "rtol": 1e-3, "atol": 1e-3}, "a run with rtol = 0.0001 differs by "),
+        ({"integrator": "rk4", "step": 0.05}, "a run with step = 0.025 s differs by "),
+    ],
+)
+def test_what_was_asked_for_is_kept_and_doubted(changes, reason):
+    model = load("four-bar")
+    result = model.simulate(method="auto", until=10.0, max_violation=1.0, max_energy_error=1.0, **changes)
+    assert result.status == "unverified" and result.reason.startswith(reason)
+    assert (result.rtol or result.step) in (changes.get("rtol"), changes.get("step"))
+
+
+def test_who_chooses_is_not_checked():
+    result = load("four-bar").simulate(method="direct-correction", integrator="dop853", rtol=1e-3, atol=1e-3, until=2.0)
+    assert result.status == "ok" and not any("checked" in note for note in result.notes)

@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import CodeType, ModuleType
+from typing import Any
 
 from symgen.errors import InputError
 from symgen.store import private
@@ -210,3 +211,8 @@ def _attach(module: ModuleType, stamp: str) -> None:
         for value in own:
             if value.py_func.__module__ == module.__name__:
                 attach(value, stamp)
+
+
+def interpreted(function: Any) -> Any:
+    """Return the plain Python form of an emitted function: what runs once a run is not worth compiling."""
+    return getattr(function, "py_func", function)

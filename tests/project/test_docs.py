@@ -1,8 +1,9 @@
 """What the pages say: every command fenced as ``console`` runs, every Python snippet runs, links lead somewhere,
-and every kind with every key stands in the tables."""
+every page can be reached, and every kind with every key stands in the tables."""
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import shlex
@@ -14,9 +15,22 @@ from pathlib import Path
 import msgspec
 import pytest
 
+import symgen
+from benchmarks import gallery
+from symgen.api import load
+from symgen.catalogue import entries
+from symgen.describe.digest import digest
 from symgen.describe.load import parse_toml
 from symgen.describe.names import CALLABLE
-from symgen.describe.sections import BodySection, MechanismSection, ParameterSection, RunSection, TableSection
+from symgen.describe.sections import (
+    BodySection,
+    MechanismSection,
+    OrientationSection,
+    ParameterSection,
+    RunSection,
+    SpatialBodySection,
+    TableSection,
+)
 from symgen.describe.validate import validate
 from symgen.forces import FORCES
 from symgen.integrators import INTEGRATORS
@@ -33,6 +47,9 @@ PAGES = (
 )
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"(?<!!)\[[^\]]+\]\(([^)\s]+)\)")
+_PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
+#: A block that a page calls a file: "... as `press.toml`:" right above it.
+_FILE = re.compile(r"`([\w-]+\.(?:toml|py))`:\n\n```(?:toml|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -54,6 +71,11 @@ def fenced(page: Path, language: str) -> list[Fenced]:
     ]
 
 
+def files(page: Path) -> dict[str, str]:
+    """Return the files that a page shows, by name."""
+    return {m.group(1): m.group(2) for m in _FILE.finditer(page.read_text(encoding="utf-8"))}
+
+
 def name(page: Path) -> str:
     """Return how a page is called in the names of tests."""
     return page.relative_to(ROOT).as_posix()
@@ -73,11 +95,15 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
         if line.startswith("$ ")
     ]
     assert commands
+    shown = files(page)
+    for file, text in shown.items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
     folder = Path(sys.executable).parent
     environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ.get('PATH', '')}"}
     for line, command in commands:
         words = shlex.split(command)
-        assert words[0] == "symgen", f"{name(page)}:{line}: only symgen's own commands are run: {command}"
+        own = words[0] == "symgen" or (words[0] == "python" and words[1] in shown and len(words) == 2)
+        assert own, f"{name(page)}:{line}: only symgen's own commands and scripts of the page are run: {command}"
         done = subprocess.run(
             words, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=280, check=False
         )
@@ -89,7 +115,12 @@ def test_every_snippet_runs(page: Path, tmp_path: Path, monkeypatch: pytest.Monk
     """The snippets of a page share their names, as a reader would type them one after the other."""
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {"__name__": "__main__"}
+    for file, text in files(page).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    scripts = {text for file, text in files(page).items() if f"\n$ python {file}\n" in page.read_text(encoding="utf-8")}
     for block in fenced(page, "python"):
+        if block.text in scripts:
+            continue  # run as a command
         code = compile("\n" * (block.line - 1) + block.text, str(page), "exec")
         exec(code, names)
 
@@ -111,6 +142,30 @@ def test_links_lead_somewhere(page: Path) -> None:
         assert file.is_relative_to(ROOT)
         if anchor:
             assert anchor in anchors(file), f"{name(page)} links to {target}, which has no such heading"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_pictures_are_there(page: Path) -> None:
+    for target in _PICTURE.findall(page.read_text(encoding="utf-8")):
+        file = (page.parent / target).resolve()
+        assert file.is_file() and file.is_relative_to(ROOT), f"{name(page)} shows {target}, which does not exist"
+        largest = gallery.LARGEST_OF_README if file.parent == gallery.PICTURES else gallery.LARGEST
+        assert file.stat().st_size <= largest, f"{target} is larger than {largest} bytes"
+
+
+def test_every_page_is_reachable_from_the_first_one() -> None:
+    """By links in the text, as somebody reads who has no sidebar."""
+    first = ROOT / "docs" / "README.md"
+    seen, open_pages = {first}, [first]
+    while open_pages:
+        here = open_pages.pop()
+        for target in _LINK.findall(here.read_text(encoding="utf-8")):
+            path = (here.parent / target.partition("#")[0]).resolve()
+            if path.suffix == ".md" and path.is_file() and path not in seen:
+                seen.add(path)
+                open_pages.append(path)
+    docs = {page for page in PAGES if (ROOT / "docs") in page.parents}
+    assert not {name(page) for page in docs - seen}
 
 
 def anchors(page: Path) -> set[str]:
@@ -164,6 +219,12 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
 def test_a_section_stands_in_the_reference_with_all_its_keys(heading: str, struct: type[msgspec.Struct]) -> None:
     table = " ".join(rows(section(page("file-format"), heading)))
     assert set(re.findall(r"`(\w+)`", table)) == {field.name for field in msgspec.structs.fields(struct)}
+
+
+def test_a_spatial_body_stands_in_the_reference_with_all_its_keys() -> None:
+    table = " ".join(rows(section(page("file-format"), "`[bodies.NAME]` in space")))
+    structs = (SpatialBodySection, OrientationSection)
+    assert set(re.findall(r"`(\w+)`", table)) == {f.name for s in structs for f in msgspec.structs.fields(s)}
 
 
 def test_every_function_of_an_expression_is_named() -> None:
@@ -223,6 +284,42 @@ def test_every_option_of_run_is_described() -> None:
     described = re.findall(r"(?<=[| ])`(--[\w-]+)", reference)
     known = {flag for option in command.params for flag in option.opts}
     assert set(described) <= known
+
+
+def test_the_gallery_says_what_was_measured() -> None:
+    """Pages are written from the catalogue and the data, so neither can change without them."""
+    written = {path.name: path.read_text(encoding="utf-8") for path in gallery.FOLDER.glob("*.md")}
+    assert written == gallery.pages(), "run python -m benchmarks.gallery --pages"
+
+
+@pytest.mark.parametrize("path", sorted(gallery.DATA.glob("*.json")), ids=lambda path: path.stem)
+def test_rows_of_the_gallery_belong_to_the_mechanism_as_it_is(path: Path) -> None:
+    known = {entry.name: entry for entry in entries()}
+    measured = gallery.data(path.stem)
+    assert measured is not None and measured["model"] == gallery.model_name(known[path.stem])
+    assert measured.get("command", gallery.command(known[path.stem])) == gallery.command(known[path.stem])
+    again = f"run python -m benchmarks.gallery {path.stem}"
+    assert measured["digest"] == digest(load(measured["model"]).mechanism), again
+
+
+def test_every_public_name_stands_in_the_api() -> None:
+    text = page("api")
+    assert not [
+        public for public in symgen.__all__ if not public.startswith("_") and f":: symgen.{public}\n" not in text
+    ]
+
+
+def test_the_navigation_of_the_site_names_pages_that_exist() -> None:
+    """What it does not name stands in it all the same; ``make docs`` holds that."""
+    text = (ROOT / "docs" / "conf.py").read_text(encoding="utf-8")
+    tree = next(
+        node
+        for node in ast.walk(ast.parse(text))
+        if isinstance(node, ast.Assign) and "NAVIGATION" in ast.unparse(node.targets[0])
+    )
+    pages = [page for pages in ast.literal_eval(tree.value).values() for page in pages]
+    assert len(pages) == len(set(pages))
+    assert not [page for page in pages if not (ROOT / f"{page}.md").is_file()]
 
 
 def test_every_decision_is_listed() -> None:

@@ -19,7 +19,7 @@ from symgen.pipeline import MethodChoice, choose_method, generate
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"
 UPDATE = "SYMGEN_UPDATE_GENERATED"
-MODELS = ("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar")
+MODELS = ("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard")
 THOROUGH = ("pendulum", "four-bar")
 CORE = ("lagrange", "baumgarte", "direct-correction")
 EXPLICIT = {"ode", "one-step"}
@@ -44,7 +44,7 @@ def choices(model: str) -> tuple[MethodChoice, ...]:
         explicit = bool(EXPLICIT & set(method.forms))
         variants = [{option.name: value} for option in method.options for value in option.values]
         for options in [{}, *variants] if explicit else [{}]:
-            if model in THOROUGH or options.get("solver") != "augmented":
+            if model in THOROUGH or options.get("solver") in (None, "elimination"):
                 choice = choose_method(name, options, implicit=not explicit)
                 found[choice.stem] = choice
         if model in THOROUGH and set(method.forms) - EXPLICIT:

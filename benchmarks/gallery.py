@@ -1,0 +1,397 @@
+"""The gallery of docs/gallery: a page, a picture and measured rows for each mechanism of the catalogue.
+
+python -m benchmarks.gallery                    measure every entry anew, then the pictures of README
+python -m benchmarks.gallery four-bar bricard   measure these
+python -m benchmarks.gallery --missing          measure what has no data yet
+python -m benchmarks.gallery --draw             draw what has no picture yet
+python -m benchmarks.gallery --pages            write the pages from the data that are there
+python -m benchmarks.gallery --pictures         the pictures of README in docs/pictures alone
+
+Data are kept as docs/gallery/data/NAME.json; a test holds the pages to them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from symgen.api import load
+from symgen.catalogue import Entry, entries
+from symgen.describe.digest import digest
+from symgen.report import words
+from symgen.report.document import Picture
+from symgen.study.machine import machine_class, versions
+from symgen.study.rows import YARDSTICK, Row, Study
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+FOLDER = DOCS / "gallery"
+DATA = FOLDER / "data"
+PICTURES = DOCS / "pictures"
+#: Timed runs a row, after a warm-up.
+REPEAT = 7
+#: No picture of the gallery is larger, and none of README [bytes].
+LARGEST, LARGEST_OF_README = 60_000, 80_000
+
+
+@dataclass(frozen=True)
+class Choice:
+    """What is measured of an entry, where it is not what `symgen compare` does with these two integrators.
+
+    Attributes
+    ----------
+    size : int or None
+        Of a sized entry.
+    methods, integrators : tuple of str
+        As for `symgen compare`.
+    until : float or None
+        End [s]; the entry's own unless given.
+    window : float
+        Time that the picture shows, as a part of the run.
+    """
+
+    size: int | None = None
+    methods: tuple[str, ...] = ()
+    integrators: tuple[str, ...] = ("rk4", "dop853")
+    until: float | None = None
+    window: float = 0.1
+
+
+#: Only entries that need something else; a new entry of the catalogue needs no line here.
+CHOICES = {
+    "andrews": Choice(window=0.4),
+    "bricard": Choice(window=0.08),
+    "chain": Choice(methods=("lagrange", "direct-correction")),
+    "driven-four-bar": Choice(window=0.15),
+    "flyball-governor": Choice(
+        methods=("lagrange", "baumgarte", "direct-correction", "ggl"), integrators=("rk4", "radau5"), until=2.0
+    ),
+    "four-bar": Choice(window=0.22),
+    "free-rigid-body": Choice(methods=("lagrange", "direct-correction"), integrators=("rk4", "rkmk4", "dop853")),
+    "heavy-top": Choice(window=0.25),
+    "n-four-bar": Choice(size=2),
+    "slider-crank": Choice(window=0.12),
+    "stewart-platform": Choice(methods=("lagrange", "direct-correction"), window=0.5),
+}
+
+
+def choice(name: str) -> Choice:
+    """Return what is measured of an entry."""
+    return CHOICES.get(name, Choice())
+
+
+def model_name(entry: Entry) -> str:
+    """Return how an entry is typed: with the size that is measured where it has one."""
+    size = choice(entry.name).size or entry.default_size
+    return f"{entry.name}:{size}" if entry.sized else entry.name
+
+
+def command(entry: Entry) -> str:
+    """Return the command that measures the rows of an entry."""
+    own, model = choice(entry.name), load(model_name(entry))
+    parts = ["symgen compare", model_name(entry)]
+    parts += [f"--methods {','.join(own.methods)}"] if own.methods else []
+    parts += [f"--integrators {','.join(own.integrators)}"]
+    parts += [f"--steps {model.mechanism.defaults.step:g}", "--rtols 1e-8"]
+    parts += [f"--until {own.until:g}"] if own.until else []
+    parts += [f"--repeat {REPEAT}"]
+    return " ".join(parts)
+
+
+# -- measuring ---------------------------------------------------------------------------------------------------------
+
+
+def measure(entry: Entry) -> None:
+    """Run the comparison of an entry and keep its rows."""
+    from symgen.study.compare import compare
+
+    own, model = choice(entry.name), load(model_name(entry))
+    step = model.mechanism.defaults.step
+    study = compare(model, own.methods, own.integrators, (step,), (1e-8,), own.until, REPEAT)
+    keep(
+        entry,
+        command=command(entry),
+        until=study.until,
+        reference={"how": study.how, "estimated_error": study.estimated_error, "note": study.note},
+        versions=versions(),
+        machine=machine_class(),
+        rows=[_kept(row) for row in study.rows],
+    )
+
+
+def draw(entry: Entry) -> None:
+    """Draw an entry in motion, from a run in the shape of code that all mechanisms share."""
+    from benchmarks.skeleton import picture
+
+    own, model = choice(entry.name), load(model_name(entry))
+    window = own.window * (own.until or model.mechanism.defaults.until)
+    result = model.simulate(method="direct-correction", until=window, shape="looped")
+    drawn = picture(model.mechanism, result, entry.name, window)
+    put(drawn, FOLDER)
+    keep(entry, caption=drawn.caption, rank=result.rank.rank)
+
+
+def keep(entry: Entry, **facts: Any) -> None:
+    """Put facts into the data of an entry; rows of a mechanism that has changed since are dropped."""
+    now = digest(load(model_name(entry)).mechanism)
+    before = data(entry.name) or {}
+    same = before if before.get("digest") == now else {}
+    found = {"model": model_name(entry), "digest": now, **{k: v for k, v in same.items() if k != "model"}, **facts}
+    DATA.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(found, indent=1, ensure_ascii=False) + "\n"
+    (DATA / f"{entry.name}.json").write_text(text, encoding="utf-8")
+
+
+#: Of a row this is kept.
+KEPT = (
+    "method",
+    "integrator",
+    "step",
+    "rtol",
+    "status",
+    "reason",
+    "error",
+    "below_reference",
+    "run_seconds",
+    "cost_ratio",
+    "cost_ratio_spread",
+)
+
+
+def _kept(row: Row) -> dict[str, Any]:
+    """Return of a row what the pages show, to three digits."""
+    all_of_it = asdict(row)
+    return {k: float(f"{x:.3g}") if isinstance(x := all_of_it[k], float) else x for k in KEPT}
+
+
+def put(picture: Picture, folder: Path, name: str = "") -> Path:
+    """Write a picture, unless it is too large."""
+    content = slim(picture.data.decode()).encode() if picture.kind == "svg" else picture.data
+    largest = LARGEST_OF_README if folder == PICTURES else LARGEST
+    if len(content) > largest:
+        raise ValueError(f"{picture.name} has {len(content)} bytes, more than {largest}")
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"{name or picture.name}.{picture.kind}"
+    path.write_bytes(content)
+    return path
+
+
+def slim(svg: str) -> str:
+    """Return a drawing without what nobody sees: names of groups, comments, blanks, and far digits."""
+    svg = re.sub(r"<!--.*?-->|<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r'<g id="[^"]*"', "<g", svg)
+    svg = re.sub(r' (?:x|y)="[^"]*"|translate\([^)]*\)', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), svg)
+    curve = re.compile(r'(?<=<path d=")[^"]*(?=" clip-path)')
+    # a tenth of a point is enough, and numbers behind a move are lines without being called so
+    svg = curve.sub(lambda m: re.sub(r"(\.\d)\d+", r"\1", re.sub(r"\s+L(?=\s)", "", m.group())), svg)
+    svg = svg.replace("xlink:href", "href").replace("DejaVuSans-", "")
+    svg = re.sub(r'(?<= style=")[^"]*', lambda m: re.sub(r"([:;])\s+", r"\1", m.group()), svg)
+    svg = re.sub(r"(?<= d=\")[^\"]*", lambda m: " ".join(m.group().split()), svg)
+    return re.sub(r">\s+<", "><", re.sub(r"\n\s*", "\n", svg)) + "\n"
+
+
+# -- pages -------------------------------------------------------------------------------------------------------------
+
+
+def data(name: str) -> Mapping[str, Any] | None:
+    """Return what was measured of an entry, None where nothing was."""
+    path = DATA / f"{name}.json"
+    found: Mapping[str, Any] | None = json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+    return found
+
+
+def page(entry: Entry) -> str:
+    """Return the page of an entry."""
+    mechanism = load(model_name(entry)).mechanism
+    measured = data(entry.name)
+    rows = sum(len(joint.rows) for joint in mechanism.joints)
+    nq, nv = (
+        sum(len(names) for names in of)
+        for of in zip(*((b.coordinates, b.speeds) for b in mechanism.bodies), strict=True)
+    )
+    defaults = mechanism.defaults
+    lines = [f"# {entry.name}", "", words.sentence(entry.title), ""]
+    if measured:
+        lines += [f"![{entry.title}]({entry.name}.svg)", "", words.sentence(measured["caption"]), ""]
+    facts = [
+        ("source", entry.source),
+        ("space", mechanism.space),
+        ("bodies, joints, forces", f"{len(mechanism.bodies)}, {len(mechanism.joints)}, {len(mechanism.forces)}"),
+        ("coordinates, velocities", f"{nq}, {nv}"),
+        ("constraint rows", f"{rows}" + (f", of rank {measured['rank']}" if measured else "")),
+        ("degrees of freedom", f"{nv - measured['rank']}" if measured else ""),
+        ("end, step", f"{defaults.until:g} s, {defaults.step:g} s"),
+        ("predictable until", f"{defaults.predictable_until:g} s" if defaults.predictable_until else ""),
+        ("size", f"{model_name(entry)}; {entry.name}:N for another" if entry.sized else ""),
+    ]
+    lines += ["| | |", "| --- | --- |", *(f"| {label} | {text} |" for label, text in facts if text), ""]
+    lines += _measured(measured) if measured and "rows" in measured else _unmeasured(entry)
+    return "\n".join(lines)
+
+
+def _unmeasured(entry: Entry) -> list[str]:
+    return [f"No rows have been measured for this page yet: `python -m benchmarks.gallery {entry.name}` does that.", ""]
+
+
+def _measured(measured: Mapping[str, Any]) -> list[str]:
+    reference = measured["reference"]
+    lines = ["## Measured", "", *_table(measured["rows"]), ""]
+    estimated = reference["estimated_error"]
+    how = f"The reference: {reference['how']}; its own error is estimated at {words.number(estimated)} m."
+    lines += [how + (f" {words.sentence(words.readable(reference['note']))}" if reference["note"] else ""), ""]
+    if any(row["below_reference"] for row in measured["rows"]):
+        lines += ["\\* below the error of the reference itself.", ""]
+    failed = [row for row in measured["rows"] if row["status"] != "ok"]
+    for row in failed:
+        what = f"`{row['method']}`, `{row['integrator']}`: {row['status']}"
+        lines += [f"- {what}{': ' + words.readable(row['reason']) if row['reason'] else ''}"]
+    lines += [""] if failed else []
+    made = ", ".join(f"{name} {number}" for name, number in measured["versions"].items())
+    lines += [
+        f"Made with {made}, on {measured['machine']}. Run times are those of the integration loop; other",
+        "work was running on the machine, so read ratios. Made again by",
+        "",
+        *("```sh", measured["command"], "```", ""),
+    ]
+    return lines
+
+
+def _table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    lines = [
+        "| method | integrator | step or tolerance | error [m] | run time | to `lagrange` | status |",
+        "| --- | --- | --- | ---: | ---: | ---: | --- |",
+    ]
+    for row in rows:
+        star = " \\*" if row["below_reference"] else ""
+        cells = [
+            *(f"`{row['method']}`", f"`{row['integrator']}`", words.setting(row["step"], row["rtol"])),
+            *(words.number(row["error"]) + star, words.seconds(row["run_seconds"]), _ratio(row)),
+            row["status"],
+        ]
+        lines.append(f"| {' | '.join(cells)} |")
+    return lines
+
+
+def _ratio(row: Mapping[str, Any]) -> str:
+    """Return the ratio to `lagrange` with what it may vary by."""
+    spread = row["cost_ratio_spread"]
+    return words.ratio(row["cost_ratio"]) + (f" ± {words.ratio(spread)}" if spread else "")
+
+
+def index() -> str:
+    """Return the page that lists all entries."""
+    lines = [
+        "# Gallery",
+        "",
+        "Every mechanism of the catalogue, with what was measured of it. Written by `python -m benchmarks.gallery`.",
+        "",
+        "| | mechanism | most accurate row |",
+        "| --- | --- | --- |",
+    ]
+    for entry in entries():
+        measured = data(entry.name)
+        picture = f"![{entry.title}]({entry.name}.svg)" if measured else ""
+        lines.append(f"| {picture} | [`{entry.name}`]({entry.name}.md): {entry.title} | {_best(measured)} |")
+    return "\n".join([*lines, "", *_across()])
+
+
+def _across() -> list[str]:
+    """Return what each pair did over all entries: how many runs ended ok, and medians relative to `lagrange`."""
+    found: dict[tuple[str, str], list[tuple[Mapping[str, Any], Mapping[str, Any] | None]]] = {}
+    for entry in entries():
+        rows = (data(entry.name) or {}).get("rows", ())
+        base = {row["integrator"]: row for row in rows if row["method"] == YARDSTICK}
+        for row in rows:
+            found.setdefault((row["method"], row["integrator"]), []).append((row, base.get(row["integrator"])))
+    lines = [
+        "## Over all entries",
+        "",
+        "Each entry at its own step, or at a tolerance of 1e-8. Error and time are medians of the ratios to `lagrange`",
+        "with the same integrator, over the entries where both ended; below 1 the error or the time is smaller.",
+        "",
+        "| method | integrator | entries | ended ok | error | time |",
+        "| --- | --- | ---: | ---: | ---: | ---: |",
+    ]
+    for (method, integrator), pairs in found.items():
+        errors = [r["error"] / b["error"] for r, b in pairs if b and r["error"] and b["error"]]
+        times = [r["cost_ratio"] for r, _ in pairs if r["cost_ratio"]]
+        ok = sum(row["status"] == "ok" for row, _ in pairs)
+        cells = [f"`{method}`", f"`{integrator}`", str(len(pairs)), str(ok)]
+        cells += [words.number(median(errors) if errors else None), words.ratio(median(times) if times else None)]
+        lines.append(f"| {' | '.join(cells)} |")
+    return [*lines, ""]
+
+
+def _best(measured: Mapping[str, Any] | None) -> str:
+    rows = [row for row in (measured or {}).get("rows", ()) if row["error"] is not None]
+    if not rows:
+        return "not measured yet"
+    row = min(rows, key=lambda r: float(r["error"]))
+    how = f"`{row['method']}`, `{row['integrator']}`, {words.setting(row['step'], row['rtol'])}"
+    return f"{words.number(row['error'])} m in {words.seconds(row['run_seconds'])} ({how})"
+
+
+def pages() -> dict[str, str]:
+    """Return all pages by file name."""
+    return {"README.md": index(), **{f"{entry.name}.md": page(entry) for entry in entries()}}
+
+
+def write_pages() -> None:
+    """Write all pages."""
+    for name, text in pages().items():
+        (FOLDER / name).write_text(text, encoding="utf-8")
+
+
+# -- pictures of README ------------------------------------------------------------------------------------------------
+
+#: What the map of README shows.
+STRESSED = ("four-bar", ("stiffness", "mass-ratio", "step", "gravity", "inconsistent-start"))
+STRESSED_METHODS = ("lagrange", "baumgarte", "penalty", "augmented-lagrangian", "direct-correction", "auto")
+
+
+def readme_pictures() -> None:
+    """Make the three pictures of README: error against run time, violation over time, stress map."""
+    from symgen.report.figures import pictures
+    from symgen.report.stress_figures import maps
+    from symgen.study.compare import compare
+    from symgen.study.stress import stress
+
+    study: Study = compare("four-bar", integrators=("rk4", "dopri5", "dop853"), repeat=REPEAT)
+    drawn = {picture.name: picture for picture in pictures(study)}
+    put(drawn["four-bar-error-rk4"], PICTURES, "error-against-run-time")
+    put(drawn["four-bar-position-violation"], PICTURES, "violation-over-time")
+    model, families = STRESSED
+    outcomes = stress([model], families, STRESSED_METHODS)
+    put(next(p for p in maps(outcomes) if p.name == f"map-{model}"), PICTURES, "stress-map")
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Do what was asked for."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n", 1)[0])
+    parser.add_argument("names", nargs="*")
+    for flag in ("missing", "draw", "pages", "pictures"):
+        parser.add_argument(f"--{flag}", action="store_true")
+    asked = parser.parse_args(arguments)
+    known = {entry.name: entry for entry in entries()}
+    everything = not (asked.names or asked.missing or asked.draw or asked.pages or asked.pictures)
+    chosen = [known[re.sub(r":\d+$", "", name)] for name in asked.names]
+    chosen += [e for e in known.values() if everything or (asked.missing and "rows" not in (data(e.name) or {}))]
+    for entry in chosen:
+        print(f"measuring {model_name(entry)}", flush=True)
+        measure(entry)
+    undrawn = [e for e in known.values() if asked.draw and "caption" not in (data(e.name) or {})]
+    for entry in dict.fromkeys((*chosen, *undrawn)):
+        print(f"drawing {model_name(entry)}", flush=True)
+        draw(entry)
+    if everything or asked.pictures:
+        readme_pictures()
+    write_pages()
+
+
+if __name__ == "__main__":
+    main()
