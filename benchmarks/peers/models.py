@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -351,6 +351,7 @@ _BUILDERS: dict[str, Callable[[], Model]] = {
     "four-bar": lambda: four_bar("four-bar", 10.0, (2.0, 8.0, 5.0), (2.0, 8.0, 5.0)),
     "andrews": andrews,
     "n-four-bar:10": lambda: n_four_bar(10),
+    "a02": lambda: replace(n_four_bar(40), name="a02", duration=20.0),
 }
 NAMES: tuple[str, ...] = tuple(_BUILDERS)
 

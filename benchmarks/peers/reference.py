@@ -67,7 +67,7 @@ def angles(model: Model) -> Array:
     """
     if model.name == "andrews":
         return _andrews_angles(andrews_states(sample_times(model)))
-    if model.name.startswith("n-four-bar:"):
+    if "windows" in model.parameters:
         return _n_four_bar_angles(model)
     crank = four_bar_states(model)[:, 0]
     return np.array([four_bar_shape(model, phi)[0] for phi in crank])
