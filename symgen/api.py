@@ -191,6 +191,7 @@ class Model:
         """
         from symgen.auto import resolve, settle
         from symgen.result.build import build_result
+        from symgen.store import ahead
         from symgen.store.stats import seconds_in_cache
         from symgen.study.timing import repeated
 
@@ -198,6 +199,7 @@ class Model:
         chosen, reasons = resolve(self, asked)
         plan = make_plan(self, chosen)
         before = seconds_in_cache()
+        ahead.start(plan.tableau.loop(plan.spec))
         compiled, start = self.ready(plan, chosen.parameters, chosen.strict)
         start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)

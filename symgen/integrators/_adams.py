@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -38,9 +38,15 @@ class Adams:
     forms: tuple[str, ...] = ("ode",)
     parameters: tuple[IntegratorParameter, ...] = ()
 
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the loop of all orders."""
+        from symgen.runtime.adams import adams_steps
+
+        return adams_steps
+
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
-        from symgen.runtime.adams import DEPTH, adams_steps
+        from symgen.runtime.adams import DEPTH
 
         law, ny = compiled.law_module, compiled.info.ny
         nodes, factors = np.polynomial.legendre.leggauss(5)  # exact for polynomials up to degree 9
@@ -51,4 +57,4 @@ class Adams:
             *(0.0, step, spec.largest_step, spec.until, spec.rtol, spec.atol),
         )
         room = np.zeros((3 + DEPTH) * ny + 2 * (DEPTH + 1))
-        return LoopCall(adams_steps, before, (room,))
+        return LoopCall(self.loop(spec), before, (room,))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -42,9 +42,14 @@ class AlphaFamily:
     adaptive: bool = False
     real_boundary: float = np.inf
 
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the loop of the family."""
+        from symgen.runtime.alpha import alpha_steps
+
+        return alpha_steps
+
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
-        from symgen.runtime.alpha import alpha_steps
         from symgen.runtime.manifold import stay
 
         law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
@@ -61,4 +66,4 @@ class AlphaFamily:
         )
         spins = np.array([j for _, j in info.spins], dtype=np.int64)
         room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + n * n + n * width + size * size + 2 * size)
-        return LoopCall(alpha_steps, before, (room, np.zeros(size, dtype=np.int64), spins))
+        return LoopCall(self.loop(spec), before, (room, np.zeros(size, dtype=np.int64), spins))

@@ -99,6 +99,9 @@ class Integrator(Protocol):
     def real_boundary(self) -> float:
         """Where the region of stability ends on the negative real axis."""
 
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the compiled loop that such runs enter, None where it depends on the model as well."""
+
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -76,10 +76,14 @@ class ImplicitTableau:
         """Whether all stages have to be solved together."""
         return bool(np.any(np.triu(self.a, 1) != 0.0))
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the loop of implicit stages."""
         from symgen.runtime.implicit import implicit_steps
 
+        return implicit_steps
+
+    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
+        """Return the loop for a run and its arguments."""
         law, info, s = compiled.law_module, compiled.info, self.stages
         n, width, ny = compiled.law.unknowns, info.nq + info.nv, info.ny
         size = s * n if self.together else n
@@ -94,4 +98,4 @@ class ImplicitTableau:
             *(state.y, state.p, state.w, state.iw, int(spec.adaptive), 0.0, step),
             *(spec.largest_step, spec.until, spec.rtol, spec.atol),
         )
-        return LoopCall(implicit_steps, before, (room, np.zeros(size, dtype=np.int64)))
+        return LoopCall(ImplicitTableau.loop(self, spec), before, (room, np.zeros(size, dtype=np.int64)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,6 +100,12 @@ class Tableau:
         nodes = np.concatenate([self.c, [1.0], self.extra_c])
         return np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value), nodes
 
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the loop of runs with constant or with adaptive steps."""
+        from symgen.runtime import explicit
+
+        return explicit.adaptive_steps if spec.adaptive else explicit.fixed_steps
+
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
         law = compiled.law_module
@@ -108,14 +114,10 @@ class Tableau:
         common = (law.rhs, confirm, law.accept, *self.packed(), self.stages, compiled.info.nq)
         room = np.zeros(self._room(len(y)))
         if not spec.adaptive:
-            from symgen.runtime.explicit import fixed_steps
-
             assert spec.step is not None, "a constant step is given"
-            return LoopCall(fixed_steps, (*common, y, p, w, iw, 0.0, spec.step, spec.until), (room,))
-        from symgen.runtime.explicit import adaptive_steps
-
+            return LoopCall(self.loop(spec), (*common, y, p, w, iw, 0.0, spec.step, spec.until), (room,))
         control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
-        return LoopCall(adaptive_steps, (*common, *self._pair(), y, p, w, iw, *control), (room,))
+        return LoopCall(self.loop(spec), (*common, *self._pair(), y, p, w, iw, *control), (room,))
 
     def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
         """Return the loop over many runs."""

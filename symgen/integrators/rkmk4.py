@@ -6,7 +6,7 @@ In the plane it is `rk4`. In space Euler parameters keep their length by constru
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -25,9 +25,14 @@ class LieTableau(Tableau):
 
     forms: tuple[str, ...] = ("ode",)
 
+    def loop(self, spec: RunSpec) -> Any:
+        """Return the loop of exponential updates."""
+        from symgen.runtime.lie import lie_steps
+
+        return lie_steps
+
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
-        from symgen.runtime.lie import lie_steps
         from symgen.runtime.manifold import stay
 
         law, info = compiled.law_module, compiled.info
@@ -39,7 +44,7 @@ class LieTableau(Tableau):
             *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
         )
         room = np.zeros(2 * info.ny + (self.stages + 1) * (2 * info.nv + 1))
-        return LoopCall(lie_steps, before, (room, np.array([j for _, j in info.spins], dtype=np.int64)))
+        return LoopCall(self.loop(spec), before, (room, np.array([j for _, j in info.spins], dtype=np.int64)))
 
     def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
         """Return None: the scheme has no loop over many runs."""

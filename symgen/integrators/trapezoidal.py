@@ -6,7 +6,7 @@ On index 3 it is used with projections only: alone it is unstable there, since n
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Trapezoidal(ImplicitTableau):
     """The rule as a tableau for index 1, and in positions for index 3 with projections."""
+
+    def loop(self, spec: RunSpec) -> Any:
+        """Return None: the method decides."""
+        return None
 
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""

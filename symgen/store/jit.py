@@ -34,7 +34,7 @@ from numba.core.registry import CPUDispatcher
 from numba.core.runtime import rtsys
 from numba.core.serialize import dumps
 
-from symgen.store import private
+from symgen.store import ahead, private
 from symgen.store.identity import NotDescribable, describe, describe_function, digest, source_stamp, type_text
 from symgen.store.paths import cache_location
 from symgen.store.stats import cache_stats, counters
@@ -187,10 +187,18 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         self._can_compile = False
         return self
 
-    def _open(self) -> bool:
+    def wanting(self) -> bool:
+        """Whether signatures are neither compiled nor in the cache."""
+        cache = self._eager._cache
+        return not self._ready and not all(
+            isinstance(cache, _MachineCode) and cache.has(signature, self.targetctx) for signature in self._signatures
+        )
+
+    def open(self) -> bool:
         """Compile or load the signatures if that has not happened; True if a failed look-up is worth repeating."""
         if self._ready:
             return False
+        ahead.finish(self)
         with global_compiler_lock:
             if self._ready or self._busy:  # another thread was faster, or the function calls itself
                 return self._ready
@@ -207,7 +215,7 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
 
     # The C part asks this when no compiled signature fits and compilation is off: the first call always ends here.
     def _search_new_conversions(self, *args: Any, **kws: Any) -> bool:
-        opened = self._open()
+        opened = self.open()
         return bool(super()._search_new_conversions(*args, **kws)) or opened
 
     def __reduce__(self) -> str:
@@ -215,12 +223,12 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """Answer the type inference of a caller that is being compiled."""
-        self._open()
+        self.open()
         return super().get_call_template(args, kws)
 
     def get_compile_result(self, sig: Any) -> Any:
         """Answer a ``FunctionType`` parameter that is given this function."""
-        self._open()
+        self.open()
         return super().get_compile_result(sig)
 
 
@@ -271,6 +279,13 @@ class _MachineCode(_Cache):  # type: ignore[misc]  # Numba has no types
         """Forget all compiled signatures of the function."""
         for path in Path(self.cache_path).glob(f"{self._stem}-*{private.SUFFIX}"):
             private.remove(path)
+
+    def has(self, sig: Any, target_context: Any) -> bool:
+        """Whether there is an entry for a signature, be it one that turns out to be spoilt."""
+        try:
+            return self._place(sig, target_context.codegen())[1].exists()
+        except NotDescribable:
+            return False
 
     def _load(self, sig: Any, target_context: Any) -> Any:
         try:
