@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from symgen.ensemble.axes import Grid, make_grid
-from symgen.ensemble.kernel import Module, Recipe, batch_call, code_identity
+from symgen.ensemble.kernel import batch_call, kernel_of
 from symgen.ensemble.quantities import choose_quantities
+from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
 from symgen.pipeline import compile_model
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
+#: The same bound where a CUDA device runs them.
+CHUNK_BYTES_CUDA = 128e6
 #: Seconds an operation of a right-hand side takes, and evaluations in a simulated second of an adaptive run: guesses
 #: that shape nothing but the size of chunks.
 _OPERATION, _EVALUATIONS = 4e-10, 1e4
@@ -67,6 +70,11 @@ class Ensemble:
         return len(self.grid)
 
     @property
+    def target(self) -> str:
+        """What runs it: ``cpu`` or ``cuda``."""
+        return "cpu" if self.recipe.device is None else "cuda"
+
+    @property
     def sizes(self) -> tuple[int, int, int, int]:
         """Runs, quantities, output times, and runs in a chunk."""
         return len(self), len(self.recipe.quantities), len(self.recipe.spec.times), self.chunk
@@ -86,6 +94,8 @@ class Ensemble:
             evaluations = stages * spec.until / spec.step
         seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.quantities) * len(spec.times)
+        if self.recipe.device is not None:  # a device wants tens of thousands of runs at once, whatever they take
+            return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
         return int(max(1.0, min(65536.0, math.ceil(most))))
 
@@ -117,6 +127,7 @@ def make_ensemble(
     vary: Mapping[str, ArrayLike | str],
     runs: Mapping[str, ArrayLike | str],
     quantities: Sequence[str] | None,
+    target: str = "cpu",
 ) -> Ensemble:
     """Resolve and check everything.
 
@@ -130,6 +141,8 @@ def make_ensemble(
         See `symgen.ensemble.sweep.sweep`.
     quantities : sequence of str or None
         What is kept.
+    target : {"cpu", "cuda"}
+        What runs it.
 
     Raises
     ------
@@ -165,10 +178,14 @@ def make_ensemble(
     batch_call(plan.tableau.name, compiled.info.ny, plan.spec)
     held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
     given = {name: velocities.index(name) for name in grid.names if name in velocities}
-    spare = None
+    spare = spare_device = device = None
+    if target == "cuda":
+        device = Module.of(compile_model(model.mechanism, plan.choice, target=target))
     if plan.solver_is_free:
-        options = {**plan.choice.options, "solver": "augmented"}
-        spare = Module.of(compile_model(model.mechanism, replace(plan.choice, options=options)))
+        choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+        spare = Module.of(compile_model(model.mechanism, choice))
+        if target == "cuda":
+            spare_device = Module.of(compile_model(model.mechanism, choice, target=target))
     recipe = Recipe(
         module=Module.of(compiled),
         spare=spare,
@@ -179,7 +196,11 @@ def make_ensemble(
         held=tuple((index, _velocity(index, compiled.info)) for index in held.values()),
         strict=chosen.strict,
         code=code_identity(),
+        device=device,
+        spare_device=spare_device,
     )
+    if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
+        _ = kernel_of(recipe).first
     return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes)
 
 

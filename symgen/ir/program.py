@@ -14,6 +14,10 @@ from symgen.ir.graph import Graph
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 2
 
+#: What code is emitted for, and what the names of its modules end in.
+SUFFIXES = {"cpu": "", "cuda": "_cuda"}
+TARGETS = tuple(SUFFIXES)
+
 #: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
 STATUS = (
     "position_violation",  # |Phi|

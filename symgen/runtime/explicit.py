@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
 from numba import types
 
 from symgen.runtime import abi
@@ -204,7 +203,7 @@ def adaptive_steps(
     trial, new, stages = part(room, 0, n), part(room, n, n), part(room, 2 * n, n_all * n)
     sums = part(room, (2 + n_all) * n, 2 * n)
     first, last = part(stages, 0, n), part(stages, n_stages * n, n)
-    kept = np.zeros(_N_STATUS)
+    kept = part(room, (4 + n_all) * n, _N_STATUS)
     exponent = -1.0 / (error_order + 1.0)
     end_counts = False  # whether an error estimate needs the stage at the end of the step
     for e in range(n_errors):
