@@ -236,34 +236,49 @@ class DeviceRuns:
     def _run(
         self, ys: Array, ps: Array, ws: Array, selected: Integers, values: Array, summary: Array, control: Integers
     ) -> int:
+        most = self._most()
+        for first in range(0, len(selected), most):
+            if control[abi.STOP] != 0:
+                return first
+            rows = selected[first : first + most]
+            values[rows], summary[rows] = self._launch(ys[rows], ps[rows], ws[rows], summary[rows])
+            control[e.RUNS_DONE] += len(rows)
+        return len(selected)
+
+    def compile(self) -> None:
+        """Compile the kernel, by a run that ends at once because its state is not a number.
+
+        Raises
+        ------
+        SimulationError
+            As for `run`.
+        """
+        ys, ps, ws = (np.full((1, size), np.nan) for size in (self.need.ny, self.need.n_p, self.need.nw))
+        values, summary = np.zeros((1, self.quantities, self.times)), np.zeros((1, e.N_SUMMARY))
+        self.run(
+            ys, ps, ws, np.zeros(1, dtype=np.int64), values, summary, control=np.zeros(e.N_CONTROL, dtype=np.int64)
+        )
+
+    def _launch(self, ys: Array, ps: Array, ws: Array, summary: Array) -> tuple[Array, Array]:
+        """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
         from symgen.runtime.device import simulated
 
-        done, most = 0, self._most()
-        while True:  # once at least: no rows at all compile the kernel
-            rows = selected[done : done + most]
-            if control[abi.STOP] != 0:
-                return done
-            inputs = [cuda.to_device(np.ascontiguousarray(array[rows].T)) for array in (ys, ps, ws)]
-            written = summary[rows].T
-            outputs = {name: (*shape, len(rows)) for name, shape in self.shapes.items() if name != "summary"}
-            arrays = [cuda.device_array(shape, dtype=np.float64) for shape in outputs.values()]
-            arrays.append(cuda.to_device(np.ascontiguousarray(written)))
-            block = min(BLOCK, max(1, len(rows))) if simulated() else BLOCK
-            with warnings.catch_warnings():
-                if simulated():  # plain Python warns of what compiled code does in silence
-                    warnings.simplefilter("ignore", RuntimeWarning)
-                else:  # few runs leave the device idle, which is no fault
-                    warnings.filterwarnings("ignore", message=".*Grid size.*")
-                self._kernel[max(1, -(-len(rows) // block)), block](*inputs, *self._on_device, *arrays)
-                found, numbers = arrays[-2].copy_to_host(), arrays[-1].copy_to_host()
-            values[rows] = found.T.reshape(len(rows), self.quantities, self.times)
-            summary[rows] = numbers.T
-            done += len(rows)
-            control[e.RUNS_DONE] += len(rows)
-            if done >= len(selected):
-                return done
+        k = len(ys)
+        inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]
+        shapes = [(*shape, k) for name, shape in self.shapes.items() if name != "summary"]
+        outputs = [cuda.device_array(shape, dtype=np.float64) for shape in shapes]
+        outputs.append(cuda.to_device(np.ascontiguousarray(summary.T)))
+        block = min(BLOCK, k) if simulated() else BLOCK
+        with warnings.catch_warnings():
+            if simulated():  # plain Python warns of what compiled code does in silence
+                warnings.simplefilter("ignore", RuntimeWarning)
+            else:  # few runs leave the device idle, which is no fault
+                warnings.filterwarnings("ignore", message=".*Grid size.*")
+            self._kernel[-(-k // block), block](*inputs, *self._on_device, *outputs)
+            values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
+        return values.T.reshape(k, self.quantities, self.times), numbers.T
 
 
 def _scheme(call: BatchCall, adaptive: bool) -> tuple[Any, ...]:

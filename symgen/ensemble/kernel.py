@@ -105,6 +105,8 @@ class Kernel:
             info = self.first.compiled.info
             sizes = (len(info.parameters), info.nq, info.nv, len(self.recipe.held))
             self.run(Rows(*(np.zeros((0, size)) for size in sizes)), new_control())
+            if self.first.device is not None:
+                self.first.device.compile()
             self._warm = True
 
     def run(self, rows: Rows, control: Integers) -> Chunk:
