@@ -136,7 +136,8 @@ def fixed_steps(
             continue
         if bits & 1:
             return _CORRECTION if math.isfinite(w[_PHI]) else _NOT_FINITE
-        y, trial = trial, y
+        for i in range(n):  # copied, not exchanged: compilers lose track of arrays that change their names
+            y[i] = trial[i]
         t = following
         index += 1
         control[_STEPS] = index
@@ -326,7 +327,8 @@ def adaptive_steps(
                 out += 1
             for i in range(_N_STATUS):
                 w[i] = kept[i]
-        y, trial = trial, y
+        for i in range(n):  # not exchanged, as above
+            y[i] = trial[i]
         t = following
         control[_STEPS] += 1
         gauges[_STEP] = h

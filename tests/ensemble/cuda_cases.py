@@ -21,7 +21,7 @@ CASES = {
     "lagrange": (
         "four-bar",
         {"crank.omega": [3.0, 4.0]},
-        {**SHORT, "method": "lagrange", "integrator": "euler", "step": 1e-4},
+        {"until": 1e-3, "step": 1e-5, "method": "lagrange", "integrator": "euler"},
     ),
     "baumgarte": (
         "four-bar",
