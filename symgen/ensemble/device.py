@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import threading
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -90,6 +91,8 @@ def need_of(compiled: CompiledModel, n_p: int, call: BatchCall, adaptive: bool, 
         ny=info.ny,
         n_p=n_p,
         nw=max(1, compiled.law.nw),
+        nv=info.nv,
+        m=info.m,
         room=call.room,
         rows=info.m + 2 * len(info.joint_coordinates) if e.JOINT in wants else 0,
         adaptive=adaptive,
@@ -139,13 +142,13 @@ class DeviceRuns:
     def _kernel(self) -> Any:
         from numba import cuda
 
-        from symgen.runtime.device import ForgivingMath, make_kernel, simulated
+        from symgen.runtime.device import SIGNATURE, ForgivingMath, make_kernel, simulated
 
         law, model = self.compiled.law_module, self.compiled.model
         if simulated():
             for module in (law, model):
                 vars(module)["math"] = ForgivingMath()
-        return cuda.jit(make_kernel(law, model, self.need))
+        return cuda.jit(SIGNATURE)(make_kernel(law, model, self.need))
 
     @cached_property
     def _on_device(self) -> tuple[Any, ...]:
@@ -157,16 +160,18 @@ class DeviceRuns:
     def shapes(self) -> Mapping[str, tuple[int, ...]]:
         """Shapes of the outputs of one run, in the order of the kernel's arguments."""
         info, need, k = self.compiled.info, self.need, self.times
-        rates, joints = k if need.rates else 0, k if need.joints else 0
-        return {
+        rates, joints = k if need.rates else 1, k if need.joints else 1
+        shapes = {
             "states": (k, info.ny),
             "status": (k, abi.RANK + 1 + info.windings),
-            "accelerations": (rates, info.nv),
-            "multipliers": (rates, info.m),
+            "accelerations": (rates, info.nv if need.rates else 1),
+            "multipliers": (rates, info.m if need.rates else 1),
             "observed": (joints, need.rows),
             "values": (self.quantities * k,),
             "summary": (e.N_SUMMARY,),
         }
+        # empty arrays on a device have strides of their own
+        return {name: tuple(max(1, size) for size in shape) for name, shape in shapes.items()}
 
     @property
     def run_bytes(self) -> int:
@@ -224,40 +229,26 @@ class DeviceRuns:
         SimulationError
             If the device reports an error, or has too little memory.
         """
-        with _lock:
-            try:
-                return self._run(ys, ps, ws, selected, values, summary, control)
-            except Exception as error:
-                if type(error).__module__.partition(".")[0] in ("numba", "cuda"):
-                    said = " ".join(str(error).split())[:300]
-                    raise SimulationError(f"the CUDA device reports {type(error).__name__}: {said}") from error
-                raise
-
-    def _run(
-        self, ys: Array, ps: Array, ws: Array, selected: Integers, values: Array, summary: Array, control: Integers
-    ) -> int:
-        most = self._most()
-        for first in range(0, len(selected), most):
-            if control[abi.STOP] != 0:
-                return first
-            rows = selected[first : first + most]
-            values[rows], summary[rows] = self._launch(ys[rows], ps[rows], ws[rows], summary[rows])
-            control[e.RUNS_DONE] += len(rows)
+        with _lock, _reported():
+            most = self._most()
+            for first in range(0, len(selected), most):
+                if control[abi.STOP] != 0:
+                    return first
+                rows = selected[first : first + most]
+                values[rows], summary[rows] = self._launch(ys[rows], ps[rows], ws[rows], summary[rows])
+                control[e.RUNS_DONE] += len(rows)
         return len(selected)
 
     def compile(self) -> None:
-        """Compile the kernel, by a run that ends at once because its state is not a number.
+        """Compile the kernel, and bring what all runs share to the device.
 
         Raises
         ------
         SimulationError
-            As for `run`.
+            If the device reports an error.
         """
-        ys, ps, ws = (np.full((1, size), np.nan) for size in (self.need.ny, self.need.n_p, self.need.nw))
-        values, summary = np.zeros((1, self.quantities, self.times)), np.zeros((1, e.N_SUMMARY))
-        self.run(
-            ys, ps, ws, np.zeros(1, dtype=np.int64), values, summary, control=np.zeros(e.N_CONTROL, dtype=np.int64)
-        )
+        with _lock, _reported():
+            _ = self._kernel, self._on_device
 
     def _launch(self, ys: Array, ps: Array, ws: Array, summary: Array) -> tuple[Array, Array]:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
@@ -278,7 +269,20 @@ class DeviceRuns:
                 warnings.filterwarnings("ignore", message=".*Grid size.*")
             self._kernel[-(-k // block), block](*inputs, *self._on_device, *outputs)
             values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
-        return values.T.reshape(k, self.quantities, self.times), numbers.T
+        asked = self.quantities * self.times
+        return values.T[:, :asked].reshape(k, self.quantities, self.times), numbers.T
+
+
+@contextmanager
+def _reported() -> Iterator[None]:
+    """Turn what a device or its compiler reports into one sentence."""
+    try:
+        yield
+    except Exception as error:
+        if type(error).__module__.partition(".")[0] not in ("numba", "cuda"):
+            raise
+        said = " ".join(str(error).split())[:300]
+        raise SimulationError(f"the CUDA device reports {type(error).__name__}: {said}") from error
 
 
 def _scheme(call: BatchCall, adaptive: bool) -> tuple[Any, ...]:

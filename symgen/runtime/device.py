@@ -18,12 +18,15 @@ import types as python
 from dataclasses import dataclass
 from typing import Any
 
-from numba import config, cuda, float64, int64
+from numba import config, cuda, float64, int64, types
 
 from symgen.runtime import abi, batch_rows, explicit, observe, steps, watch
 from symgen.runtime import device_stages as stages
 from symgen.runtime import ensemble_abi as e
 
+_A, _I, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+#: Types of a kernel's arguments; see `make_kernel`.
+SIGNATURE = types.void(*(_M,) * 3, *(_I, _I), *(_A,) * 4, *(_I, _A, _I, _A, _A, _I), *(_T,) * 5, *(_M,) * 2)
 _N_EVENT, _OUTPUTS, _ENERGY_START, _NQ, _M = abi.N_EVENT, abi.OUTPUTS, abi.ENERGY_START, e.NQ, e.M
 
 
@@ -88,6 +91,8 @@ class Need:
     ----------
     ny, n_p, nw : int
         Lengths of the state, of the parameters and of the scratch array.
+    nv, m : int
+        Velocities and constraint rows.
     room : int
         Working memory of the scheme.
     rows : int
@@ -99,6 +104,8 @@ class Need:
     ny: int
     n_p: int
     nw: int
+    nv: int
+    m: int
     room: int
     rows: int
     adaptive: bool
@@ -136,8 +143,8 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     -------
     function
         ``kernel(ys, ps, ws, start, column, value, nodes, weights, dense, integers, numbers, sizes, limits, times,
-        picks, states, status, accelerations, multipliers, observed, values, summary)``; every array of runs has the
-        run as its last index.
+        picks, states, status, accelerations, multipliers, observed, values, summary)``, of the types in `SIGNATURE`;
+        every array of runs has the run as its last index, and none is empty: what is not asked for has one element.
     """
     same, view = on_device(stages.identity, inline=True), on_device(stages.cut, inline=True)
     maxima = on_device(watch.keep_maxima)
@@ -162,7 +169,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     rates, observed_by = getattr(law, "rates", law.rhs), model.observe if need.joints else nothing
     ny, n_p, nw, n_room, n_kept = need.ny, max(1, need.n_p), need.nw, need.working, need.kept
     n_counters, n_gauges, n_control = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL
-    n_events, keeps = stages.N_EVENTS, need.rates
+    n_events, keeps, nv, m, rows = stages.N_EVENTS, need.rates, need.nv, need.m, need.rows
 
     def kernel(
         ys: Any,
@@ -207,7 +214,8 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
             events[j] = math.nan
         control[0] = 0  # the flag that stops, which `begin_run` leaves
         begin_run(y, w, iw, sizes, limits, gauges, control)
-        outputs, columns = states[:, :, i], status[:, :, i]
+        times_asked = times.shape[0]
+        outputs, columns = states[:times_asked, :, i], status[:times_asked, :, i]
         code = integrate(
             rhs,
             confirm,
@@ -235,7 +243,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         )
         summarise(code, summary[:, i], w, iw, gauges, control, events[_N_EVENT:])
         k = control[_OUTPUTS]
-        rate, lam, joint = accelerations[:, :, i], multipliers[:, :, i], observed[:, :, i]
+        rate, lam, joint = accelerations[:, :nv, i], multipliers[:, :m, i], observed[:, :rows, i]
         observe_after(
             rates,
             confirm,

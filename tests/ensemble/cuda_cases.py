@@ -47,10 +47,24 @@ CASES = {
 }
 
 
+def dirty_memory() -> None:
+    """Let local and device memory of the simulator begin with nonsense, as that of a device may."""
+    from numba import cuda
+    from numba.cuda.simulator import kernelapi
+
+    def nonsense(shape, dtype):
+        dtype = np.dtype(dtype if isinstance(dtype, type) else str(dtype))
+        return np.full(shape, np.nan if dtype.kind == "f" else 987654321, dtype=dtype)
+
+    kernelapi.FakeCUDALocal.array = lambda self, shape, dtype: nonsense(shape, dtype)
+    cuda.device_array = lambda shape, dtype: cuda.to_device(nonsense(shape, dtype))
+
+
 def main(out: str, *names: str) -> None:
     """Run the cases for both targets and write ``OUT/CASE.npz``."""
     import symgen
 
+    dirty_memory()
     for name in names:
         model, vary, settings = CASES[name]
         found = {}
