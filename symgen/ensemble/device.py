@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import threading
 import warnings
 from collections.abc import Iterator, Mapping
@@ -49,15 +50,35 @@ def check_target(target: str, scheduler: object = None) -> None:
         return
     if scheduler is not None:
         raise InputError("target 'cuda'", "the device of this machine", "a scheduler as well")
-    try:
-        from numba import cuda
-
-        usable = bool(cuda.is_available())
-    except ImportError:
-        usable = False
-    if not usable:
+    if not usable():
         expected = "a CUDA device that Numba can use (pip install 'symgen[cuda]'), or its simulator"
         raise InputError("target 'cuda'", f"{expected} (NUMBA_ENABLE_CUDASIM=1)", "neither")
+
+
+def compilable() -> bool:
+    """Return whether kernels can be compiled for devices.
+
+    Numba's own CUDA target fails on ``max`` of two numbers (0.68.1), so the package ``numba-cuda``, which replaces it,
+    is needed.
+    """
+    if importlib.util.find_spec("numba_cuda") is None:
+        return False
+    from numba.cuda.cudadrv import nvvm
+
+    return bool(nvvm.is_available())
+
+
+def usable() -> bool:
+    """Return whether there is a device with what it needs, or the simulator."""
+    from symgen.runtime.device import simulated
+
+    if simulated():
+        return True
+    if not compilable():
+        return False
+    from numba import cuda
+
+    return bool(cuda.is_available())
 
 
 def need_of(compiled: CompiledModel, n_p: int, call: BatchCall, adaptive: bool, wants: set[int]) -> Need:
