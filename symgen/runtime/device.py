@@ -27,7 +27,8 @@ from symgen.runtime import ensemble_abi as e
 _A, _I, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 #: Types of a kernel's arguments; see `make_kernel`.
 SIGNATURE = types.void(*(_M,) * 3, *(_I, _I), *(_A,) * 4, *(_I, _A, _I, _A, _A, _I), *(_T,) * 5, *(_M,) * 2)
-_N_EVENT, _OUTPUTS, _ENERGY_START, _NQ, _M = abi.N_EVENT, abi.OUTPUTS, abi.ENERGY_START, e.NQ, e.M
+_N_EVENT, _STOP, _OUTPUTS, _ENERGY_START = abi.N_EVENT, abi.STOP, abi.OUTPUTS, abi.ENERGY_START
+_NQ, _ROWS = e.NQ, e.M
 
 
 def simulated() -> bool:
@@ -212,7 +213,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
                 kept[j] = w[j]
         for j in range(n_events):
             events[j] = math.nan
-        control[0] = 0  # the flag that stops, which `begin_run` leaves
+        control[_STOP] = 0  # which `begin_run` leaves as it is
         begin_run(y, w, iw, sizes, limits, gauges, control)
         times_asked = times.shape[0]
         outputs, columns = states[:times_asked, :, i], status[:times_asked, :, i]
@@ -263,6 +264,6 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
             joint,
             room,
         )
-        pick(values[:, i], 0, k, picks, outputs, columns, rate, lam, joint, sizes[_M], gauges[_ENERGY_START])
+        pick(values[:, i], 0, k, picks, outputs, columns, rate, lam, joint, sizes[_ROWS], gauges[_ENERGY_START])
 
     return kernel
