@@ -54,7 +54,7 @@ def dirty_memory() -> None:
 
     def nonsense(shape, dtype):
         dtype = np.dtype(dtype if isinstance(dtype, type) else str(dtype))
-        return np.full(shape, np.nan if dtype.kind == "f" else 987654321, dtype=dtype)
+        return np.full(shape, -7.7e77 if dtype.kind == "f" else 987654321, dtype=dtype)
 
     kernelapi.FakeCUDALocal.array = lambda self, shape, dtype: nonsense(shape, dtype)
     cuda.device_array = lambda shape, dtype: cuda.to_device(nonsense(shape, dtype))
