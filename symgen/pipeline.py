@@ -82,7 +82,7 @@ def generator_digest() -> str:
     for folder in ("formulate", "ir", "lower", "emit", "methods"):
         for path in sorted((package / folder).rglob("*.py")):
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    for path in sorted(path for folder in ("numba", "looped") for path in (templates / folder).glob("*.j2")):
+    for path in sorted(path for folder in ("numba", "looped", "lanes") for path in (templates / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
@@ -108,8 +108,8 @@ def generate(
         One law module is emitted for each.
     shape : {"straight", "looped"}
         Code for this mechanism alone, or loops over tables.
-    target : {"cpu", "cuda"}
-        What the code is for; stems of modules for CUDA end in ``_cuda``.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
 
     Returns
     -------
@@ -119,15 +119,17 @@ def generate(
     Raises
     ------
     InputError
-        If `target` is ``cuda`` and the code would be looped or for implicit integrators, or tables are too long.
+        If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
+        ``cuda``, or a method iterates for ``lanes``.
     """
-    if target == "cuda":
-        _refuse_cuda(choices, shape)
+    if target != "cpu":
+        _refuse_target(target, choices, shape)
     if shape == "looped":
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     from symgen.emit.emit import emit_law, emit_model
+    from symgen.emit.lanes import emit_lanes_law, emit_lanes_model
     from symgen.formulate.formulate import formulate
     from symgen.lower.law import lower_law
     from symgen.lower.model import lower_model
@@ -139,20 +141,25 @@ def generate(
     program = lower_model(equations, mechanism_digest(mechanism))
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
-    modules[f"model{suffix}"] = (emit_model(program, equations, target), ModelInfo.of(program, equations).to_dict())
+    source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
+    modules[f"model{suffix}"] = (source, ModelInfo.of(program, equations).to_dict())
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
-        source = emit_law(law, program, equations, choice.method.summary, choice.method.reference, target)
+        words = (choice.method.summary, choice.method.reference)
+        if target == "lanes":
+            source = emit_lanes_law(law, program, equations, *words)
+        else:
+            source = emit_law(law, program, equations, *words, target)
         modules[f"{choice.stem}{suffix}"] = (source, LawInfo.of(law).to_dict())
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
-def _refuse_cuda(choices: tuple[MethodChoice, ...], shape: str) -> None:
+def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
     if shape == "looped":
-        raise InputError("--target cuda", "the straight shape", "looped")
+        raise InputError(f"--target {target}", "the straight shape", "looped")
     for choice in choices:
         if choice.implicit:
-            expected = "a method that explicit integrators solve (--target cuda)"
+            expected = f"a method that explicit integrators solve (--target {target})"
             raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
 
 
@@ -169,7 +176,7 @@ def compile_model(
         The method and its structural options.
     entries : Entries, optional
         The cache; by default the user's.
-    target : {"cpu", "cuda"}
+    target : {"cpu", "lanes", "cuda"}
         What the code is for.
 
     Raises

@@ -96,7 +96,7 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
 def templates_digest() -> str:
     """Return the digest of all templates, for the emitted header and the cache key."""
     digest = hashlib.sha256()
-    for path in sorted((templates_folder() / "numba").glob("*.j2")):
+    for path in sorted(path for folder in ("numba", "lanes") for path in (templates_folder() / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 

@@ -20,6 +20,7 @@ from symgen.runtime.run import RunSpec
 
 if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
+    from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.starts import Rows
     from symgen.integrators._base import BatchCall
 
@@ -61,6 +62,7 @@ class _Prepared:
     massless: Integers
     p: Array
     device: DeviceRuns | None = None
+    lanes: LaneRuns | None = None
 
 
 @dataclass
@@ -86,13 +88,13 @@ class Kernel:
     @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.module.load(), self.recipe.device)
+        return self._prepare(self.recipe.module.load(), self.recipe.other)
 
     def spare(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                self._spare = self._prepare(self.recipe.spare.load(), self.recipe.spare_device)
+                self._spare = self._prepare(self.recipe.spare.load(), self.recipe.spare_other)
             return self._spare
 
     def warm(self) -> None:
@@ -178,21 +180,31 @@ class Kernel:
         k_times, windings = len(times), info.windings
         observes = e.JOINT in recipe.sources
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        done = call.loop(
-            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, rates, getattr(law, "confirm", rates)),
-            model.compiled.model.observe if observes else observe_nothing,
-            *call.arguments,
-            *(model.sizes, selected, ys, ps.ravel(), ws, times),
+        ends = (law.accept, model.compiled.model.observe if observes else observe_nothing)
+        confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
+        outputs = (
             *(np.empty((k_times, ny)), np.empty((k_times, abi.RANK + 1 + windings))),
             *(np.zeros((k_times, info.nv)), np.zeros((k_times, info.m))),
             *(np.zeros((k_times, info.m + 2 * len(info.joint_coordinates))), np.zeros((k_times, windings))),
             recipe.picks,
             *(values.reshape(-1), summary.reshape(-1), recipe.limits, np.zeros(abi.N_GAUGES), control),
-            *(np.zeros(abi.MAX_EVENTS * abi.N_EVENT), iw, np.zeros(nw + call.room)),
+            *(np.zeros(abi.MAX_EVENTS * abi.N_EVENT), iw),
+        )
+        flat = ps.ravel()
+        if model.lanes is not None:
+            left = np.zeros(max(k, 1), dtype=np.int64)
+            functions = (rates, confirms[1], *ends)
+            done = model.lanes.run(functions, call, (model.sizes, selected, ys, flat, ws, times, *outputs), left)
+            if done < len(selected):
+                return False
+            selected = np.flatnonzero(left).astype(np.int64)
+        done = call.loop(
+            *(law.rhs, confirms[0], law.accept, rates, confirms[1], ends[1], *call.arguments),
+            *(model.sizes, selected, ys, flat, ws, times, *outputs, np.zeros(nw + call.room)),
         )
         return bool(done == len(selected))
 
-    def _prepare(self, compiled: CompiledModel, device: Module | None) -> _Prepared:
+    def _prepare(self, compiled: CompiledModel, other: Module | None) -> _Prepared:
         info, recipe = compiled.info, self.recipe
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
@@ -236,8 +248,14 @@ class Kernel:
             joints=np.array([names.index(row.joint) for row in info.rows], dtype=np.int64),
             massless=massless,
             p=p,
-            device=None if device is None else self._device_runs(device.load(), len(p), sizes),
+            device=self._device_runs(other.load(), len(p), sizes) if other is not None and recipe.target == "cuda" else None,
+            lanes=self._lane_runs(other.load(), len(p)) if other is not None and recipe.target == "lanes" else None,
         )
+
+    def _lane_runs(self, compiled: CompiledModel, n_p: int) -> LaneRuns:
+        from symgen.ensemble.lanes import LaneRuns
+
+        return LaneRuns(compiled, n_p, len(self.recipe.spec.times))
 
     def _device_runs(self, compiled: CompiledModel, n_p: int, sizes: Integers) -> DeviceRuns:
         from symgen.ensemble.device import DeviceRuns, need_of

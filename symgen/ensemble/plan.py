@@ -13,10 +13,12 @@ from numpy.typing import ArrayLike
 
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import batch_call, kernel_of
+from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
+from symgen.ir.program import LANES
 from symgen.pipeline import compile_model
 from symgen.plan import Plan, Settings, make_plan
 from symgen.shapes import LARGEST_STRAIGHT
@@ -71,8 +73,8 @@ class Ensemble:
 
     @property
     def target(self) -> str:
-        """What runs it: ``cpu`` or ``cuda``."""
-        return "cpu" if self.recipe.device is None else "cuda"
+        """What runs it: ``cpu``, ``lanes`` or ``cuda``."""
+        return self.recipe.target
 
     @property
     def sizes(self) -> tuple[int, int, int, int]:
@@ -94,10 +96,11 @@ class Ensemble:
             evaluations = stages * spec.until / spec.step
         seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.quantities) * len(spec.times)
-        if self.recipe.device is not None:  # a device wants tens of thousands of runs at once, whatever they take
+        if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
-        return int(max(1.0, min(65536.0, math.ceil(most))))
+        found = int(max(1.0, min(65536.0, math.ceil(most))))
+        return found if self.target == "cpu" else LANES * math.ceil(found / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
@@ -141,7 +144,7 @@ def make_ensemble(
         See `symgen.ensemble.sweep.sweep`.
     quantities : sequence of str or None
         What is kept.
-    target : {"cpu", "cuda"}
+    target : {"cpu", "lanes", "cuda"}
         What runs it.
 
     Raises
@@ -178,14 +181,16 @@ def make_ensemble(
     batch_call(plan.tableau.name, compiled.info.ny, plan.spec)
     held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
     given = {name: velocities.index(name) for name in grid.names if name in velocities}
-    spare = spare_device = device = None
-    if target == "cuda":
-        device = Module.of(compile_model(model.mechanism, plan.choice, target=target))
+    if target == "lanes":
+        check_lanes(plan.tableau.name, plan.spec)
+    spare = spare_other = other = None
+    if target != "cpu":
+        other = Module.of(compile_model(model.mechanism, plan.choice, target=target))
     if plan.solver_is_free:
         choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
         spare = Module.of(compile_model(model.mechanism, choice))
-        if target == "cuda":
-            spare_device = Module.of(compile_model(model.mechanism, choice, target=target))
+        if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
+            spare_other = Module.of(compile_model(model.mechanism, choice, target=target))
     recipe = Recipe(
         module=Module.of(compiled),
         spare=spare,
@@ -196,8 +201,9 @@ def make_ensemble(
         held=tuple((index, _velocity(index, compiled.info)) for index in held.values()),
         strict=chosen.strict,
         code=code_identity(),
-        device=device,
-        spare_device=spare_device,
+        target=target,
+        other=other,
+        spare_other=spare_other,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -86,8 +86,10 @@ class Recipe:
         Whether a start that has to be changed is refused.
     code : str
         From `code_identity`: what computes it.
-    device, spare_device : Module or None
-        The same laws for a CUDA device, where that runs them; starts are closed by the others.
+    target : {"cpu", "lanes", "cuda"}
+        What runs it.
+    other, spare_other : Module or None
+        The same laws for that target, where it is not ``cpu``; starts are closed by the first ones.
     """
 
     module: Module
@@ -99,8 +101,9 @@ class Recipe:
     held: tuple[tuple[int, int], ...]
     strict: bool
     code: str
-    device: Module | None = None
-    spare_device: Module | None = None
+    target: str = "cpu"
+    other: Module | None = None
+    spare_other: Module | None = None
 
     @property
     def times(self) -> Array:
@@ -128,7 +131,7 @@ class Recipe:
         spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
         modules = [
             m if m is None else (m.folder, m.stem, m.model[0], m.law[0])
-            for m in (self.module, self.spare, self.device, self.spare_device)
+            for m in (self.module, self.spare, self.other, self.spare_other)
         ]
         text = json.dumps(
             [

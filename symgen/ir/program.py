@@ -15,8 +15,10 @@ from symgen.ir.graph import Graph
 FORMAT = 2
 
 #: What code is emitted for, and what the names of its modules end in.
-SUFFIXES = {"cpu": "", "cuda": "_cuda"}
+SUFFIXES = {"cpu": "", "lanes": "_lanes", "cuda": "_cuda"}
 TARGETS = tuple(SUFFIXES)
+#: Runs that code for ``lanes`` works on at once: a vector of the widest registers, or two of the next.
+LANES = 8
 
 #: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
 STATUS = (
