@@ -17,7 +17,7 @@ _MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh 
 _ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
 #: A term used once is written where it is used, up to this many characters.
 _INLINE = 90
-_INDEX = re.compile(r"\[(\d+)\]")
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 
 @dataclass(frozen=True)
@@ -82,8 +82,17 @@ class ElementAccess:
 
 @dataclass(frozen=True)
 class LaneAccess(ElementAccess):
-    """Elements of `lanes` runs side by side: element i of lane l stands at ``lanes*i + l``."""
+    """Elements of `lanes` runs side by side in one array ``z``: element i of lane l stands at ``lanes*i + l``.
 
+    Parameters
+    ----------
+    bases : mapping of str to int
+        Where each array of a single run begins.
+    lanes : int
+        How many runs.
+    """
+
+    bases: Mapping[str, int]
     lanes: int
 
     def read(self, space: str, index: int) -> tuple[str, str]:
@@ -96,8 +105,9 @@ class LaneAccess(ElementAccess):
         return self.of_lane(super().write(target))
 
     def of_lane(self, expression: str) -> str:
-        """Return an element of one run as that of lane ``l``."""
-        return _INDEX.sub(lambda found: f"[{int(found[1]) * self.lanes} + l]", expression)
+        """Return an element of an array of one run as that of lane ``l``."""
+        found = _ELEMENT.fullmatch(expression)
+        return expression if found is None else f"z[{(self.bases[found[1]] + int(found[2])) * self.lanes} + l]"
 
     def function(self, name: str) -> str:
         """Return what a mathematical function is called: sines of lanes are no calls."""
