@@ -48,7 +48,7 @@ if TYPE_CHECKING:
     type=click.Choice(TARGETS),
     default="cpu",
     show_default=True,
-    help="What runs them: all cores, or a CUDA device.",
+    help="What runs them: all cores, eight runs at once on each, or a CUDA device.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
 def command(

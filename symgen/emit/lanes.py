@@ -1,4 +1,4 @@
-"""Emission for several runs at once: every block in a loop over lanes, which the compiler makes vector instructions of."""
+"""Emission for several runs at once: blocks in loops over lanes, which become vector instructions."""
 
 from __future__ import annotations
 
@@ -41,7 +41,9 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     ]
     text = " ".join(line for f in functions for line in (*f.lines.terms, *f.lines.outputs))
     known = ("cosine", "sine", *(f"table_{name}" for name, _, _ in model.tables))
-    place = {name: access.of_lane(f"p[{program.parameter_offset + i}]") for i, (name, _) in enumerate(program.parameters)}
+    place = {
+        name: access.of_lane(f"p[{program.parameter_offset + i}]") for i, (name, _) in enumerate(program.parameters)
+    }
     return render(
         "lanes/law.py.j2",
         {

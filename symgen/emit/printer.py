@@ -82,7 +82,7 @@ class ElementAccess:
 
 @dataclass(frozen=True)
 class LaneAccess(ElementAccess):
-    """Elements of `lanes` runs side by side in one array ``z``: element i of lane l stands at ``lanes*i + l``.
+    """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
 
     Parameters
     ----------
@@ -105,9 +105,9 @@ class LaneAccess(ElementAccess):
         return self.of_lane(super().write(target))
 
     def of_lane(self, expression: str) -> str:
-        """Return an element of an array of one run as that of lane ``l``."""
+        """Return an element of an array of one run as that of lane ``lane``."""
         found = _ELEMENT.fullmatch(expression)
-        return expression if found is None else f"z[{(self.bases[found[1]] + int(found[2])) * self.lanes} + l]"
+        return expression if found is None else f"z[{(self.bases[found[1]] + int(found[2])) * self.lanes} + lane]"
 
     def function(self, name: str) -> str:
         """Return what a mathematical function is called: sines of lanes are no calls."""

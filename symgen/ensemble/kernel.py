@@ -248,7 +248,9 @@ class Kernel:
             joints=np.array([names.index(row.joint) for row in info.rows], dtype=np.int64),
             massless=massless,
             p=p,
-            device=self._device_runs(other.load(), len(p), sizes) if other is not None and recipe.target == "cuda" else None,
+            device=self._device_runs(other.load(), len(p), sizes)
+            if other is not None and recipe.target == "cuda"
+            else None,
             lanes=self._lane_runs(other.load(), len(p)) if other is not None and recipe.target == "lanes" else None,
         )
 

@@ -47,7 +47,9 @@ class LaneRuns:
     n_p: int
     n_times: int
 
-    def run(self, functions: tuple[Any, ...], call: BatchCall, arguments: tuple[Any, ...], left: NDArray[np.int64]) -> int:
+    def run(
+        self, functions: tuple[Any, ...], call: BatchCall, arguments: tuple[Any, ...], left: NDArray[np.int64]
+    ) -> int:
         """Run the selected rows.
 
         Parameters
@@ -71,12 +73,13 @@ class LaneRuns:
         info, law = self.compiled.info, self.compiled.law_module
         stages = call.arguments[4]
         room = room_of_lanes(info.ny, stages, self.n_p, max(1, self.compiled.law.nw), info.windings, self.n_times)
-        done = lane_runs(law.rhs, law.accept, *functions, *call.arguments, *arguments, aligned(room), left)
+        everything: list[Any] = [law.rhs, law.accept, *functions, *call.arguments, *arguments, aligned(room), left]
+        done = lane_runs(*everything)
         return int(done)
 
 
 def aligned(size: int) -> NDArray[np.float64]:
-    """Return zeros that begin where a line of the processor's cache does: vectors that cross lines take twice the time."""
+    """Return zeros that begin where a line of the cache does: vectors that cross lines take twice the time."""
     found = np.zeros(size + 8)
     first = -(found.ctypes.data // 8) % 8
     return found[first : first + size]

@@ -68,8 +68,9 @@ def sweep(
         Threads; by default one for every core.
     scheduler : str or Client, optional
         Address of a Dask scheduler, or a client: its workers run the ensemble.
-    target : {"cpu", "cuda"}
-        What runs them: all cores, or a CUDA device (extra ``cuda``), for which the starts are closed on all cores.
+    target : {"cpu", "lanes", "cuda"}
+        What runs them: all cores, one run after the other; all cores, several runs at once in vector instructions
+        (constant steps); or a CUDA device (extra ``cuda``). Starts are closed on all cores.
     settings : Settings, optional
         How each run is done.
     progress : callable, optional

@@ -42,6 +42,7 @@ def lane_bases(ny: int, n_p: int, nw: int) -> dict[str, int]:
     places = {"y": 0, "ydot": room, "p": 2 * room, "w": 2 * room + n_p}
     return {**places, "spare": spare, "numbers": spare + len(LANE_COUNTERS)}
 
+
 #: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
 STATUS = (
     "position_violation",  # |Phi|
