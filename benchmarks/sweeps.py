@@ -52,15 +52,16 @@ def main(words: list[str]) -> None:
         rate, each = f"{count / wall:.4g}", f"{1e6 * processor / count:.4g}"
         table.add_row(how, str(count), f"{wall:.3f}", f"{processor:.3f}", rate, each)
 
-    few = symgen.sweep(model, {"crank_mass": [2.0]}, settings=settings, quantities=("crank.theta",))
-    kernel_of(few.ensemble.recipe).warm()
-    for jobs in sorted({1, cores()}):
-        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        call = partial(symgen.sweep, model, vary, settings=settings, quantities=("crank.theta",), jobs=jobs)
-        wall, processor, found = timed(call)
-        grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
-        assert found.counts["ok"] == len(found), found.reasons()
-        row(f"sweep, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
+    for target, name in (("cpu", "sweep"), ("lanes", "sweep in lanes")):
+        few = symgen.sweep(model, {"crank_mass": [2.0]}, settings=settings, quantities=("crank.theta",), target=target)
+        kernel_of(few.ensemble.recipe).warm()
+        for jobs in sorted({1, cores()}):
+            before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+            call = partial(symgen.sweep, quantities=("crank.theta",), settings=settings)
+            wall, processor, found = timed(partial(call, model, vary, jobs=jobs, target=target))
+            grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
+            assert found.counts["ok"] == len(found), found.reasons()
+            row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
 
     plan = make_plan(model, settings)
     compiled, start = model.ready(plan)

@@ -226,24 +226,27 @@ def load_compiled(
     law: Mapping[str, Any],
     derive_seconds: float = 0.0,
     emit_seconds: float = 0.0,
+    shared: str = "model",
 ) -> CompiledModel:
     """Load the emitted modules of a folder.
 
     Parameters
     ----------
     folder : Path
-        Holds ``model.py`` and ``<stem>.py``.
+        Holds ``<shared>.py`` and ``<stem>.py``.
     stem : str
         File stem of the law.
     model, law : mapping
         Their metadata.
     derive_seconds, emit_seconds : float
         What generating them took, 0 if they were found.
+    shared : str
+        File stem of the module that all laws share.
     """
     return CompiledModel(
         info=msgspec.convert(model, ModelInfo),
         law=msgspec.convert(law, LawInfo),
-        model=load_module(folder / "model.py"),
+        model=load_module(folder / f"{shared}.py"),
         law_module=load_module(folder / f"{stem}.py"),
         derive_seconds=derive_seconds,
         emit_seconds=emit_seconds,

@@ -19,7 +19,8 @@ from typing import Any
 
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
-from symgen.ir.program import FORMAT
+from symgen.errors import InputError
+from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.looped import compile_looped, generate_looped, shared_folder
 from symgen.methods import METHODS
 from symgen.methods._base import Method
@@ -81,7 +82,7 @@ def generator_digest() -> str:
     for folder in ("formulate", "ir", "lower", "emit", "methods"):
         for path in sorted((package / folder).rglob("*.py")):
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    for path in sorted(path for folder in ("numba", "looped") for path in (templates / folder).glob("*.j2")):
+    for path in sorted(path for folder in ("numba", "looped", "lanes") for path in (templates / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
@@ -94,7 +95,9 @@ def _sympy_version() -> str:
     return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
 
 
-def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight") -> Generated:
+def generate(
+    mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight", target: str = "cpu"
+) -> Generated:
     """Derive, lower and emit `mechanism` with every method of `choices`.
 
     Parameters
@@ -105,17 +108,28 @@ def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str
         One law module is emitted for each.
     shape : {"straight", "looped"}
         Code for this mechanism alone, or loops over tables.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
 
     Returns
     -------
     Generated
         The source of ``model`` and of every law, with metadata.
+
+    Raises
+    ------
+    InputError
+        If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
+        ``cuda``, or a method iterates for ``lanes``.
     """
+    if target != "cpu":
+        _refuse_target(target, choices, shape)
     if shape == "looped":
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     from symgen.emit.emit import emit_law, emit_model
+    from symgen.emit.lanes import emit_lanes_law, emit_lanes_model
     from symgen.formulate.formulate import formulate
     from symgen.lower.law import lower_law
     from symgen.lower.model import lower_model
@@ -126,15 +140,32 @@ def generate(mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str
     derived = time.perf_counter()
     program = lower_model(equations, mechanism_digest(mechanism))
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
-    modules["model"] = (emit_model(program, equations), ModelInfo.of(program, equations).to_dict())
+    suffix = SUFFIXES[target]
+    source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
+    modules[f"model{suffix}"] = (source, ModelInfo.of(program, equations).to_dict())
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
-        source = emit_law(law, program, equations, choice.method.summary, choice.method.reference)
-        modules[choice.stem] = (source, LawInfo.of(law).to_dict())
+        words = (choice.method.summary, choice.method.reference)
+        if target == "lanes":
+            source = emit_lanes_law(law, program, equations, *words)
+        else:
+            source = emit_law(law, program, equations, *words, target)
+        modules[f"{choice.stem}{suffix}"] = (source, LawInfo.of(law).to_dict())
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
-def compile_model(mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None) -> CompiledModel:
+def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
+    if shape == "looped":
+        raise InputError(f"--target {target}", "the straight shape", "looped")
+    for choice in choices:
+        if choice.implicit:
+            expected = f"a method that explicit integrators solve (--target {target})"
+            raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
+
+
+def compile_model(
+    mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None, target: str = "cpu"
+) -> CompiledModel:
     """Return the compiled model of `mechanism` for one method, generated only if the cache does not have it.
 
     Parameters
@@ -145,26 +176,34 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, entries: Entries |
         The method and its structural options.
     entries : Entries, optional
         The cache; by default the user's.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for.
+
+    Raises
+    ------
+    InputError
+        As for `generate`.
     """
     store = Entries() if entries is None else entries
-    if choice.shape == "looped":
+    if choice.shape == "looped" and target == "cpu":
         return compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
     folder = folder_of(mechanism)
     derive_seconds = emit_seconds = 0.0
-    found = _find(store, folder, choice.stem)
+    model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
+    found = _find(store, folder, model, stem)
     if found is None:
         with store.building(folder):
-            found = _find(store, folder, choice.stem)  # another process may have built it while this one waited
+            found = _find(store, folder, model, stem)  # another process may have built it while this one waited
             if found is None:
-                generated = generate(mechanism, (choice,))
+                generated = generate(mechanism, (choice,), choice.shape, target)
                 derive_seconds, emit_seconds = generated.derive_seconds, generated.emit_seconds
-                for stem, (source, metadata) in generated.modules.items():
-                    store.put(folder, stem, source, metadata)
-                found = generated.modules["model"][1], generated.modules[choice.stem][1]
-    path = store.path(folder, choice.stem).parent
-    return load_compiled(path, choice.stem, found[0], found[1], derive_seconds, emit_seconds)
+                for name, (source, metadata) in generated.modules.items():
+                    store.put(folder, name, source, metadata)
+                found = generated.modules[model][1], generated.modules[stem][1]
+    path = store.path(folder, stem).parent
+    return load_compiled(path, stem, found[0], found[1], derive_seconds, emit_seconds, model)
 
 
-def _find(store: Entries, folder: str, stem: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
-    model, law = store.get(folder, "model"), store.get(folder, stem)
-    return None if model is None or law is None else (model, law)
+def _find(store: Entries, folder: str, model: str, law: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
+    shared, own = store.get(folder, model), store.get(folder, law)
+    return None if shared is None or own is None else (shared, own)

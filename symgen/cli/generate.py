@@ -13,6 +13,7 @@ import click
 from symgen.cli import OK, write_json
 from symgen.cli._options import option_pairs
 from symgen.errors import InputError
+from symgen.ir.program import TARGETS
 
 
 @click.command("generate", short_help="Write the emitted code of a mechanism.")
@@ -26,10 +27,23 @@ from symgen.errors import InputError
     show_default=True,
     help="Code for this mechanism alone, or loops over tables that all mechanisms share.",
 )
+@click.option(
+    "--target",
+    type=click.Choice(TARGETS),
+    default="cpu",
+    show_default=True,
+    help="What the code is for: processors, or device functions for CUDA.",
+)
 @click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
 def command(
-    model: str, methods: tuple[str, ...], options: tuple[str, ...], shape: str, output: str | None, as_json: bool
+    model: str,
+    methods: tuple[str, ...],
+    options: tuple[str, ...],
+    shape: str,
+    target: str,
+    output: str | None,
+    as_json: bool,
 ) -> int:
     """Write the emitted modules of MODEL, and their metadata as JSON, into a folder, and list them.
 
@@ -54,7 +68,9 @@ def command(
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
     if shape == "looped" and not methods:
         choices = [c for c in choices if is_loopable(c.method, c.options, c.implicit)]
-    generated = generate(mechanism, tuple(choices), shape)
+    if target == "cuda" and not methods:
+        choices = [c for c in choices if not c.implicit]
+    generated = generate(mechanism, tuple(choices), shape, target)
     written = write_modules(folder, generated.modules)
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in written]

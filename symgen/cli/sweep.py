@@ -10,6 +10,7 @@ import click
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import assignments, number_list, numbers, option_pairs
 from symgen.errors import InputError
+from symgen.ir.program import TARGETS
 
 if TYPE_CHECKING:
     from symgen.ensemble.study import Sweep
@@ -42,6 +43,13 @@ if TYPE_CHECKING:
 @click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
 @click.option("--jobs", type=int, help="Threads; by default one for every core.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
+@click.option(
+    "--target",
+    type=click.Choice(TARGETS),
+    default="cpu",
+    show_default=True,
+    help="What runs them: all cores, eight runs at once on each, or a CUDA device.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
 def command(
     model: str,
@@ -63,9 +71,10 @@ def command(
     resume: bool,
     jobs: int | None,
     scheduler: str | None,
+    target: str,
     as_json: bool,
 ) -> int:
-    """Run MODEL for every combination of what varies, on all cores.
+    """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
     NAME is a parameter of the mechanism, or a coordinate or velocity of a body at the start (crank.theta, crank.omega).
     Runs that fail are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
@@ -87,7 +96,10 @@ def command(
         raise InputError("--jobs", "threads of this machine", "--scheduler as well", "the cluster has its own")
     path = None if output is None else Path(output)
 
+    from symgen.ensemble.device import check_target
     from symgen.ensemble.sweep import folder_of
+
+    check_target(target, scheduler)
 
     if path is not None:
         folder_of(path, resume)
@@ -125,6 +137,7 @@ def command(
             resume=resume,
             jobs=jobs,
             scheduler=scheduler,
+            target=target,
             settings=settings,
             progress=progress,
         )

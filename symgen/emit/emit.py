@@ -14,9 +14,16 @@ import jinja2
 from jinja2 import meta
 
 from symgen.emit.printer import ElementAccess, Lines, print_block
+from symgen.errors import InputError
 from symgen.formulate.equations import Equations
-from symgen.ir.program import COUNTERS, FORMAT, STATUS, Block, LawProgram, Layout, ModelProgram
+from symgen.ir.program import COUNTERS, FORMAT, STATUS, SUFFIXES, Block, LawProgram, Layout, ModelProgram
 from symgen.lower.algebra import SKIP, WARN
+
+#: What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0 give
+#: infinity, multiply-add may be contracted, nothing else is fast or inexact.
+_DECORATORS = {"cpu": '@njit(error_model="numpy", fastmath={"contract"})', "cuda": "@cuda.jit(device=True)"}
+#: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
+MOST_CONSTANTS = 8000
 
 
 def templates_folder() -> Path:
@@ -77,7 +84,7 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
         # what a part could ask for belongs to the interface even if the parts at hand do not
         wanted |= {
             *("skip", "warn", "spatial", "counters", "status"),
-            *("tolerance", "iteration_tolerance", "penalty"),
+            *("tolerance", "iteration_tolerance", "penalty", "decorator"),
         }
     if wanted != set(values):
         missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
@@ -89,14 +96,23 @@ def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) 
 def templates_digest() -> str:
     """Return the digest of all templates, for the emitted header and the cache key."""
     digest = hashlib.sha256()
-    for path in sorted((templates_folder() / "numba").glob("*.j2")):
+    for path in sorted(path for folder in ("numba", "lanes") for path in (templates_folder() / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 
 
-def emit_model(program: ModelProgram, equations: Equations) -> str:
-    """Return the source of the module that all methods of a model share."""
+def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu") -> str:
+    """Return the source of the module that all methods of a model share, for a target of `TARGETS`.
+
+    Raises
+    ------
+    InputError
+        If tables are too long for the constant memory of CUDA devices.
+    """
     layout = program.layout
+    numbers = sum(len(x) + len(y) for _, x, y in program.tables)
+    if target == "cuda" and numbers > MOST_CONSTANTS:
+        raise InputError("tables", f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)", f"{numbers // 2}")
     return render(
         "numba/model.py.j2",
         {
@@ -110,13 +126,21 @@ def emit_model(program: ModelProgram, equations: Equations) -> str:
             "dropped_rows": equations.dropped_rows,
             "fill": program.fill,
             "tables": program.tables,
+            **_target(target),
             "functions": _functions(program.blocks, layout, equations),
         },
     )
 
 
-def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str) -> str:
-    """Return the source of the module that one method adds beside the shared one."""
+def emit_law(
+    program: LawProgram,
+    model: ModelProgram,
+    equations: Equations,
+    summary: str,
+    reference: str,
+    target: str = "cpu",
+) -> str:
+    """Return the source of the module that one method adds beside the shared one, for a target of `TARGETS`."""
     layout, correction = program.layout, program.correction
     own = {b.name for b in program.blocks}
     shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
@@ -145,6 +169,8 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
             "shared": sorted(shared - own),
             "used_sections": [s for s in layout.sections if re.search(rf"\b{s.upper()}\b", text)],
             "parts": parts,
+            "model": f"model{SUFFIXES[target]}",
+            **_target(target),
             "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
             "counters": {name: i for i, name in enumerate(COUNTERS)},
             "tolerance": place.get("tolerance", "1e-13"),
@@ -156,6 +182,11 @@ def emit_law(program: LawProgram, model: ModelProgram, equations: Equations, sum
         },
         (*parts, _CLOSING),
     )
+
+
+def _target(target: str) -> dict[str, Any]:
+    """Return what distinguishes a target in the templates."""
+    return {"cuda": target == "cuda", "decorator": _DECORATORS[target]}
 
 
 #: Macros that some parts of a law import.

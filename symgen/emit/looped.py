@@ -207,6 +207,10 @@ class InstanceAccess:
         }
         return forms.get(space, f"w[{space} + row + {{}}] =").format(i)
 
+    def function(self, name: str) -> str:
+        """Return what a mathematical function is called."""
+        return f"math.{name}"
+
     def velocity(self, index: int) -> tuple[int, int]:
         """Return frame and place in the frame of a velocity of the element."""
         for frame, (_, nv, _) in enumerate(self.info.frames):

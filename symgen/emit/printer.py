@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
@@ -16,6 +17,7 @@ _MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh 
 _ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
 #: A term used once is written where it is used, up to this many characters.
 _INLINE = 90
+_ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 
 @dataclass(frozen=True)
@@ -39,6 +41,9 @@ class Access(Protocol):
 
     def note(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
+
+    def function(self, name: str) -> str:
+        """Return what a mathematical function is called."""
 
 
 @dataclass(frozen=True)
@@ -69,6 +74,44 @@ class ElementAccess:
     def note(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
         return self.names.get((space, index), "")
+
+    def function(self, name: str) -> str:
+        """Return what a mathematical function is called."""
+        return f"math.{name}"
+
+
+@dataclass(frozen=True)
+class LaneAccess(ElementAccess):
+    """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
+
+    Parameters
+    ----------
+    bases : mapping of str to int
+        Where each array of a single run begins.
+    lanes : int
+        How many runs.
+    """
+
+    bases: Mapping[str, int]
+    lanes: int
+
+    def read(self, space: str, index: int) -> tuple[str, str]:
+        """Return (local name, expression) of an input."""
+        name, expression = super().read(space, index)
+        return name, self.of_lane(expression)
+
+    def write(self, target: Target) -> str:
+        """Return the left-hand side of an output."""
+        return self.of_lane(super().write(target))
+
+    def of_lane(self, expression: str) -> str:
+        """Return an element of an array of one run as that of lane ``lane``."""
+        found = _ELEMENT.fullmatch(expression)
+        return expression if found is None else f"z[{(self.bases[found[1]] + int(found[2])) * self.lanes} + lane]"
+
+    def function(self, name: str) -> str:
+        """Return what a mathematical function is called: sines of lanes are no calls."""
+        return {"sin": "sine", "cos": "cosine"}.get(name, f"math.{name}")
 
 
 def print_block(block: Block, access: ElementAccess) -> Lines:
@@ -134,7 +177,7 @@ class Printer:
         if op in _COMPARE:
             return f"({self.wrapped(args[0], 1)} {_COMPARE[op]} {self.wrapped(args[1], 1)})", 5
         if op in _MATH:
-            return f"math.{op}({', '.join(texts)})", 5
+            return f"{self.access.function(op)}({', '.join(texts)})", 5
         if op in ("abs", "min", "max"):
             return f"{op}({', '.join(texts)})", 5
         special = {

@@ -10,7 +10,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from symgen.ensemble.kernel import Chunk, Recipe, code_identity, kernel_of, new_control
+from symgen.ensemble.kernel import Chunk, kernel_of, new_control
+from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.errors import InputError, SimulationError
 
 if TYPE_CHECKING:

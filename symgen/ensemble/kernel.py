@@ -1,33 +1,26 @@
-"""The compiled side of an ensemble: closes and runs the rows of a chunk, here or on another machine.
-
-A recipe says everything that shapes runs apart from their rows, and travels: emitted modules go as source, and whoever
-receives them puts them into its own cache and compiles once.
-"""
+"""The compiled side of an ensemble: closes and runs the rows of a chunk, here or on another machine."""
 
 from __future__ import annotations
 
-import hashlib
-import json
 import threading
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields, replace
-from functools import cached_property, lru_cache
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import __version__
-from symgen.ensemble.quantities import Quantity
+from symgen.ensemble.recipe import Module, Recipe
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
-from symgen.model import CompiledModel, load_compiled
+from symgen.model import CompiledModel
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.run import WARN, RunSpec
+from symgen.runtime.run import RunSpec
 
 if TYPE_CHECKING:
+    from symgen.ensemble.device import DeviceRuns
+    from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.starts import Rows
     from symgen.integrators._base import BatchCall
 
@@ -36,91 +29,6 @@ Integers = NDArray[np.int64]
 
 _LIGHT, _START = e.SUMMARY.index("light"), e.SUMMARY.index("start")
 _REDUNDANT = e.SUMMARY.index("redundant_rows")
-
-
-@dataclass(frozen=True)
-class Module:
-    """An emitted law with its model, as source and metadata."""
-
-    folder: str
-    stem: str
-    model: tuple[str, Mapping[str, Any]]
-    law: tuple[str, Mapping[str, Any]]
-
-    @classmethod
-    def of(cls, compiled: CompiledModel) -> Module:
-        """Return the modules of a compiled model."""
-        law, model = Path(str(compiled.law_module.__file__)), Path(str(compiled.model.__file__))
-        return cls(
-            folder=law.parent.name,
-            stem=law.stem,
-            model=(model.read_text(encoding="utf-8"), compiled.info.to_dict()),
-            law=(law.read_text(encoding="utf-8"), compiled.law.to_dict()),
-        )
-
-    def load(self) -> CompiledModel:
-        """Return the compiled model, its modules put into the cache of this machine where that has others or none."""
-        from symgen.store.entries import Entries
-
-        entries = Entries()
-        with entries.building(self.folder):
-            for stem, (source, metadata) in (("model", self.model), (self.stem, self.law)):
-                path = entries.path(self.folder, stem)
-                if entries.get(self.folder, stem) is None or path.read_text(encoding="utf-8") != source:
-                    entries.put(self.folder, stem, source, metadata)
-        return load_compiled(entries.path(self.folder, "model").parent, self.stem, self.model[1], self.law[1])
-
-
-@dataclass(frozen=True)
-class Recipe:
-    """Everything that shapes runs apart from their rows.
-
-    Attributes
-    ----------
-    module : Module
-        What is run.
-    spare : Module or None
-        The law with another solver, for runs whose bodies turn out too light for the first; None where the solver was
-        asked for.
-    integrator : str
-        Name of the scheme.
-    spec : RunSpec
-        Steps, tolerances, limits and output times.
-    method_parameters : mapping
-        Values of the method's parameters that differ from the defaults.
-    quantities : tuple of Quantity
-        What is kept.
-    held : tuple of (int, int)
-        Coordinate and velocity indices of the coordinates that rows hold.
-    strict : bool
-        Whether a start that has to be changed is refused.
-    code : str
-        From `code_identity`: what computes it.
-    """
-
-    module: Module
-    spare: Module | None
-    integrator: str
-    spec: RunSpec
-    method_parameters: Mapping[str, float]
-    quantities: tuple[Quantity, ...]
-    held: tuple[tuple[int, int], ...]
-    strict: bool
-    code: str
-
-    @cached_property
-    def digest(self) -> str:
-        """Digest of all this, the same in every process."""
-        spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
-        modules = [m if m is None else (m.folder, m.stem, m.model[0], m.law[0]) for m in (self.module, self.spare)]
-        text = json.dumps(
-            [
-                *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
-                *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.strict, self.code),
-            ],
-            sort_keys=True,
-        )
-        return hashlib.sha256(text.encode() + self.spec.times.tobytes()).hexdigest()
 
 
 @dataclass(frozen=True)
@@ -153,6 +61,8 @@ class _Prepared:
     joints: Integers
     massless: Integers
     p: Array
+    device: DeviceRuns | None = None
+    lanes: LaneRuns | None = None
 
 
 @dataclass
@@ -178,13 +88,13 @@ class Kernel:
     @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.module.load())
+        return self._prepare(self.recipe.module.load(), self.recipe.other)
 
     def spare(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                self._spare = self._prepare(self.recipe.spare.load())
+                self._spare = self._prepare(self.recipe.spare.load(), self.recipe.spare_other)
             return self._spare
 
     def warm(self) -> None:
@@ -197,6 +107,8 @@ class Kernel:
             info = self.first.compiled.info
             sizes = (len(info.parameters), info.nq, info.nv, len(self.recipe.held))
             self.run(Rows(*(np.zeros((0, size)) for size in sizes)), new_control())
+            if self.first.device is not None:
+                self.first.device.compile()
             self._warm = True
 
     def run(self, rows: Rows, control: Integers) -> Chunk:
@@ -261,28 +173,38 @@ class Kernel:
         if model is self.first and recipe.spare is not None:
             ready &= summary[selected, _LIGHT] == 0.0
         selected = selected[ready]
-        times = np.ascontiguousarray(recipe.spec.times)
+        if model.device is not None:
+            starts = (ys.reshape(-1, ny), ps, ws.reshape(-1, nw))
+            return model.device.run(*starts, selected, values, summary, control) == len(selected)
+        times = recipe.times
         k_times, windings = len(times), info.windings
-        wants = {q.source for q in recipe.quantities}
-        observes = e.JOINT in wants
+        observes = e.JOINT in recipe.sources
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        spec = recipe.spec
-        limits = np.array([spec.max_violation, spec.velocity_limit, spec.max_energy_error, WARN])
-        done = call.loop(
-            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, rates, getattr(law, "confirm", rates)),
-            model.compiled.model.observe if observes else observe_nothing,
-            *call.arguments,
-            *(model.sizes, selected, ys, ps.ravel(), ws, times),
+        ends = (law.accept, model.compiled.model.observe if observes else observe_nothing)
+        confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
+        outputs = (
             *(np.empty((k_times, ny)), np.empty((k_times, abi.RANK + 1 + windings))),
             *(np.zeros((k_times, info.nv)), np.zeros((k_times, info.m))),
             *(np.zeros((k_times, info.m + 2 * len(info.joint_coordinates))), np.zeros((k_times, windings))),
-            np.array([(q.source, q.column) for q in recipe.quantities], dtype=np.int64).ravel(),
-            *(values.reshape(-1), summary.reshape(-1), limits, np.zeros(abi.N_GAUGES), control),
-            *(np.zeros(abi.MAX_EVENTS * abi.N_EVENT), iw, np.zeros(nw + call.room)),
+            recipe.picks,
+            *(values.reshape(-1), summary.reshape(-1), recipe.limits, np.zeros(abi.N_GAUGES), control),
+            *(np.zeros(abi.MAX_EVENTS * abi.N_EVENT), iw),
+        )
+        flat = ps.ravel()
+        if model.lanes is not None:
+            left = np.zeros(max(k, 1), dtype=np.int64)
+            functions = (rates, confirms[1], *ends)
+            done = model.lanes.run(functions, call, (model.sizes, selected, ys, flat, ws, times, *outputs), left)
+            if done < len(selected):
+                return False
+            selected = np.flatnonzero(left).astype(np.int64)
+        done = call.loop(
+            *(law.rhs, confirms[0], law.accept, rates, confirms[1], ends[1], *call.arguments),
+            *(model.sizes, selected, ys, flat, ws, times, *outputs, np.zeros(nw + call.room)),
         )
         return bool(done == len(selected))
 
-    def _prepare(self, compiled: CompiledModel) -> _Prepared:
+    def _prepare(self, compiled: CompiledModel, other: Module | None) -> _Prepared:
         info, recipe = compiled.info, self.recipe
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
@@ -311,9 +233,8 @@ class Kernel:
             (e.MULTIPLIERS, "multipliers"),
         ):
             sizes[index] = info.sections.get(name, (0, 0))[0]
-        wants = {q.source for q in recipe.quantities}
-        sizes[e.WANTS_JOINTS] = int(e.JOINT in wants)
-        sizes[e.WANTS_RATES] = int(bool(wants & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}))
+        sizes[e.WANTS_JOINTS] = int(e.JOINT in recipe.sources)
+        sizes[e.WANTS_RATES] = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}))
         names = list(dict.fromkeys(row.joint for row in info.rows))
         massless = np.zeros(info.nv, dtype=np.int64)
         massless[list(info.massless)] = 1
@@ -327,7 +248,24 @@ class Kernel:
             joints=np.array([names.index(row.joint) for row in info.rows], dtype=np.int64),
             massless=massless,
             p=p,
+            device=self._device_runs(other.load(), len(p), sizes)
+            if other is not None and recipe.target == "cuda"
+            else None,
+            lanes=self._lane_runs(other.load(), len(p)) if other is not None and recipe.target == "lanes" else None,
         )
+
+    def _lane_runs(self, compiled: CompiledModel, n_p: int) -> LaneRuns:
+        from symgen.ensemble.lanes import LaneRuns
+
+        return LaneRuns(compiled, n_p, len(self.recipe.spec.times))
+
+    def _device_runs(self, compiled: CompiledModel, n_p: int, sizes: Integers) -> DeviceRuns:
+        from symgen.ensemble.device import DeviceRuns, need_of
+
+        recipe = self.recipe
+        call = batch_call(recipe.integrator, compiled.info.ny, recipe.spec)
+        need = need_of(compiled, n_p, call, recipe.spec.adaptive, recipe.sources)
+        return DeviceRuns(compiled, need, call, sizes, recipe.limits, recipe.times, recipe.picks)
 
 
 def batch_call(integrator: str, ny: int, spec: RunSpec) -> BatchCall:
@@ -354,17 +292,6 @@ def batch_call(integrator: str, ny: int, spec: RunSpec) -> BatchCall:
             f"{', '.join(with_loop)} have one",
         )
     return call
-
-
-@lru_cache(maxsize=1)
-def code_identity() -> str:
-    """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
-    package = Path(__file__).resolve().parent.parent
-    found = hashlib.sha256(__version__.encode())
-    for folder in ("ensemble", "integrators", "runtime"):
-        for path in sorted((package / folder).glob("*.py")):
-            found.update(path.name.encode() + b"\0" + path.read_bytes())
-    return found.hexdigest()
 
 
 def new_control() -> Integers:

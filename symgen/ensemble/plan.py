@@ -12,10 +12,13 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from symgen.ensemble.axes import Grid, make_grid
-from symgen.ensemble.kernel import Module, Recipe, batch_call, code_identity
+from symgen.ensemble.kernel import batch_call, kernel_of
+from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.quantities import choose_quantities
+from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
+from symgen.ir.program import LANES
 from symgen.pipeline import compile_model
 from symgen.plan import Plan, Settings, make_plan
 from symgen.shapes import LARGEST_STRAIGHT
@@ -26,6 +29,8 @@ if TYPE_CHECKING:
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
+#: The same bound where a CUDA device runs them.
+CHUNK_BYTES_CUDA = 128e6
 #: Seconds an operation of a right-hand side takes, and evaluations in a simulated second of an adaptive run: guesses
 #: that shape nothing but the size of chunks.
 _OPERATION, _EVALUATIONS = 4e-10, 1e4
@@ -67,6 +72,11 @@ class Ensemble:
         return len(self.grid)
 
     @property
+    def target(self) -> str:
+        """What runs it: ``cpu``, ``lanes`` or ``cuda``."""
+        return self.recipe.target
+
+    @property
     def sizes(self) -> tuple[int, int, int, int]:
         """Runs, quantities, output times, and runs in a chunk."""
         return len(self), len(self.recipe.quantities), len(self.recipe.spec.times), self.chunk
@@ -86,8 +96,11 @@ class Ensemble:
             evaluations = stages * spec.until / spec.step
         seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.quantities) * len(spec.times)
+        if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
+            return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
-        return int(max(1.0, min(65536.0, math.ceil(most))))
+        found = int(max(1.0, min(65536.0, math.ceil(most))))
+        return found if self.target == "cpu" else LANES * math.ceil(found / LANES)
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
@@ -117,6 +130,7 @@ def make_ensemble(
     vary: Mapping[str, ArrayLike | str],
     runs: Mapping[str, ArrayLike | str],
     quantities: Sequence[str] | None,
+    target: str = "cpu",
 ) -> Ensemble:
     """Resolve and check everything.
 
@@ -130,6 +144,8 @@ def make_ensemble(
         See `symgen.ensemble.sweep.sweep`.
     quantities : sequence of str or None
         What is kept.
+    target : {"cpu", "lanes", "cuda"}
+        What runs it.
 
     Raises
     ------
@@ -165,10 +181,16 @@ def make_ensemble(
     batch_call(plan.tableau.name, compiled.info.ny, plan.spec)
     held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
     given = {name: velocities.index(name) for name in grid.names if name in velocities}
-    spare = None
+    if target == "lanes":
+        check_lanes(plan.tableau.name, plan.spec)
+    spare = spare_other = other = None
+    if target != "cpu":
+        other = Module.of(compile_model(model.mechanism, plan.choice, target=target))
     if plan.solver_is_free:
-        options = {**plan.choice.options, "solver": "augmented"}
-        spare = Module.of(compile_model(model.mechanism, replace(plan.choice, options=options)))
+        choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+        spare = Module.of(compile_model(model.mechanism, choice))
+        if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
+            spare_other = Module.of(compile_model(model.mechanism, choice, target=target))
     recipe = Recipe(
         module=Module.of(compiled),
         spare=spare,
@@ -179,7 +201,12 @@ def make_ensemble(
         held=tuple((index, _velocity(index, compiled.info)) for index in held.values()),
         strict=chosen.strict,
         code=code_identity(),
+        target=target,
+        other=other,
+        spare_other=spare_other,
     )
+    if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
+        _ = kernel_of(recipe).first
     return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes)
 
 

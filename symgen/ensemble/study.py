@@ -129,6 +129,7 @@ class Sweep:
             "model_digest": ensemble.compiled.info.digest,
             "method": ensemble.compiled.law.method,
             "integrator": ensemble.plan.tableau.name,
+            "target": ensemble.target,
             "step": None if spec.adaptive else spec.step,
             "rtol": spec.rtol if spec.adaptive else None,
             "atol": spec.atol if spec.adaptive else None,
@@ -143,7 +144,10 @@ class Sweep:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen sweep --json``."""
-        facts = {key: self.attributes[key] for key in ("mechanism", "method", "integrator", "step", "rtol", "until")}
+        facts = {
+            key: self.attributes[key]
+            for key in ("mechanism", "method", "integrator", "target", "step", "rtol", "until")
+        }
         counts = self.counts
         contract: dict[str, Any] = finite(
             {

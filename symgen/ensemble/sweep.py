@@ -38,11 +38,12 @@ def sweep(
     resume: bool = False,
     jobs: int | None = None,
     scheduler: str | Client | None = None,
+    target: str = "cpu",
     settings: Settings | None = None,
     progress: Callable[[float, int], None] | None = None,
     **changes: object,
 ) -> Sweep:
-    """Run a model for every combination of values, on all cores or on a Dask cluster.
+    """Run a model for every combination of values, on all cores, on a CUDA device or on a Dask cluster.
 
     Parameters
     ----------
@@ -67,6 +68,9 @@ def sweep(
         Threads; by default one for every core.
     scheduler : str or Client, optional
         Address of a Dask scheduler, or a client: its workers run the ensemble.
+    target : {"cpu", "lanes", "cuda"}
+        What runs them: all cores, one run after the other; all cores, several runs at once in vector instructions
+        (constant steps); or a CUDA device (extra ``cuda``). Starts are closed on all cores.
     settings : Settings, optional
         How each run is done.
     progress : callable, optional
@@ -88,7 +92,9 @@ def sweep(
         If results cannot be written, or the cluster gives up.
     """
     from symgen.api import Model, load
+    from symgen.ensemble.device import check_target
 
+    check_target(target, scheduler)
     if jobs is not None and not 1 <= jobs <= 4096:
         raise InputError("jobs", "a whole number from 1 to 4096", f"{jobs}")
     path = None if output is None else Path(output)
@@ -97,7 +103,7 @@ def sweep(
         raise InputError("resume", "an output that was begun", "none")
     loaded = model if isinstance(model, Model) else load(model)
     ensemble = make_ensemble(
-        loaded, changed(settings or Settings(), changes), dict(vary or {}), dict(runs or {}), quantities
+        loaded, changed(settings or Settings(), changes), dict(vary or {}), dict(runs or {}), quantities, target
     )
     table = (
         Table(*ensemble.sizes) if folder is None else FolderTable(folder, ensemble.description, ensemble.sizes, resume)

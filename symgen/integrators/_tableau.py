@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.integrators._base import Array, BatchCall, IntegratorParameter, LoopCall, State
+from symgen.ir.program import STATUS
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -132,7 +133,8 @@ class Tableau:
         return BatchCall(adaptive_runs, (*self.packed(), self.stages, *self._pair(), *control), self._room(ny))
 
     def _room(self, ny: int) -> int:
-        return (self.stages + 5 + len(self.extra_c)) * ny  # all stages, two states, two error sums
+        # all stages, two states, two error sums, and what `accept` measured at the end of a step
+        return (self.stages + 5 + len(self.extra_c)) * ny + len(STATUS)
 
     def _pair(self) -> tuple[Array, int, int, Array]:
         """Return what adaptive loops need beyond the scheme: error weights, their number and order, dense output."""

@@ -14,6 +14,35 @@ from symgen.ir.graph import Graph
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 2
 
+#: What code is emitted for, and what the names of its modules end in.
+SUFFIXES = {"cpu": "", "lanes": "_lanes", "cuda": "_cuda"}
+TARGETS = tuple(SUFFIXES)
+#: Runs that code for ``lanes`` works on at once: a vector of the widest registers, or two of the next.
+LANES = 8
+#: What code for ``lanes`` counts behind ``w``, in this order: evaluations with suspicious pivots, corrections that
+#: failed, their iterations; and what it needs for these.
+LANE_COUNTERS = ("suspects", "failures", "iterations", "last", "open")
+
+
+def lane_bases(ny: int, n_p: int, nw: int) -> dict[str, int]:
+    """Return where the arrays of a run begin in the one array of lanes, in elements of a lane.
+
+    Parameters
+    ----------
+    ny, n_p, nw : int
+        Lengths of y, p and w.
+
+    Returns
+    -------
+    dict
+        By the names of the arrays; ``spare`` for `LANE_COUNTERS`, ``numbers`` for the length of all.
+    """
+    room = -(-ny // 4) * 4  # so that loops over all elements of a state leave no rest behind unrolled vectors
+    spare = 2 * room + n_p + nw
+    places = {"y": 0, "ydot": room, "p": 2 * room, "w": 2 * room + n_p}
+    return {**places, "spare": spare, "numbers": spare + len(LANE_COUNTERS)}
+
+
 #: Scalars that `accept` leaves at the beginning of ``w`` for the runtime, in this order.
 STATUS = (
     "position_violation",  # |Phi|

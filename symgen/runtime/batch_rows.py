@@ -50,7 +50,7 @@ def begin_run(y: Any, w: Any, iw: Any, sizes: Any, limits: Any, gauges: Any, con
 
 
 @jit()
-def _pick(
+def pick(
     values: Any,
     at: int,
     outputs: int,
@@ -89,7 +89,7 @@ def _pick(
 
 
 @jit()
-def _summarise(code: int, row: Any, w: Any, iw: Any, gauges: Any, control: Any, events: Any) -> None:
+def summarise(code: int, row: Any, w: Any, iw: Any, gauges: Any, control: Any, events: Any) -> None:
     """Write the numbers by which a run is judged, in the order of `symgen.runtime.ensemble_abi.SUMMARY`."""
     narrowest, where = math.nan, math.nan
     for k in range(min(control[_EVENTS], _MAX_EVENTS)):
@@ -153,7 +153,7 @@ def end_run(
     events: Any,
 ) -> None:
     """Keep what a run gave."""
-    _summarise(code, part(summary, r * _N_SUMMARY, _N_SUMMARY), w, iw, gauges, control, events)
+    summarise(code, part(summary, r * _N_SUMMARY, _N_SUMMARY), w, iw, gauges, control, events)
     k, m = control[_OUTPUTS], sizes[_M_ROWS]
     if sizes[_WANTS_RATES] == 1:
         for i in range(iw.shape[0]):
@@ -179,5 +179,5 @@ def end_run(
     if sizes[_WANTS_JOINTS] == 1:
         observe_rows(observe, times[:k], states[:k], accelerations[:k], angles[:k], p, w, sizes[_NQ], observed[:k])
     at = r * (picks.shape[0] // 2) * times.shape[0]
-    _pick(values, at, k, picks, states, status, accelerations, multipliers, observed, m, gauges[_ENERGY_START])
+    pick(values, at, k, picks, states, status, accelerations, multipliers, observed, m, gauges[_ENERGY_START])
     control[_RUNS_DONE] += 1

@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import numpy as np
 from numba import types
 
 from symgen.runtime import abi
@@ -137,7 +136,8 @@ def fixed_steps(
             continue
         if bits & 1:
             return _CORRECTION if math.isfinite(w[_PHI]) else _NOT_FINITE
-        y, trial = trial, y
+        for i in range(n):  # copied, not exchanged: compilers lose track of arrays that change their names
+            y[i] = trial[i]
         t = following
         index += 1
         control[_STEPS] = index
@@ -204,7 +204,7 @@ def adaptive_steps(
     trial, new, stages = part(room, 0, n), part(room, n, n), part(room, 2 * n, n_all * n)
     sums = part(room, (2 + n_all) * n, 2 * n)
     first, last = part(stages, 0, n), part(stages, n_stages * n, n)
-    kept = np.zeros(_N_STATUS)
+    kept = part(room, (4 + n_all) * n, _N_STATUS)
     exponent = -1.0 / (error_order + 1.0)
     end_counts = False  # whether an error estimate needs the stage at the end of the step
     for e in range(n_errors):
@@ -327,7 +327,8 @@ def adaptive_steps(
                 out += 1
             for i in range(_N_STATUS):
                 w[i] = kept[i]
-        y, trial = trial, y
+        for i in range(n):  # not exchanged, as above
+            y[i] = trial[i]
         t = following
         control[_STEPS] += 1
         gauges[_STEP] = h

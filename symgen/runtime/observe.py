@@ -14,6 +14,39 @@ _WINDING = abi.WINDING
 _A, _I, _M, _I8 = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64
 
 
+@jit()
+def fill_rates(
+    rhs: Any,
+    confirm: Any,
+    accept: Any,
+    times: Any,
+    states: Any,
+    angles: Any,
+    p: Any,
+    w: Any,
+    iw: Any,
+    nq: int,
+    multipliers: int,
+    accelerations: Any,
+    lam: Any,
+    y: Any,
+    rate: Any,
+) -> None:
+    """Do the work of `observe_rates`; `y` and `rate` are working memory for a state each."""
+    for k in range(times.shape[0]):
+        for i in range(y.shape[0]):
+            y[i] = states[k, i]
+        for i in range(angles.shape[1]):
+            w[_WINDING + i] = angles[k, i]
+        accept(times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
+        if rhs(times[k], y, p, w, iw, rate) != 0:
+            confirm(times[k], y, p, w, iw, rate)
+        for i in range(accelerations.shape[1]):
+            accelerations[k, i] = rate[nq + i]
+        for i in range(lam.shape[1]):
+            lam[k, i] = w[multipliers + i]
+
+
 @jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, _A, _M, _M, _A, _A, _I, _I8, _I8, _M, _M))
 def observe_rates(
     rhs: Any,
@@ -47,19 +80,36 @@ def observe_rates(
     """
     y = np.zeros(states.shape[1])
     rate = np.zeros(states.shape[1])
+    fill_rates(rhs, confirm, accept, times, states, angles, p, w, iw, nq, multipliers, accelerations, lam, y, rate)
+    return 0
+
+
+@jit()
+def fill_rows(
+    observe: Any,
+    times: Any,
+    states: Any,
+    accelerations: Any,
+    angles: Any,
+    p: Any,
+    w: Any,
+    nq: int,
+    observed: Any,
+    y: Any,
+    rate: Any,
+    out: Any,
+) -> None:
+    """Do the work of `observe_rows`; `y`, `rate` and `out` are working memory for a state each and for a row."""
     for k in range(times.shape[0]):
         for i in range(y.shape[0]):
             y[i] = states[k, i]
+        for i in range(accelerations.shape[1]):
+            rate[nq + i] = accelerations[k, i]
         for i in range(angles.shape[1]):
             w[_WINDING + i] = angles[k, i]
-        accept(times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
-        if rhs(times[k], y, p, w, iw, rate) != 0:
-            confirm(times[k], y, p, w, iw, rate)
-        for i in range(accelerations.shape[1]):
-            accelerations[k, i] = rate[nq + i]
-        for i in range(lam.shape[1]):
-            lam[k, i] = w[multipliers + i]
-    return 0
+        observe(times[k], y, p, w, rate, out)
+        for i in range(observed.shape[1]):
+            observed[k, i] = out[i]
 
 
 @jit(_I8(abi.OBSERVE, _A, _M, _M, _M, _A, _A, _I8, _M))
@@ -90,14 +140,5 @@ def observe_rows(
     y = np.zeros(states.shape[1])
     rate = np.zeros(states.shape[1])
     out = np.zeros(max(1, observed.shape[1]))
-    for k in range(times.shape[0]):
-        for i in range(y.shape[0]):
-            y[i] = states[k, i]
-        for i in range(accelerations.shape[1]):
-            rate[nq + i] = accelerations[k, i]
-        for i in range(angles.shape[1]):
-            w[_WINDING + i] = angles[k, i]
-        observe(times[k], y, p, w, rate, out)
-        for i in range(observed.shape[1]):
-            observed[k, i] = out[i]
+    fill_rows(observe, times, states, accelerations, angles, p, w, nq, observed, y, rate, out)
     return 0

@@ -48,6 +48,8 @@ PAGES = (
 _FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"(?<!!)\[[^\]]+\]\(([^)\s]+)\)")
 _PICTURE = re.compile(r"!\[[^\]]*\]\(([^)\s]+)\)")
+#: What may stand before a command: a variable of its environment.
+_SETTING = re.compile(r"([A-Z_]+)=(\S*)")
 #: A block that a page calls a file: "... as `press.toml`:" right above it.
 _FILE = re.compile(r"`([\w-]+\.(?:toml|py))`:\n\n```(?:toml|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -101,11 +103,20 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
     folder = Path(sys.executable).parent
     environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ.get('PATH', '')}"}
     for line, command in commands:
-        words = shlex.split(command)
+        words, settings = shlex.split(command), dict[str, str]()
+        while (setting := _SETTING.fullmatch(words[0])) is not None:  # as a shell reads them
+            settings[setting.group(1)] = setting.group(2)
+            words = words[1:]
         own = words[0] == "symgen" or (words[0] == "python" and words[1] in shown and len(words) == 2)
         assert own, f"{name(page)}:{line}: only symgen's own commands and scripts of the page are run: {command}"
         done = subprocess.run(
-            words, capture_output=True, text=True, cwd=tmp_path, env=environment, timeout=280, check=False
+            words,
+            capture_output=True,
+            text=True,
+            cwd=tmp_path,
+            env={**environment, **settings},
+            timeout=280,
+            check=False,
         )
         assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"
 

@@ -21,6 +21,8 @@ GENERATED = ROOT / "generated"
 UPDATE = "SYMGEN_UPDATE_GENERATED"
 MODELS = ("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard")
 THOROUGH = ("pendulum", "four-bar")
+#: Also emitted for CUDA, by the methods of `CORE`.
+CUDA = ("four-bar",)
 CORE = ("lagrange", "baumgarte", "direct-correction")
 EXPLICIT = {"ode", "one-step"}
 HOW = f"if the change is wanted, run `make generated` (or set {UPDATE}=1) and commit the result"
@@ -56,8 +58,11 @@ def choices(model: str) -> tuple[MethodChoice, ...]:
 @cache
 def emitted(model: str) -> dict[str, str]:
     """Return file name -> source."""
-    made = generate(load(model), choices(model))
-    return {f"{stem}.py": source for stem, (source, _) in made.modules.items()}
+    made = dict(generate(load(model), choices(model)).modules)
+    if model in CUDA:
+        core = tuple(choose_method(name) for name in CORE)
+        made |= generate(load(model), core, target="cuda").modules
+    return {f"{stem}.py": source for stem, (source, _) in made.items()}
 
 
 @pytest.mark.parametrize("model", MODELS)

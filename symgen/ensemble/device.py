@@ -1,0 +1,317 @@
+"""Runs of a chunk on a CUDA device: what fits into its memory goes there, is run by one thread each, and comes back."""
+
+from __future__ import annotations
+
+import importlib.util
+import threading
+import warnings
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError, SimulationError, nearest
+from symgen.ir.program import TARGETS
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+
+if TYPE_CHECKING:
+    from symgen.integrators._base import BatchCall
+    from symgen.model import CompiledModel
+    from symgen.runtime.device import Need
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+#: Threads of a block: few, as each needs many registers, so that small chunks reach all multiprocessors too.
+BLOCK = 64
+#: Local memory that a thread can have, by CUDA's compute capabilities, less what calls and spilled registers need [B].
+LOCAL_BYTES = 512 * 1024 - 16 * 1024
+#: Part of a device's free memory that arrays may take.
+_SHARE = 0.6
+#: A device is used by one thread at a time; the simulator knows no other way.
+_lock = threading.Lock()
+
+
+def check_target(target: str, scheduler: object = None) -> None:
+    """Refuse a target that does not exist or cannot be used here.
+
+    Raises
+    ------
+    InputError
+        If there is no such target, no device, or it is asked for on a cluster.
+    """
+    if target not in TARGETS:
+        raise InputError("target", "one of " + ", ".join(TARGETS), f"'{target}'", nearest(target, TARGETS))
+    if target != "cuda":
+        return
+    if scheduler is not None:
+        raise InputError("target 'cuda'", "the device of this machine", "a scheduler as well")
+    if not usable():
+        expected = "a CUDA device that Numba can use (pip install 'symgen[cuda]'), or its simulator"
+        raise InputError("target 'cuda'", f"{expected} (NUMBA_ENABLE_CUDASIM=1)", "neither")
+
+
+def compilable() -> bool:
+    """Return whether kernels can be compiled for devices.
+
+    Numba's own CUDA target fails on ``max`` of two numbers (0.68.1), so the package ``numba-cuda``, which replaces it,
+    is needed.
+    """
+    if importlib.util.find_spec("numba_cuda") is None:
+        return False
+    from numba.cuda.cudadrv import nvvm
+
+    return bool(nvvm.is_available())
+
+
+def usable() -> bool:
+    """Return whether there is a device with what it needs, or the simulator."""
+    from symgen.runtime.device import simulated
+
+    if simulated():
+        return True
+    if not compilable():
+        return False
+    from numba import cuda
+
+    return bool(cuda.is_available())
+
+
+def need_of(compiled: CompiledModel, n_p: int, call: BatchCall, adaptive: bool, wants: set[int]) -> Need:
+    """Return what shapes the kernel of a law.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The law.
+    n_p : int
+        Length of ``p``.
+    call : BatchCall
+        The loop of the integrator.
+    adaptive : bool
+        Whether its steps are.
+    wants : set of int
+        Sources of the quantities that are kept, as in `symgen.runtime.ensemble_abi`.
+
+    Raises
+    ------
+    InputError
+        If a run needs more memory than a thread of a device can have, or the integrator brings a loop of its own.
+    """
+    from symgen.runtime.batch import adaptive_runs, fixed_runs
+    from symgen.runtime.device import Need
+
+    if call.loop not in (fixed_runs, adaptive_runs):
+        raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")
+    info = compiled.info
+    found = Need(
+        ny=info.ny,
+        n_p=n_p,
+        nw=max(1, compiled.law.nw),
+        nv=info.nv,
+        m=info.m,
+        room=call.room,
+        rows=info.m + 2 * len(info.joint_coordinates) if e.JOINT in wants else 0,
+        adaptive=adaptive,
+        rates=bool(wants & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}),
+        joints=e.JOINT in wants,
+    )
+    if found.local_bytes > LOCAL_BYTES:
+        least, most = found.local_bytes / 1024, LOCAL_BYTES / 1024
+        raise InputError("target 'cuda'", f"runs that need at most {most:.0f} KiB each", f"{least:.0f} KiB")
+    return found
+
+
+class DeviceRuns:
+    """Runs rows of one law on the device; compiled when it is first used.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Modules emitted for CUDA.
+    need : Need
+        From `need_of`.
+    call : BatchCall
+        The loop of the integrator, with its arguments.
+    sizes, limits : Array
+        As for the loops over many runs on a processor.
+    times : Array
+        Output times [s].
+    picks : Array of int
+        (source, column) of each quantity, flat.
+    """
+
+    def __init__(
+        self,
+        compiled: CompiledModel,
+        need: Need,
+        call: BatchCall,
+        sizes: Integers,
+        limits: Array,
+        times: Array,
+        picks: Integers,
+    ) -> None:
+        self.compiled, self.need = compiled, need
+        self.constants = (*_scheme(call, need.adaptive), sizes, limits, times, picks)
+        self.times, self.quantities = len(times), len(picks) // 2
+
+    @cached_property
+    def _kernel(self) -> Any:
+        from numba import cuda
+
+        from symgen.runtime.device import SIGNATURE, ForgivingMath, make_kernel, simulated
+
+        law, model = self.compiled.law_module, self.compiled.model
+        if simulated():
+            for module in (law, model):
+                vars(module)["math"] = ForgivingMath()
+        return cuda.jit(SIGNATURE)(make_kernel(law, model, self.need))
+
+    @cached_property
+    def _on_device(self) -> tuple[Any, ...]:
+        from numba import cuda
+
+        return tuple(cuda.to_device(np.ascontiguousarray(array)) for array in self.constants)
+
+    @cached_property
+    def shapes(self) -> Mapping[str, tuple[int, ...]]:
+        """Shapes of the outputs of one run, in the order of the kernel's arguments."""
+        info, need, k = self.compiled.info, self.need, self.times
+        rates, joints = k if need.rates else 1, k if need.joints else 1
+        shapes = {
+            "states": (k, info.ny),
+            "status": (k, abi.RANK + 1 + info.windings),
+            "accelerations": (rates, info.nv if need.rates else 1),
+            "multipliers": (rates, info.m if need.rates else 1),
+            "observed": (joints, need.rows),
+            "values": (self.quantities * k,),
+            "summary": (e.N_SUMMARY,),
+        }
+        # empty arrays on a device have strides of their own
+        return {name: tuple(max(1, size) for size in shape) for name, shape in shapes.items()}
+
+    @property
+    def run_bytes(self) -> int:
+        """Global memory of a run."""
+        numbers = self.need.ny + self.need.n_p + self.need.nw + sum(int(np.prod(s)) for s in self.shapes.values())
+        return 8 * numbers
+
+    def _most(self) -> int:
+        """Return how many runs fit into the device's memory at once.
+
+        Raises
+        ------
+        SimulationError
+            If not even one does.
+        """
+        from numba import cuda
+
+        from symgen.runtime.device import simulated
+
+        if simulated():
+            return 1 << 30
+        context, device = cuda.current_context(), cuda.get_current_device()
+        # local memory is there for every thread that could be resident
+        threads = device.MULTIPROCESSOR_COUNT * device.MAX_THREADS_PER_MULTI_PROCESSOR
+        free = _SHARE * context.get_memory_info().free - threads * self.need.local_bytes
+        most = int(free / self.run_bytes)
+        if most < 1:
+            needed = threads * self.need.local_bytes + self.run_bytes
+            raise SimulationError(f"the CUDA device has too little free memory: runs need {needed / 1e9:.3g} GB")
+        return most
+
+    def run(
+        self, ys: Array, ps: Array, ws: Array, selected: Integers, values: Array, summary: Array, control: Integers
+    ) -> int:
+        """Run the selected rows from their starts.
+
+        Parameters
+        ----------
+        ys, ps, ws : Array, shapes (k, ny), (k, np), (k, nw)
+            Starts, parameters and scratch, as `symgen.runtime.starting.close_runs` left them.
+        selected : Array of int
+            Rows to run.
+        values, summary : Array, shapes (k, quantities, times), (k, N_SUMMARY)
+            Results; rows of `summary` are completed.
+        control : Array of int
+            As for `symgen.ensemble.kernel.Kernel.run`: between launches its flag is looked at, and runs are counted.
+
+        Returns
+        -------
+        int
+            How many of the selected rows are done: all of them, unless it was stopped.
+
+        Raises
+        ------
+        SimulationError
+            If the device reports an error, or has too little memory.
+        """
+        with _lock, _reported():
+            most = self._most()
+            for first in range(0, len(selected), most):
+                if control[abi.STOP] != 0:
+                    return first
+                rows = selected[first : first + most]
+                values[rows], summary[rows] = self._launch(ys[rows], ps[rows], ws[rows], summary[rows])
+                control[e.RUNS_DONE] += len(rows)
+        return len(selected)
+
+    def compile(self) -> None:
+        """Compile the kernel, and bring what all runs share to the device.
+
+        Raises
+        ------
+        SimulationError
+            If the device reports an error.
+        """
+        with _lock, _reported():
+            _ = self._kernel, self._on_device
+
+    def _launch(self, ys: Array, ps: Array, ws: Array, summary: Array) -> tuple[Array, Array]:
+        """Run rows that fit into the device's memory; return their quantities and numbers."""
+        from numba import cuda
+
+        from symgen.runtime.device import simulated
+
+        k = len(ys)
+        inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]
+        shapes = [(*shape, k) for name, shape in self.shapes.items() if name != "summary"]
+        outputs = [cuda.device_array(shape, dtype=np.float64) for shape in shapes]
+        outputs.append(cuda.to_device(np.ascontiguousarray(summary.T)))
+        block = min(BLOCK, k) if simulated() else BLOCK
+        with warnings.catch_warnings():
+            if simulated():  # plain Python warns of what compiled code does in silence
+                warnings.simplefilter("ignore", RuntimeWarning)
+            else:  # few runs leave the device idle, which is no fault
+                warnings.filterwarnings("ignore", message=".*Grid size.*")
+            self._kernel[-(-k // block), block](*inputs, *self._on_device, *outputs)
+            values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
+        asked = self.quantities * self.times
+        return values.T[:, :asked].reshape(k, self.quantities, self.times), numbers.T
+
+
+@contextmanager
+def _reported() -> Iterator[None]:
+    """Turn what a device or its compiler reports into one sentence."""
+    try:
+        yield
+    except Exception as error:
+        if type(error).__module__.partition(".")[0] not in ("numba", "cuda"):
+            raise
+        said = " ".join(str(error).split())[:300]
+        raise SimulationError(f"the CUDA device reports {type(error).__name__}: {said}") from error
+
+
+def _scheme(call: BatchCall, adaptive: bool) -> tuple[Any, ...]:
+    """Return a scheme as a kernel takes it: packed tableau, error weights, dense output, integers and numbers."""
+    if adaptive:
+        start, column, value, nodes, stages, weights, errors, order, dense, h, h_max, until, rtol, atol = call.arguments
+    else:
+        start, column, value, nodes, stages, h, until = call.arguments
+        weights, dense, errors, order, h_max, rtol, atol = np.zeros(1), np.zeros(1), 0, 0, np.inf, 0.0, 0.0
+    integers = np.array([stages, errors, order], dtype=np.int64)
+    return start, column, value, nodes, weights, dense, integers, np.array([h, h_max, until, rtol, atol])

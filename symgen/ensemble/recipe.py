@@ -1,0 +1,154 @@
+"""What the runs of an ensemble share: everything that shapes them apart from their rows.
+
+A recipe travels: emitted modules go as source, and whoever receives them puts them into its cache and compiles once.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property, lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen import __version__
+from symgen.ensemble.quantities import Quantity
+from symgen.model import CompiledModel, load_compiled
+from symgen.runtime.run import WARN, RunSpec
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Module:
+    """An emitted law with its model, as source and metadata, under the stems that they have in the cache."""
+
+    folder: str
+    stem: str
+    model: tuple[str, Mapping[str, Any]]
+    law: tuple[str, Mapping[str, Any]]
+    shared: str = "model"
+
+    @classmethod
+    def of(cls, compiled: CompiledModel) -> Module:
+        """Return the modules of a compiled model."""
+        law, model = Path(str(compiled.law_module.__file__)), Path(str(compiled.model.__file__))
+        return cls(
+            folder=law.parent.name,
+            stem=law.stem,
+            model=(model.read_text(encoding="utf-8"), compiled.info.to_dict()),
+            law=(law.read_text(encoding="utf-8"), compiled.law.to_dict()),
+            shared=model.stem,
+        )
+
+    def load(self) -> CompiledModel:
+        """Return the compiled model, its modules put into the cache of this machine where that has others or none."""
+        from symgen.store.entries import Entries
+
+        entries = Entries()
+        with entries.building(self.folder):
+            for stem, (source, metadata) in ((self.shared, self.model), (self.stem, self.law)):
+                path = entries.path(self.folder, stem)
+                if entries.get(self.folder, stem) is None or path.read_text(encoding="utf-8") != source:
+                    entries.put(self.folder, stem, source, metadata)
+        folder = entries.path(self.folder, self.shared).parent
+        return load_compiled(folder, self.stem, self.model[1], self.law[1], shared=self.shared)
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """Everything that shapes runs apart from their rows.
+
+    Attributes
+    ----------
+    module : Module
+        What is run.
+    spare : Module or None
+        The law with another solver, for runs whose bodies turn out too light for the first; None where the solver was
+        asked for.
+    integrator : str
+        Name of the scheme.
+    spec : RunSpec
+        Steps, tolerances, limits and output times.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    quantities : tuple of Quantity
+        What is kept.
+    held : tuple of (int, int)
+        Coordinate and velocity indices of the coordinates that rows hold.
+    strict : bool
+        Whether a start that has to be changed is refused.
+    code : str
+        From `code_identity`: what computes it.
+    target : {"cpu", "lanes", "cuda"}
+        What runs it.
+    other, spare_other : Module or None
+        The same laws for that target, where it is not ``cpu``; starts are closed by the first ones.
+    """
+
+    module: Module
+    spare: Module | None
+    integrator: str
+    spec: RunSpec
+    method_parameters: Mapping[str, float]
+    quantities: tuple[Quantity, ...]
+    held: tuple[tuple[int, int], ...]
+    strict: bool
+    code: str
+    target: str = "cpu"
+    other: Module | None = None
+    spare_other: Module | None = None
+
+    @property
+    def times(self) -> Array:
+        """Output times [s]."""
+        return np.ascontiguousarray(self.spec.times)
+
+    @property
+    def limits(self) -> Array:
+        """What runs are judged by: see `symgen.runtime.batch.fixed_runs`."""
+        return np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
+
+    @property
+    def picks(self) -> Integers:
+        """(source, column) of each quantity, flat."""
+        return np.array([(q.source, q.column) for q in self.quantities], dtype=np.int64).ravel()
+
+    @property
+    def sources(self) -> set[int]:
+        """What the quantities are taken from."""
+        return {q.source for q in self.quantities}
+
+    @cached_property
+    def digest(self) -> str:
+        """Digest of all this, the same in every process."""
+        spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
+        modules = [
+            m if m is None else (m.folder, m.stem, m.model[0], m.law[0])
+            for m in (self.module, self.spare, self.other, self.spare_other)
+        ]
+        text = json.dumps(
+            [
+                *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
+                *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.strict, self.code),
+            ],
+            sort_keys=True,
+        )
+        return hashlib.sha256(text.encode() + self.spec.times.tobytes()).hexdigest()
+
+
+@lru_cache(maxsize=1)
+def code_identity() -> str:
+    """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
+    package = Path(__file__).resolve().parent.parent
+    found = hashlib.sha256(__version__.encode())
+    for folder in ("ensemble", "integrators", "runtime"):
+        for path in sorted((package / folder).glob("*.py")):
+            found.update(path.name.encode() + b"\0" + path.read_bytes())
+    return found.hexdigest()

@@ -1,0 +1,91 @@
+"""Sweeps that a device runs as a processor does. Run as a script under Numba's simulator, it writes both results.
+
+NUMBA_ENABLE_CUDASIM=1 python cuda_cases.py OUT CASE ...
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+
+EVERYTHING = ("q", "v", "crank.ax", "coupler.alpha", "joint", "lam", "energy", "violation", "smallest_pivot")
+SHORT = {"until": 0.01, "step": 2e-3}
+MASSES = {"crank_mass": [2.0, 3.0, -1.0]}
+
+#: Name -> (model, what varies, settings).
+CASES = {
+    "planar": ("four-bar", MASSES, {**SHORT, "quantities": EVERYTHING, "times": (0.0, 0.0011, 0.01)}),
+    "spatial": ("spatial-slider-crank", {"crank.wx": [5.0, 6.0]}, SHORT),
+    "lagrange": (
+        "four-bar",
+        {"crank.omega": [3.0, 4.0]},
+        {"until": 1e-3, "step": 1e-5, "method": "lagrange", "integrator": "euler"},
+    ),
+    "baumgarte": (
+        "four-bar",
+        {"crank.omega": [0.0, 8.0]},
+        {"method": "baumgarte", "integrator": "dopri5", "until": 0.2, "output_step": 0.06},
+    ),
+    "partition": ("four-bar", MASSES, {**SHORT, "method": "coordinate-partitioning", "integrator": "heun"}),
+    "tangent": ("four-bar", MASSES, {**SHORT, "method": "null-space", "quantities": ("q", "lam")}),
+    "dense": ("four-bar", MASSES, {**SHORT, "method": "lagrange", "options": {"method.solver": "dense"}}),
+    "iterated": ("four-bar", MASSES, {**SHORT, "method": "index1-augmented-lagrangian", "quantities": ("v", "lam")}),
+    "momenta": ("four-bar", MASSES, {**SHORT, "method": "augmented-hamiltonian", "quantities": ("crank.ax",)}),
+    "redundant": ("bricard", {"rod1.wx": [0.0]}, {"until": 0.02, "step": 0.01, "quantities": ("q", "lam")}),
+    "rolling": ("rolling-disc", {"disc.wz": [1.0, 2.0]}, {**SHORT, "method": "baumgarte"}),
+    "light": ("four-bar", {"coupler_mass": [1e-14, 8.0]}, SHORT),
+    "passage": ("n-four-bar:1", {"coupler0.omega": [0.0]}, {"until": 1.3, "step": 0.01, "quantities": ("energy",)}),
+    "violated": ("slider-crank", {"crank.omega": [0.0, 20.0]}, {"until": 0.6, "step": 0.01, "method": "lagrange"}),
+    "explicit-fine": (
+        "heavy-top",
+        {"top.wz": [20.0, 30.0]},
+        {"method": "lagrange", "integrator": "dop853", "rtol": 1e-9, "until": 0.2, "times": (0.05, 0.11, 0.2)},
+    ),
+    "table": (ROOT / "examples" / "gear-pair.toml", {"pinion.omega": [5.0, 30.0]}, SHORT),
+}
+
+
+def dirty_memory() -> None:
+    """Let local and device memory of the simulator begin with nonsense, as that of a device may."""
+    from numba import cuda
+    from numba.cuda.simulator import kernelapi
+
+    def nonsense(shape, dtype):
+        dtype = np.dtype(dtype if isinstance(dtype, type) else str(dtype))
+        return np.full(shape, -7.7e77 if dtype.kind == "f" else 987654321, dtype=dtype)
+
+    kernelapi.FakeCUDALocal.array = lambda self, shape, dtype: nonsense(shape, dtype)
+    cuda.device_array = lambda shape, dtype: cuda.to_device(nonsense(shape, dtype))
+
+
+def launched(sweep) -> bool:
+    """Whether a kernel for a device was made for a sweep."""
+    from symgen.ensemble.kernel import kernel_of
+
+    device = kernel_of(sweep.ensemble.recipe).first.device
+    return device is not None and "_kernel" in vars(device)
+
+
+def main(out: str, *names: str) -> None:
+    """Run the cases for both targets and write ``OUT/CASE.npz``."""
+    import symgen
+    from symgen.ensemble.device import DeviceRuns
+
+    dirty_memory()
+    DeviceRuns._most = lambda self: 2  # little memory: three runs take two launches
+    for name in names:
+        model, vary, settings = CASES[name]
+        found = {}
+        for target in ("cpu", "cuda"):
+            sweep = symgen.sweep(model, vary, target=target, jobs=2, **settings)
+            found[f"{target}_values"], found[f"{target}_summary"] = sweep.values, sweep.summary
+            found[f"{target}_status"] = sweep.status
+            found[f"{target}_reason"] = np.array([str(reason) for reason in sweep.reason])
+            assert sweep.attributes["target"] == target and (target == "cuda") == launched(sweep)
+        np.savez(Path(out) / f"{name}.npz", **found)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,154 @@
+"""Runs in lanes against runs by themselves: equal to rounding where they go well, bit for bit where they do not."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import symgen
+from symgen.ensemble.lanes import aligned
+from symgen.errors import InputError
+from symgen.ir.program import LANES, lane_bases
+from symgen.pipeline import choose_method, compile_model, generate
+from symgen.runtime import ensemble_abi as e
+
+ROUNDED = [e.SUMMARY.index(name) for name in ("code", "end", "outputs", "steps", "evaluations", "iterations", "start")]
+
+
+def both(model, vary, **chosen):
+    """Return the sweep by single runs and the one in lanes."""
+    return [symgen.sweep(model, vary, target=target, jobs=1, **chosen) for target in ("cpu", "lanes")]
+
+
+def scale(values):
+    return np.maximum(1.0, np.nanmax(np.abs(values)))
+
+
+@pytest.mark.parametrize(
+    ("method", "options"),
+    [
+        ("lagrange", {}),
+        ("baumgarte", {"method.alpha": 3.0}),
+        ("penalty", {}),
+        ("direct-correction", {}),
+        ("direct-correction", {"method.weight": "mass"}),
+        ("post-stabilization", {}),
+        ("velocity-projection", {}),
+    ],
+)
+def test_planar_rows_are_those_of_single_runs(method, options):
+    """Thirteen rows: a full group and a part of one; outputs that no step meets."""
+    single, lanes = both(
+        "four-bar",
+        {"crank_mass": "lin(1.5, 2.5, 13)"},
+        **{"method": method, "options": options, "integrator": "rk4", "step": 1e-3, "until": 0.2},
+        times=(0.0, 0.05, 0.10007, 0.2),
+        quantities=("q", "v", "energy.total", "rocker.ax"),
+    )
+    assert lanes.counts == single.counts
+    assert lanes.counts["ok"] == 13
+    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-10 * scale(single.values))
+    np.testing.assert_array_equal(lanes.summary[:, ROUNDED], single.summary[:, ROUNDED])
+    rounding = 0.05 if method == "penalty" else 1e-6  # its springs turn rounding into vibrations
+    for name in ("position_violation_max", "energy_drift_max", "energy_scale", "smallest_pivot", "speed_scale"):
+        column = e.SUMMARY.index(name)
+        np.testing.assert_allclose(lanes.summary[:, column], single.summary[:, column], rtol=rounding, atol=1e-11)
+
+
+@pytest.mark.parametrize("integrator", ["euler", "heun", "dop853"])
+def test_every_tableau_takes_the_same_steps(integrator):
+    options = {"integrator.adaptive": "false"} if integrator == "dop853" else {}
+    single, lanes = both(
+        "pendulum",
+        {"bob_mass": "lin(0.8, 1.2, 9)"},
+        **{"method": "lagrange", "integrator": integrator, "options": options, "step": 1e-4, "until": 0.01},
+    )
+    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+def test_spatial_rows_are_those_of_single_runs(method):
+    """Euler parameters, and angles in space whose turns are counted."""
+    single, lanes = both(
+        "spatial-slider-crank",
+        {"crank.wx": "lin(5.5, 6.5, 5)"},
+        **{"method": method, "integrator": "rk4", "step": 1e-3, "until": 0.1, "quantities": ("q", "v")},
+    )
+    assert lanes.counts == single.counts
+    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-9 * scale(single.values))
+
+
+def test_runs_that_do_not_go_well_are_left_to_single_runs():
+    """Through singular positions, and beyond the limits: the rows are bit for bit those of single runs."""
+    chosen = {"integrator": "rk4", "step": 1e-3, "until": 1.5}
+    single, lanes = both(
+        "n-four-bar:2", {"vertical0.omega": "lin(-1.2, -0.8, 9)"}, method="direct-correction", **chosen
+    )
+    events = single.summary[:, e.SUMMARY.index("rank_event_count")] > 0
+    assert events.any()
+    np.testing.assert_array_equal(lanes.values[events], single.values[events])
+    np.testing.assert_array_equal(lanes.summary[events], single.summary[events])
+    np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-9)
+    strict = {"max_violation": 1e-12, **chosen}
+    single, lanes = both("four-bar", {"crank_mass": "lin(1.5, 2.5, 9)"}, method="lagrange", **strict)
+    assert single.counts["failed"] == 9
+    assert lanes.reasons() == single.reasons()
+    np.testing.assert_array_equal(lanes.summary, single.summary)
+
+
+def test_results_do_not_depend_on_the_neighbours():
+    """A row has the same bits whatever stands in the other lanes."""
+    chosen = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "until": 0.1, "target": "lanes"}
+    masses = np.linspace(1.5, 2.5, 11)
+    together = symgen.sweep("four-bar", {"crank_mass": masses}, **chosen)
+    alone = [symgen.sweep("four-bar", {"crank_mass": masses[i : i + 1]}, **chosen) for i in (0, 7, 10)]
+    np.testing.assert_array_equal(together.values[[0, 7, 10]], np.concatenate([found.values for found in alone]))
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"method": "augmented-lagrangian"}, "one that iterates"),
+        ({"method": "coordinate-partitioning"}, "one that iterates, or chooses coordinates"),
+        ({"integrator": "dopri5"}, "adaptive steps"),
+    ],
+)
+def test_what_lanes_cannot_do_is_refused(changes, words):
+    chosen = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "until": 0.1} | changes
+    if "integrator" in changes:
+        del chosen["step"]
+    with pytest.raises(InputError, match=words):
+        symgen.sweep("four-bar", {"crank_mass": [2.0]}, target="lanes", **chosen)
+
+
+def test_looped_code_for_lanes_is_refused():
+    with pytest.raises(InputError, match="the straight shape"):
+        generate(symgen.load("four-bar").mechanism, (choose_method("lagrange"),), "looped", "lanes")
+
+
+@cache
+def emitted():
+    """The module that a model in lanes shares."""
+    return compile_model(symgen.load("four-bar").mechanism, choose_method("lagrange"), target="lanes").model
+
+
+@settings(deadline=None)
+@given(st.floats(-1e5, 1e5))
+def test_emitted_sines_are_good_to_the_last_place(x):
+    module = emitted()
+    assert abs(module.sine(x) - math.sin(x)) <= 1.2e-16
+    assert abs(module.cosine(x) - math.cos(x)) <= 1.2e-16
+
+
+def test_places_in_the_array_of_lanes_do_not_overlap():
+    bases = lane_bases(19, 29, 71)
+    assert list(bases.values()) == [0, 20, 40, 69, 140, 145]
+    array = aligned(LANES * bases["numbers"])
+    assert array.ctypes.data % 64 == 0
+    assert len(array) == LANES * 145
+    assert not array.any()
