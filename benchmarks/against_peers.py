@@ -4,7 +4,7 @@ The mechanisms, the reference solutions and the error (largest over the run, ove
 ``benchmarks/peers``; symgen gets the numbers of the same description, and as many outputs as the peers. Peers run in an
 interpreter of their own, in the same session, and each with the best of its settings.
 
-    python -m benchmarks.against_peers [--model NAME] [--peers-python .bench-venv/bin/python] [--peers-json FILE]
+    python -m benchmarks.against_peers [--model NAME] [--peers exudyn,mujoco] [--only TEXT] [--peers-json FILE]
 """
 
 from __future__ import annotations
@@ -68,8 +68,8 @@ def describe(model: models.Model) -> symgen.Mechanism:
     return builder.build()
 
 
-def rows(model: models.Model) -> Iterator[Row]:
-    """Run symgen with every setting."""
+def rows(model: models.Model, only: str = "") -> Iterator[Row]:
+    """Run symgen with every setting whose name contains a text."""
     loaded = symgen.load(describe(model))
     truth, times = reference.angles(model), reference.sample_times(model)
     columns = [f"{body.name}.theta" for body in model.bodies]
@@ -93,6 +93,8 @@ def rows(model: models.Model) -> Iterator[Row]:
     )
     for label, method, options in weights:
         for text, chosen in settings:
+            if only not in f"{label}, {text}":
+                continue
             all_options = options | chosen.get("options", {})
             asked = common | chosen | {"method": method, "options": all_options}
             result = loaded.simulate(**asked)
@@ -116,13 +118,13 @@ def rows(model: models.Model) -> Iterator[Row]:
             )
 
 
-def peers(names: Sequence[str], python: Path, target: Path) -> list[Row]:
+def peers(names: Sequence[str], python: Path, target: Path, tools: str) -> list[Row]:
     """Run the peers in their own interpreter; none where it does not exist."""
     if not python.exists():
         print(f"no peers: {python} does not exist (see benchmarks/README.md)", file=sys.stderr)
         return []
     chosen = [word for name in names for word in ("--model", name)]
-    command = [str(python), "-m", "benchmarks.peers", *chosen, "--json", str(target)]
+    command = [str(python), "-m", "benchmarks.peers", *chosen, "--peers", tools, "--json", str(target)]
     subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     found: list[Row] = json.loads(target.read_text(encoding="utf-8"))
     return found
@@ -157,6 +159,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--model", action="append", help=f"one of {', '.join(models.NAMES)}; repeatable; default all")
     parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
     parser.add_argument("--peers-json", type=Path, help="rows of an earlier run of the peers, instead of running them")
+    parser.add_argument("--peers", default="casadi,exudyn,mujoco", help="tools to run, comma-separated")
+    parser.add_argument("--only", default="", help="settings of symgen to run: those that contain this text")
     parser.add_argument("--json", type=Path, help="file for all rows")
     parser.add_argument("--error", type=float, default=TARGET, help="error of the summary [rad]")
     parser.add_argument("--rows", action="store_true", help="print every row of symgen as well")
@@ -164,7 +168,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     names = options.model or list(models.NAMES)
     found: list[Row] = []
     for name in names:
-        found += rows(models.load(name))
+        found += rows(models.load(name), options.only)
     if options.rows:
         from benchmarks.peers.measure import table
 
@@ -174,7 +178,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         found += [r for r in earlier if r["model"] in names]
     else:
         with tempfile.TemporaryDirectory() as folder:
-            found += peers(names, options.peers_python, Path(folder) / "peers.json")
+            found += peers(names, options.peers_python, Path(folder) / "peers.json", options.peers)
     if options.json is not None:
         options.json.write_text(json.dumps(found, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     show(summary(names, found, options.error))
