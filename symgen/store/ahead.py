@@ -14,6 +14,7 @@ import os
 import subprocess
 import sys
 import time
+from pathlib import Path
 from typing import Any
 
 from symgen.store.paths import ENVIRONMENT_VARIABLE, cache_location
@@ -38,7 +39,7 @@ def start(function: Any) -> bool:
         False where there is nothing to do or to gain: compiled or cached already, no cache, or a single processor.
     """
     wanting = getattr(function, "wanting", None)
-    if wanting is None or not wanting() or not cache_location().persistent or _processors() < 2 or not sys.executable:
+    if wanting is None or not wanting() or not cache_location().persistent or _processors() < 2 or not _is_python():
         return False
     name = _name(function)
     if name not in _running:
@@ -67,6 +68,11 @@ def finish(function: Any) -> None:
 
 def _name(function: Any) -> str:
     return f"{function.py_func.__module__}:{function.py_func.__qualname__}"
+
+
+def _is_python() -> bool:
+    """Whether this process is an interpreter that can be started anew, not a program with Python inside."""
+    return "python" in Path(sys.executable or "").name.lower()
 
 
 def _processors() -> int:

@@ -47,9 +47,12 @@ def test_compiles_by_itself_where_the_other_process_fails(cache, generated, pyth
     assert (found["hits"], found["misses"]) == (0, 1)
 
 
-def test_starts_nothing_without_gain(cache, generated, python):
+def test_starts_nothing_without_gain(cache, generated, python, tmp_path):
     alone = python(SCRIPT.replace("lambda: 2", "lambda: 1"))
     assert not alone["started"] and alone["value"] == 6.0 and alone["misses"] == 1
+    embedded = SCRIPT.replace("started =", "ahead.sys.executable = '/usr/bin/modeller'\nstarted =", 1)
+    inside = python(embedded, SYMGEN_CACHE_DIR=str(tmp_path / "other"))
+    assert not inside["started"] and inside["value"] == 6.0 and inside["misses"] == 1
     plain = python(SCRIPT.replace("again", "ignored"), NUMBA_DISABLE_JIT="1")
     assert not plain["started"] and plain["value"] == 6.0
     assert not ahead.start(None) and not ahead.start(len)
