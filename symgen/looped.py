@@ -193,6 +193,7 @@ def compile_looped(
             nw=tables.nw,
             unknowns=0,
             level="",
+            tangent=(),
             operations={},
         ),
         model=functions,  # type: ignore[arg-type]  # functions by name, as a module has them

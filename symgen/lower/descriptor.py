@@ -14,6 +14,8 @@ The Jacobian with respect to k and to y = (q, v) is differentiated on the graph 
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from symgen.ir.derivative import jacobian
 from symgen.ir.program import STATUS, Block, Target
 from symgen.lower.algebra import System
@@ -22,8 +24,27 @@ from symgen.lower.vectors import Vector
 from symgen.methods._base import Descriptor
 
 
-def descriptor_blocks(hoister: Hoister, system: System, descriptor: Descriptor) -> tuple[tuple[Block, ...], int]:
-    """Return the blocks ``residual`` and ``tangent``, and the number of unknowns of a stage.
+@dataclass(frozen=True)
+class DescriptorForm:
+    """A law's descriptor form.
+
+    Parameters
+    ----------
+    blocks : tuple of Block
+        ``residual`` and ``tangent``.
+    unknowns : int
+        Unknowns of a stage.
+    pattern : tuple of (int, int)
+        Equation and unknown of each number that ``tangent`` writes; from `unknowns` on, unknowns are q and v.
+    """
+
+    blocks: tuple[Block, ...]
+    unknowns: int
+    pattern: tuple[tuple[int, int], ...]
+
+
+def descriptor_form(hoister: Hoister, system: System, descriptor: Descriptor) -> DescriptorForm:
+    """Return the blocks ``residual`` and ``tangent``, and the pattern of the latter.
 
     Parameters
     ----------
@@ -37,7 +58,7 @@ def descriptor_blocks(hoister: Hoister, system: System, descriptor: Descriptor) 
     Notes
     -----
     ``residual(t, y, k, p, w, r)`` writes F to r and the power of forces without potential and of drivers to the status.
-    ``tangent(t, y, k, p, w, j)`` writes dF/dk row by row, then dF/dy row by row; structural zeros are not touched.
+    ``tangent(t, y, k, p, w, j)`` writes the structural nonzeros of dF/dk and dF/dy, equation by equation.
     """
     e, g = system.equations, system.graph
     rows, unknowns = _equations(system, descriptor)
@@ -46,18 +67,19 @@ def descriptor_blocks(hoister: Hoister, system: System, descriptor: Descriptor) 
     arguments = ("t", "y", "k", "p", "w", "r")
     residual = [(Target("r", i), n) for i, n in enumerate([*rows, *more])]
     residual.append((Target("status", STATUS.index("power")), power))
+    first = {"k": 0, "q": unknowns, "v": unknowns + e.nq}
     keys = [("k", i) for i in range(unknowns)] + [("q", i) for i in range(e.nq)] + [("v", i) for i in range(e.nv)]
-    width = e.nq + e.nv
     tangent: list[tuple[Target, int]] = []
+    pattern: list[tuple[int, int]] = []
     for i, derivatives in enumerate(jacobian(g, rows, keys)):
         for space, index in sorted(derivatives):
-            column = index + (e.nq if space == "v" else 0)
-            place = i * unknowns + index if space == "k" else unknowns * unknowns + i * width + column
-            tangent.append((Target("j", place), derivatives[space, index]))
-    return (
+            tangent.append((Target("j", len(tangent)), derivatives[space, index]))
+            pattern.append((i, index + first[space]))
+    blocks = (
         hoister.block("residual", "F(t, y, k) of the descriptor form, and the power", residual, arguments),
-        hoister.block("tangent", "dF/dk, then dF/dy, of the descriptor form", tangent, (*arguments[:-1], "j")),
-    ), unknowns
+        hoister.block("tangent", "entries of dF/dk and dF/dy of the descriptor form", tangent, (*arguments[:-1], "j")),
+    )
+    return DescriptorForm(blocks, unknowns, tuple(pattern))
 
 
 def _equations(system: System, descriptor: Descriptor) -> tuple[list[int], int]:
