@@ -46,9 +46,9 @@ _PLACE, _UPPER, _LOWER, _END, _FOUND, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9
 #: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0.
 SKIPPED = 1e-13
 #: The diagonal entry is the pivot if it is at least this part of the largest candidate: it keeps the fill low.
-PREFERRED = 0.1
+PREFERRED = 1e-3
 #: A pivot of an earlier matrix is good while it is at least this part of the largest candidate.
-KEPT = 1e-3
+KEPT = 1e-4
 
 
 @jit()
