@@ -289,8 +289,8 @@ def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int
 
     Markowitz's rule (Management Science 3, 1957) on the diagonal: next is the unknown whose elimination can touch the
     fewest entries, ties by index. An unknown whose own equation has no entry for it, as that of a multiplier, has to
-    wait for all unknowns that have one and share two entries with it: D M^-1 D^T is then in its place, and not a part of it that
-    may be 0 in some positions.
+    wait for all unknowns that have one and share two entries with it: D M^-1 D^T is then in its place, and not a part
+    of it that may be 0 in some positions.
 
     Parameters
     ----------
