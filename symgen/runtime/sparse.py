@@ -369,6 +369,13 @@ def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
         y[k] = 0.0
 
 
+def stored_entries(plan: Any) -> int:
+    """Return the entries of L and U beside the diagonal that the last factorisation has."""
+    n, work = int(plan[SIZE]), int(plan[WORK])
+    upper, end = plan[work + _UPPER * n :][:n], plan[work + _END * n :][:n]
+    return int(np.sum(end - upper))
+
+
 @jit()
 def leave_out_rest(right: Any, first: int, n: int, width: int, m: int, w: Any, mask: int, k: Any, origin: int) -> None:
     """Set the residuals of redundant rows to their multipliers, of the stage at `origin` in `k`: they shall be 0."""

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csc_array
 from scipy.sparse.linalg import splu
 
+from benchmarks import newton
 from symgen.api import load
 from symgen.pipeline import choose_method, generate
 from symgen.runtime import sparse
@@ -39,12 +40,6 @@ class Solver:
         x = np.full(self.n, np.nan)
         sparse.solve(self.plan, self.numbers, np.asarray(right, dtype=np.float64), x)
         return x
-
-    def stored(self):
-        """Entries of L and U beside the diagonal."""
-        work = self.plan[sparse.WORK] + self.n * np.arange(10)
-        upper, end = self.plan[work[1] : work[2]], self.plan[work[3] : work[4]]
-        return int(np.sum(end - upper))
 
 
 def solved(matrix, right):
@@ -268,13 +263,18 @@ def test_plans_put_numbers_where_the_formula_says(name, method):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-13)
 
 
-def test_factors_of_a_chain_of_windows_grow_with_its_length():
-    """Entries of L and U are proportional to the number of windows, and few."""
-    stored = []
-    for windows in (2, 4, 8):
-        pattern = pattern_of(f"n-four-bar:{windows}", "lagrange")
-        order, fill = elimination_order(pattern.unknowns, pattern.rows, pattern.columns % pattern.unknowns)
-        assert len(order) == pattern.unknowns
-        stored.append(fill)
-    assert stored[2] - stored[1] == pytest.approx(2 * (stored[1] - stored[0]), rel=0.1)
-    assert stored[2] < 40 * pattern.unknowns
+@pytest.mark.parametrize("pair", newton.PAIRS)
+def test_factors_of_a_row_of_windows_grow_with_its_length(pair):
+    """Entries of L and U are proportional to the number of windows: so are time and memory."""
+    small, middle, large = (newton.factors(f"n-four-bar:{n}", pair) for n in (10, 20, 40))
+    assert small["skipped"] == middle["skipped"] == large["skipped"] == 0
+    for key in ("unknowns", "entries", "stored"):
+        assert large[key] - middle[key] == pytest.approx(2 * (middle[key] - small[key]), rel=0.05)
+    assert large["stored"] < 5 * large["entries"]
+
+
+def test_a_stage_of_lagrange_fills_little():
+    pattern = pattern_of("n-four-bar:4", "lagrange")
+    order, fill = elimination_order(pattern.unknowns, pattern.rows, pattern.columns % pattern.unknowns)
+    assert sorted(order) == list(range(pattern.unknowns))
+    assert fill < 2 * pattern.size
