@@ -1,7 +1,8 @@
 """Implicit integrators on growing mechanisms: compilation, one step, and the size of the factors of the Newton matrix.
 
-Every line is a process of its own with a cache of its own, in which a run of a smaller mechanism has left what shapes
-share. Seconds of compilation are those of the processor. The constants of `symgen.shapes` come from these figures.
+Every line is a process of its own; those of a pair share a cache, in which smaller mechanisms leave what looped code
+shares. Seconds are those of the processor, as the wall's depend on what else the machine does. Constants of
+`symgen.shapes` come from these figures.
 """
 
 from __future__ import annotations
@@ -89,10 +90,14 @@ def measure(model: str, pair: str, shape: str) -> dict[str, Any]:
     loaded = load(model)
     loaded.simulate(shape=shape, until=STEP, **keys)
     ready = time.process_time()
-    runs = [loaded.simulate(shape=shape, until=50 * STEP, **keys) for _ in range(5)]
-    assert all(run.status == "ok" for run in runs), runs[-1].reason
-    best = min(run.seconds.run / run.steps for run in runs)
-    return {"compile": ready - began, "step": best, **factors(model, pair, shape)}
+
+    def seconds(steps: int) -> float:
+        begin = time.process_time()
+        assert loaded.simulate(shape=shape, until=steps * STEP, **keys).status == "ok"
+        return time.process_time() - begin
+
+    few, many = (min(seconds(steps) for _ in range(5)) for steps in (10, 110))
+    return {"compile": ready - began, "step": 0.01 * (many - few), **factors(model, pair, shape)}
 
 
 def process(cache: str, *arguments: str) -> dict[str, Any]:

@@ -267,7 +267,7 @@ def generate_looped(
         parts = {stem: (form, msgspec.convert(modules[form][1], FormInfo)) for stem, form in forms.items()}
         built = law_tables(shape, msgspec.convert(modules[law][1], LoopedLawInfo), parts)
         functions = [f"{stem}.{name}" for stem, name in built.functions]
-        tables[method.stem(options, implicit)] = {
+        tables[f"{law}_implicit" if implicit else law] = {
             "numbers": list(built.numbers),
             "functions": functions,
             "sections": dict(built.sections),
