@@ -2,9 +2,9 @@
 
 Straight code is about two and a half times as fast and has to be compiled for every mechanism, which takes time that
 grows with it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as
-most of it is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose compilation and run together are
-expected to be shorter. The figures below come from ``benchmarks/shapes.py`` and ``benchmarks/newton.py``; they need not be exact, as the shapes
-differ by factors where the choice matters.
+most of it is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
+compilation and run together are expected to be shorter. The figures below come from ``benchmarks/shapes.py`` and
+``benchmarks/newton.py``; they need not be exact, as the shapes differ by factors where the choice matters.
 """
 
 from __future__ import annotations
