@@ -15,12 +15,13 @@ from symgen.api import load
 from symgen.errors import InputError
 from symgen.looped import generate_looped, law_stem, shared_folder
 from symgen.lower.factor import minimum_degree
+from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import is_loopable, refuse_dense
 from symgen.lower.looped.pattern import Elimination, eliminate
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.pipeline import choose_method, generator_digest
+from symgen.pipeline import MethodChoice, choose_method, generator_digest
 from symgen.plan import Settings, make_plan
 from symgen.runtime import large
 from symgen.shapes import choose_shape
@@ -123,6 +124,55 @@ def test_a_new_mechanism_of_known_kinds_compiles_nothing():
     result = load("n-four-bar:5").simulate(method="lagrange", until=0.01, shape="looped")
     assert result.status == "ok"
     assert cache_stats()["misses"] == before
+
+
+def test_implicit_runs_of_known_kinds_compile_nothing():
+    keys = {"method": "lagrange", "integrator": "sdirk", "until": 0.01, "shape": "looped"}
+    load("n-four-bar:2").simulate(**keys)
+    before = cache_stats()["misses"]
+    assert load("n-four-bar:5").simulate(**keys).status == "ok"
+    assert cache_stats()["misses"] == before
+
+
+def test_equal_constraints_share_kernels():
+    def key(name):
+        return form_key(METHODS.get(name), METHODS.get(name).complete_options({}))
+
+    assert key("lagrange") == key("direct-correction") == key("velocity-projection")
+    names = ("lagrange", "baumgarte", "penalty", "ggl", "generalized-alpha", "index3-augmented-lagrangian")
+    assert len({key(name) for name in names}) == len(names)
+
+
+class Weighed(MultiplierMethod):
+    """Constraints that ask for the masses of all bodies."""
+
+    name = "weighed"
+    summary = reference = "a method of a test"
+
+    def target(self, system):
+        return system.gamma - system.heavy_penalty * system.phi
+
+
+def test_constraints_that_ask_for_more_than_their_joint_have_straight_code():
+    method = Weighed()
+    options = method.complete_options({})
+    assert not is_loopable(method, options, True)
+    with pytest.raises(InputError, match="'weighed', whose constraints ask for 'heavy_penalty'"):
+        refuse_dense(method, options, True)
+    choice = MethodChoice(method, options, True)
+    assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).shape == "straight"
+
+
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [("direct-correction", "radau5"), ("ggl", "radau5"), ("generalized-alpha", "generalized-alpha")],
+)
+def test_large_mechanisms_have_implicit_runs(method, integrator):
+    options = {"integrator.adaptive": "false"} if integrator == "radau5" else {}
+    keys = {"method": method, "integrator": integrator, "options": options, "shape": "looped"}
+    run = load("n-four-bar:100").simulate(step=1e-3, until=5e-3, **keys)
+    assert (run.status, run.steps) == ("ok", 5)
+    assert run.position_violation_max < 1e-10 and run.energy_drift_max < 1e-3
 
 
 # -- which shape -------------------------------------------------------------------------------------------------------
