@@ -96,8 +96,10 @@ def measure(model: str, pair: str, shape: str) -> dict[str, Any]:
         assert loaded.simulate(shape=shape, until=steps * STEP, **keys).status == "ok"
         return time.process_time() - begin
 
-    few, many = (min(seconds(steps) for _ in range(5)) for steps in (10, 110))
-    return {"compile": ready - began, "step": 0.01 * (many - few), **factors(model, pair, shape)}
+    found = factors(model, pair, shape)
+    count = max(50, 200_000 // found["unknowns"])
+    few, many = (min(seconds(steps) for _ in range(5)) for steps in (10, 10 + count))
+    return {"compile": ready - began, "step": (many - few) / count, **found}
 
 
 def process(cache: str, *arguments: str) -> dict[str, Any]:
