@@ -33,8 +33,8 @@ AUTO = "auto"
 STIFF_RATIO = 20.0
 #: Steps of an adaptive run of high order over the time in which its state changes by its own size.
 _STEPS_A_CHANGE = 8.0
-#: From this many unknowns of a stage on, dense Newton matrices cost more than short explicit steps.
-LARGEST_IMPLICIT = 400
+#: Above this many unknowns of a stage nobody asks for eigenvalues: they would take longer than a run.
+LARGEST_LINEARISED = 400
 #: Runs agree when no point of a body differs by more than this [m], and by this share of the largest body's length.
 AGREEMENT, AGREEMENT_SHARE = 2.5e-4, 1e-3
 #: Finer runs have this share of the tolerances, where they differ by far the square of it, or this share of the step.
@@ -107,8 +107,7 @@ def gather(model: Model, parameters: Mapping[str, float]) -> Facts:
     plan = make_plan(model, Settings(method="lagrange", integrator="dop853"))
     compiled, start = model.ready(plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
-    # above this size no implicit scheme is chosen, and eigenvalues would take longer than a run
-    small = 2 * nq + compiled.info.m <= LARGEST_IMPLICIT
+    small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
     jacobian = linearised(compiled, start) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
@@ -167,18 +166,16 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
     if not forms & set(INTEGRATORS.get("dop853").forms):
         name = chosen.default_integrator
         return name, f"integrator {name}: it solves the form of {method} ({', '.join(chosen.forms)})"
-    if unknowns > LARGEST_IMPLICIT and facts.stiffness <= STIFF_RATIO:
-        return "dop853", f"integrator dop853: {unknowns} unknowns a stage are too many for dense Newton matrices"
+    if unknowns > LARGEST_LINEARISED and facts.stiffness <= STIFF_RATIO:
+        return "dop853", (
+            f"integrator dop853: with {unknowns} unknowns a stage nobody looked whether the motion is stiff; "
+            "if it is, ask for radau5"
+        )
     if facts.stiffness <= STIFF_RATIO:
         asks = f"the fastest decay, {facts.fastest_decay:.3g} 1/s, asks for no implicit scheme"
         return "dop853", f"integrator dop853: {asks}"
     if not forms & set(INTEGRATORS.get("radau5").forms):
         return "dop853", f"integrator dop853: stiff, but {method} has no form for implicit integrators"
-    if unknowns > LARGEST_IMPLICIT:
-        return (
-            "dop853",
-            f"integrator dop853: stiff, but {unknowns} unknowns a stage are too many for dense Newton matrices",
-        )
     return "radau5", (
         f"integrator radau5: the fastest decay, {facts.fastest_decay:.3g} 1/s, would ask explicit schemes for "
         f"{facts.stiffness:.3g} times the steps that the motion needs"

@@ -9,7 +9,7 @@ alone are tables. SymPy and Jinja2 are imported only for kernels that no mechani
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -18,12 +18,13 @@ import msgspec
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.program import FORMAT
 from symgen.loops import LoopedModel, describe_model, diagonal, preparation
+from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.lower.looped.law import refuse_dense
 from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
-from symgen.lower.looped.tables import Tables, build_tables
+from symgen.lower.looped.tables import Forms, Tables, build_tables
 from symgen.model import LawInfo
 from symgen.store.entries import Entries, FolderName
 from symgen.store.modules import load_module
@@ -67,6 +68,7 @@ def emit_missing(
     options: Mapping[str, str],
     generator: str,
     known: Callable[[str], bool],
+    forms: Mapping[str, str],
 ) -> dict[str, tuple[str, Mapping[str, Any]]]:
     """Derive and emit kernels, the law and the generic code, except those that are `known`.
 
@@ -80,8 +82,10 @@ def emit_missing(
         Digest for the headers.
     known : callable
         Whether a module need not be emitted.
+    forms : mapping of str to str
+        Module of each kernel's part of the descriptor form; empty where no implicit integrator asks for it.
     """
-    from symgen.emit.looped import emit_kernel, emit_looped_law, emit_machine, emit_shared_model
+    from symgen.emit.looped import emit_form, emit_kernel, emit_looped_law, emit_machine, emit_shared_model
     from symgen.lower.looped.kernels import lower_kernel
     from symgen.lower.looped.law import lower_looped
 
@@ -109,12 +113,27 @@ def emit_missing(
         source = emit_looped_law(law, generator, method.summary, method.reference)
         modules[stem] = source, msgspec.to_builtins(info)
     for name, instance in elements.items():
-        if not known(name):
-            from symgen.formulate.elements import derive_element
+        form = forms.get(name)
+        if known(name) and (form is None or known(form)):
+            continue
+        from symgen.formulate.elements import derive_element
 
-            kernel = lower_kernel(derive_element(instance.abstract), instance)
+        element = derive_element(instance.abstract)
+        kernel = lower_kernel(element, instance)
+        if not known(name):
             modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
+        if form is not None and not known(form):
+            part = lower_form(element, instance, method, options, form)
+            modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
     return modules
+
+
+def form_stems(elements: Iterable[str], method: Method, options: Mapping[str, str], implicit: bool) -> dict[str, str]:
+    """Return the module of each kernel's part of a method's descriptor form; empty where it is not asked for."""
+    if not implicit:
+        return {}
+    key = form_key(method, options)
+    return {stem: form_stem(key, stem) for stem in elements}
 
 
 def law_stem(method: Method, options: Mapping[str, str]) -> str:
@@ -155,14 +174,15 @@ def compile_looped(
     store = Entries() if entries is None else entries
     folder, law = shared_folder(generator), law_stem(method, options)
     found, stems, elements = named(instances(mechanism))
-    wanted = (_MACHINE, _MODEL, law, *elements)
+    forms = form_stems(elements, method, options, implicit)
+    wanted = (_MACHINE, _MODEL, law, *elements, *forms.values())
     metadata = {stem: store.get(folder, stem) for stem in wanted}
     emit_seconds = 0.0
     if any(data is None for data in metadata.values()):
         with store.building(folder):
             metadata = {stem: store.get(folder, stem) for stem in wanted}  # another process may have been faster
             emitting = time.perf_counter()
-            modules = emit_missing(elements, method, options, generator, lambda stem: metadata[stem] is not None)
+            modules = emit_missing(elements, method, options, generator, lambda stem: metadata[stem] is not None, forms)
             for stem, (source, data) in modules.items():
                 store.put(folder, stem, source, data)
                 metadata[stem] = dict(data)
@@ -170,14 +190,22 @@ def compile_looped(
     infos = {stem: msgspec.convert(metadata[stem], KernelInfo) for stem in elements}
     info = msgspec.convert(metadata[law], LoopedLawInfo)
     shape = Shape(found, stems, infos, len(mechanism.parameters))
-    tables = law_tables(shape, info)
+    parts = {stem: (form, msgspec.convert(metadata[form], FormInfo)) for stem, form in forms.items()}
+    tables = law_tables(shape, info, parts)
     path = store.path(folder, _MODEL).parent
-    kernels = {stem: load_module(path / f"{stem}.py") for stem in elements}
+    kernels = {stem: load_module(path / f"{stem}.py") for stem in (*elements, *forms.values())}
     machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
     model_info = describe_model(mechanism, shape, tables)
     functions = SimpleNamespace(
         **{name: getattr(model, name) for name in ("geometry", "spread", "measure", "observe", "move", "turn")}
     )
+    law_module: Any = load_module(path / f"{law}.py")
+    if implicit:
+        names = [
+            name for name in ("rhs", "confirm", "accept", "prepare", "geometry", "spread") if hasattr(law_module, name)
+        ]
+        found_functions = {name: getattr(law_module, name) for name in names}
+        law_module = SimpleNamespace(**found_functions, residual=model.residual, tangent=model.tangent)
     functions.masses, functions.prepare = diagonal(shape, tables), preparation(mechanism, shape, tables, kernels)
     return LoopedModel(
         info=model_info,
@@ -191,12 +219,13 @@ def compile_looped(
             position_correction=info.position_correction,
             velocity_correction=info.velocity_correction,
             nw=tables.nw,
-            unknowns=0,
-            level="",
+            unknowns=tables.unknowns,
+            level=level_of(parts),
+            tangent=tables.tangent,
             operations={},
         ),
         model=functions,  # type: ignore[arg-type]  # functions by name, as a module has them
-        law_module=load_module(path / f"{law}.py"),
+        law_module=law_module,
         derive_seconds=time.perf_counter() - began - emit_seconds,
         emit_seconds=emit_seconds,
         tables=tables,
@@ -206,7 +235,7 @@ def compile_looped(
 
 
 def generate_looped(
-    mechanism: Mechanism, methods: Sequence[tuple[Method, Mapping[str, str]]], generator: str
+    mechanism: Mechanism, methods: Sequence[tuple[Method, Mapping[str, str], bool]], generator: str
 ) -> dict[str, tuple[str, Mapping[str, Any]]]:
     """Return the source of everything that a mechanism and some methods need, with metadata, by file stem.
 
@@ -214,8 +243,8 @@ def generate_looped(
     ----------
     mechanism : Mechanism
         A validated mechanism.
-    methods : sequence of (Method, mapping)
-        Methods with their structural options, complete.
+    methods : sequence of (Method, mapping, bool)
+        Methods with their structural options, complete, and whether implicit integrators ask for them.
     generator : str
         Digest of everything that shapes emitted code.
 
@@ -228,25 +257,37 @@ def generate_looped(
     found, stems, elements = named(instances(mechanism))
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
-    for method, options in methods:
-        refuse_dense(method, options, False)
-        modules |= emit_missing(elements, method, options, generator, modules.__contains__)
+    for method, options, implicit in methods:
+        refuse_dense(method, options, implicit)
+        forms = form_stems(elements, method, options, implicit)
+        modules |= emit_missing(elements, method, options, generator, modules.__contains__, forms)
         law = law_stem(method, options)
         infos = {stem: msgspec.convert(modules[stem][1], KernelInfo) for stem in elements}
         shape = Shape(found, stems, infos, len(mechanism.parameters))
-        built = law_tables(shape, msgspec.convert(modules[law][1], LoopedLawInfo))
+        parts = {stem: (form, msgspec.convert(modules[form][1], FormInfo)) for stem, form in forms.items()}
+        built = law_tables(shape, msgspec.convert(modules[law][1], LoopedLawInfo), parts)
         functions = [f"{stem}.{name}" for stem, name in built.functions]
-        tables[law] = {"numbers": list(built.numbers), "functions": functions, "sections": dict(built.sections)}
+        tables[f"{law}_implicit" if implicit else law] = {
+            "numbers": list(built.numbers),
+            "functions": functions,
+            "sections": dict(built.sections),
+        }
     counts = "\n".join(f"{stem}: {stems.count(stem)}" for stem in elements)
     text = f'"""Kernels of mechanism `{mechanism.name}`, and how many instances each has; tables stand in the metadata.'
     modules["mechanism"] = f'{text}\n\n{counts}\n"""\n', tables
     return modules
 
 
-def law_tables(shape: Shape, info: LoopedLawInfo) -> Tables:
-    """Return the tables of a mechanism for a law."""
+def law_tables(shape: Shape, info: LoopedLawInfo, parts: Mapping[str, tuple[str, FormInfo]]) -> Tables:
+    """Return the tables of a mechanism for a law, with the parts of its descriptor form by kernel."""
     stages = [name for name in STAGES if name != "full" or info.positions]
-    return build_tables(shape, info.sections, info.vectors, info.augmented, stages)
+    forms = Forms(level_of(parts), parts) if parts else None
+    return build_tables(shape, info.sections, info.vectors, info.augmented, stages, forms)
+
+
+def level_of(parts: Mapping[str, tuple[str, FormInfo]]) -> str:
+    """Return the level of a descriptor form, empty where there is none."""
+    return next((info.level for _, info in parts.values()), "")
 
 
 def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dict[str, Instance]]:

@@ -114,7 +114,11 @@ class ModelInfo(msgspec.Struct, frozen=True):
 
 
 class LawInfo(msgspec.Struct, frozen=True):
-    """Metadata of an emitted law module; `parameters` are (name, default) pairs."""
+    """Metadata of an emitted law module; `parameters` are (name, default) pairs.
+
+    `tangent` says for each number that the function of this name writes its equation and unknown in the descriptor
+    form; from `unknowns` on, unknowns are q and v.
+    """
 
     method: str
     key: str
@@ -127,6 +131,7 @@ class LawInfo(msgspec.Struct, frozen=True):
     nw: int
     unknowns: int
     level: str
+    tangent: tuple[tuple[int, int], ...]
     operations: dict[str, int]
 
     @classmethod
@@ -144,6 +149,7 @@ class LawInfo(msgspec.Struct, frozen=True):
             nw=program.layout.nw,
             unknowns=program.unknowns,
             level=program.level,
+            tangent=program.tangent,
             operations={b.name: b.operations for b in program.blocks},
         )
 

@@ -126,7 +126,7 @@ def generate(
         _refuse_target(target, choices, shape)
     if shape == "looped":
         began = time.perf_counter()
-        found = generate_looped(mechanism, [(c.method, c.options) for c in choices], generator_digest())
+        found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     from symgen.emit.emit import emit_law, emit_model
     from symgen.emit.lanes import emit_lanes_law, emit_lanes_model

@@ -1,9 +1,10 @@
 """Which shape the code of a run gets: straight lines for this mechanism alone, or loops that all mechanisms share.
 
 Straight code is about two and a half times as fast and has to be compiled for every mechanism, which takes time that
-grows with it; looped code is compiled once for all. ``auto`` takes the shape whose compilation and run together are
-expected to be shorter. The figures below come from ``benchmarks/shapes.py``; they need not be exact, as the shapes
-differ by factors where the choice matters.
+grows with it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as
+most of it is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
+compilation and run together are expected to be shorter. The figures below come from ``benchmarks/shapes.py`` and
+``benchmarks/newton.py``; they need not be exact, as the shapes differ by factors where the choice matters.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.errors import InputError, nearest
-from symgen.looped import law_stem, named, shared_folder
+from symgen.looped import form_stems, law_stem, named, shared_folder
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
 from symgen.pipeline import folder_of, generator_digest
@@ -26,8 +27,10 @@ SHAPES = ("auto", "straight", "looped")
 
 #: Seconds to derive, emit and compile a mechanism straight: at least, and for each coordinate.
 STRAIGHT_LEAST, STRAIGHT_EACH = 0.8, 0.12
-#: Seconds to compile what the looped shape shares: generic code, a law, a kernel.
-LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL = 5.0, 1.5, 0.45
+#: The same for each coordinate with the Jacobian for implicit integrators.
+STRAIGHT_EACH_IMPLICIT = 0.3
+#: Seconds to compile what the looped shape shares: generic code, a law, a kernel, a kernel's part of a descriptor form.
+LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL, LOOPED_FORM = 5.0, 1.5, 0.45, 0.6
 #: Part of these seconds that counts: other mechanisms and later runs will not pay them again.
 SHARED_PART = 0.4
 #: Seconds of an evaluation for each coordinate; looped ones cost something whatever the size.
@@ -83,15 +86,14 @@ def choose_shape(
         refuse_dense(choice.method, choice.options, choice.implicit)
     if dense and coordinates > LARGEST_DENSE:
         raise InputError(
-            f"method '{choice.method.name}'" + (" with an implicit integrator" if choice.implicit else ""),
+            f"method '{choice.method.name}'",
             f"a mechanism of at most {LARGEST_DENSE} coordinates, as its matrices are dense",
             f"{coordinates} coordinates",
         )
     if asked != "auto":
         return ShapeChoice(asked, "it was asked for")
     if dense:
-        what = "implicit integrators" if choice.implicit else choice.method.name
-        return ShapeChoice("straight", f"{what} need dense matrices, which the looped shape does without")
+        return ShapeChoice("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
         return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take minutes to compile")
     return _shorter(mechanism, choice, coordinates, evaluations, Entries() if entries is None else entries)
@@ -101,11 +103,12 @@ def _shorter(
     mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
 ) -> ShapeChoice:
     """Return the shape that is expected to be done sooner."""
-    straight_run = evaluations * coordinates * STRAIGHT_EVALUATION
     looped_run = evaluations * (LOOPED_CALL + coordinates * LOOPED_EVALUATION)
+    straight_run = looped_run if choice.implicit else evaluations * coordinates * STRAIGHT_EVALUATION
+    each = STRAIGHT_EACH_IMPLICIT if choice.implicit else STRAIGHT_EACH
     folder = folder_of(mechanism)
     compiled = _known(store, folder, "model") and _known(store, folder, choice.stem)
-    straight = straight_run + (0.0 if compiled else STRAIGHT_LEAST + STRAIGHT_EACH * coordinates)
+    straight = straight_run + (0.0 if compiled else STRAIGHT_LEAST + each * coordinates)
     looped = looped_run
     if looped < straight:  # what is missing is looked up only where it can matter
         shared = shared_folder(generator_digest())
@@ -113,6 +116,8 @@ def _shorter(
         missing += 0.0 if _known(store, shared, law_stem(choice.method, choice.options)) else LOOPED_LAW
         _, _, elements = named(instances(mechanism))
         missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in elements)
+        forms = form_stems(elements, choice.method, choice.options, choice.implicit)
+        missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())
         looped += SHARED_PART * missing
     size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
     if looped < straight:

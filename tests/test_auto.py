@@ -85,7 +85,8 @@ def test_nothing_is_gathered_where_nothing_is_asked():
         ({"rows": 0, "rank": 0}, "lagrange", "dop853", "no constraints"),
         ({"massless": True}, "direct-correction", "dop853", "no mass"),
         ({"fastest_decay": 1e6}, "direct-correction", "radau5", "1e+06 1/s"),
-        ({"fastest_decay": 1e6, "coordinates": 300}, "direct-correction", "dop853", "too many"),
+        ({"fastest_decay": 1e6, "coordinates": 300}, "direct-correction", "radau5", "1e+06 1/s"),
+        ({"coordinates": 300}, "direct-correction", "dop853", "nobody looked"),
         ({"rank": 7}, "direct-correction", "dop853", "1 of 8 rows"),
     ],
 )

@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 2, templates b45d2be9b8981c86
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 p[4] alpha (default 5.0)
 p[5] beta (default 5.0)

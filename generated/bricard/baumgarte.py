@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 2, templates b45d2be9b8981c86
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 p[0] alpha (default 5.0)
 p[1] beta (default 5.0)

@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 2, templates b45d2be9b8981c86
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 """
 

@@ -2,7 +2,7 @@
 
 momenta are integrated; velocities satisfy their constraint in every evaluation
 Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 p[15] penalty (default 10000000.0)
 p[16] iteration_tolerance (default 1e-13)
 """

@@ -2,7 +2,7 @@
 
 penalty terms with iterated multipliers and stabilised constraints
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 p[15] penalty (default 10000000.0)
 p[16] omega (default 10.0)
 p[17] mu (default 1.0)

@@ -2,7 +2,7 @@
 
 independent coordinates are integrated, dependent ones follow from the constraints
 Wehage, Haug, J. Mech. Des. 104 (1982) 247-255, doi 10.1115/1.3256318
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 option solver = dense
 p[15] tolerance (default 1e-13)
 """

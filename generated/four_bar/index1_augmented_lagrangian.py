@@ -2,7 +2,7 @@
 
 iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 p[15] penalty (default 10000000.0)
 p[16] iteration_tolerance (default 1e-13)
 p[17] tolerance (default 1e-13)

@@ -2,7 +2,7 @@
 
 trapezoidal rule in positions with iterated multipliers, velocities and accelerations projected (ALI3-P)
 Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73; Dopico, Gonzalez, Cuadrado, Kovecses, J. Comput. Nonlinear Dyn. 9 (2014) 041006
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 p[15] penalty (default 1000000000.0)
 """
@@ -367,7 +367,7 @@ def residual(t, y, k, p, w, r):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def tangent(t, y, k, p, w, j):
-    """dF/dk, then dF/dy, of the descriptor form: 35 operations, 93 before sharing."""
+    """entries of dF/dk and dF/dy of the descriptor form: 35 operations, 93 before sharing."""
     # inputs
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
@@ -399,83 +399,83 @@ def tangent(t, y, k, p, w, j):
     s9 = -s6
     # outputs
     j[0] = 1.0
-    j[685] = -1.0
-    j[27] = 1.0
-    j[704] = -1.0
+    j[1] = -1.0
+    j[2] = 1.0
+    j[3] = -1.0
+    j[4] = 1.0
+    j[5] = -1.0
+    j[6] = 1.0
+    j[7] = -1.0
+    j[8] = 1.0
+    j[9] = -1.0
+    j[10] = 1.0
+    j[11] = -1.0
+    j[12] = 1.0
+    j[13] = -1.0
+    j[14] = 1.0
+    j[15] = -1.0
+    j[16] = 1.0
+    j[17] = -1.0
+    j[18] = p0
+    j[19] = 1.0
+    j[20] = -1.0
+    j[21] = p0
+    j[22] = 1.0
+    j[23] = -1.0
+    j[24] = p29
+    j[25] = s1
+    j[26] = s2
+    j[27] = s1
+    j[28] = s2
+    j[29] = s0*k18 + s1*k19 + s0*k20 + s1*k21
+    j[30] = p1
+    j[31] = 1.0
+    j[32] = -1.0
+    j[33] = p1
+    j[34] = 1.0
+    j[35] = -1.0
+    j[36] = p30
+    j[37] = s5
+    j[38] = s4
+    j[39] = s5
+    j[40] = s4
+    j[41] = s3*k20 + s5*k21 + s3*k22 + s5*k23
+    j[42] = p2
+    j[43] = 1.0
+    j[44] = 1.0
+    j[45] = p2
+    j[46] = 1.0
+    j[47] = 1.0
+    j[48] = p31
+    j[49] = s8
+    j[50] = s6
+    j[51] = s7
+    j[52] = s9
+    j[53] = s6*k24 - (s6*k22 + s7*k23) + s7*k25
     j[54] = 1.0
-    j[723] = -1.0
-    j[81] = 1.0
-    j[742] = -1.0
-    j[108] = 1.0
-    j[761] = -1.0
-    j[135] = 1.0
-    j[780] = -1.0
-    j[162] = 1.0
-    j[799] = -1.0
-    j[189] = 1.0
-    j[818] = -1.0
-    j[216] = 1.0
-    j[837] = -1.0
-    j[243] = p0
-    j[252] = 1.0
-    j[254] = -1.0
-    j[270] = p0
-    j[279] = 1.0
-    j[281] = -1.0
-    j[297] = p29
-    j[304] = s1
-    j[305] = s2
-    j[306] = s1
-    j[307] = s2
-    j[876] = s0*k18 + s1*k19 + s0*k20 + s1*k21
-    j[324] = p1
-    j[332] = 1.0
-    j[334] = -1.0
-    j[351] = p1
-    j[359] = 1.0
-    j[361] = -1.0
-    j[378] = p30
-    j[384] = s5
-    j[385] = s4
-    j[386] = s5
-    j[387] = s4
-    j[933] = s3*k20 + s5*k21 + s3*k22 + s5*k23
-    j[405] = p2
-    j[412] = 1.0
-    j[414] = 1.0
-    j[432] = p2
-    j[439] = 1.0
-    j[441] = 1.0
-    j[459] = p31
-    j[464] = s8
-    j[465] = s6
-    j[466] = s7
-    j[467] = s9
-    j[990] = s6*k24 - (s6*k22 + s7*k23) + s7*k25
-    j[1000] = 1.0
-    j[1002] = s1
-    j[1019] = 1.0
-    j[1020] = s2
-    j[1036] = -1.0
-    j[1038] = s1
-    j[1039] = 1.0
-    j[1041] = s5
-    j[1055] = -1.0
-    j[1056] = s2
-    j[1058] = 1.0
-    j[1059] = s4
-    j[1075] = -1.0
-    j[1077] = s5
-    j[1078] = 1.0
-    j[1080] = s8
-    j[1094] = -1.0
-    j[1095] = s4
-    j[1097] = 1.0
-    j[1098] = s6
-    j[1114] = 1.0
-    j[1116] = s7
-    j[1133] = 1.0
-    j[1134] = s9
+    j[55] = s1
+    j[56] = 1.0
+    j[57] = s2
+    j[58] = -1.0
+    j[59] = s1
+    j[60] = 1.0
+    j[61] = s5
+    j[62] = -1.0
+    j[63] = s2
+    j[64] = 1.0
+    j[65] = s4
+    j[66] = -1.0
+    j[67] = s5
+    j[68] = 1.0
+    j[69] = s8
+    j[70] = -1.0
+    j[71] = s4
+    j[72] = 1.0
+    j[73] = s6
+    j[74] = 1.0
+    j[75] = s7
+    j[76] = 1.0
+    j[77] = s9
     return 0
 
 

@@ -2,7 +2,7 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 """
 

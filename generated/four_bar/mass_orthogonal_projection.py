@@ -2,7 +2,7 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates b45d2be9b8981c86
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 p[15] penalty (default 10000000.0)
 p[16] tolerance (default 1e-13)

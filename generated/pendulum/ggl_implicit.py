@@ -2,7 +2,7 @@
 
 stabilised index 2: constraints at position and velocity level in every implicit stage
 Gear, Leimkuhler, Gupta, J. Comput. Appl. Math. 12-13 (1985) 77-90, doi 10.1016/0377-0427(85)90008-1
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates b45d2be9b8981c86
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 """
 
@@ -83,7 +83,7 @@ def residual(t, y, k, p, w, r):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def tangent(t, y, k, p, w, j):
-    """dF/dk, then dF/dy, of the descriptor form: 4 operations, 4 before sharing."""
+    """entries of dF/dk and dF/dy of the descriptor form: 4 operations, 4 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
@@ -94,25 +94,25 @@ def tangent(t, y, k, p, w, j):
     k5 = k[5]
     # outputs
     j[0] = 1.0
-    j[5] = q0
-    j[36] = k5
-    j[38] = -1.0
-    j[7] = 1.0
-    j[11] = q1
-    j[41] = k5
-    j[43] = -1.0
-    j[14] = p0
+    j[1] = q0
+    j[2] = k5
+    j[3] = -1.0
+    j[4] = 1.0
+    j[5] = q1
+    j[6] = k5
+    j[7] = -1.0
+    j[8] = p0
+    j[9] = q0
+    j[10] = k4
+    j[11] = p0
+    j[12] = q1
+    j[13] = k4
+    j[14] = v0
+    j[15] = v1
     j[16] = q0
-    j[44] = k4
-    j[21] = p0
-    j[22] = q1
-    j[49] = k4
-    j[52] = v0
-    j[53] = v1
-    j[54] = q0
-    j[55] = q1
-    j[56] = 0.5*(q0 + q0)
-    j[57] = 0.5*(q1 + q1)
+    j[17] = q1
+    j[18] = 0.5*(q0 + q0)
+    j[19] = 0.5*(q1 + q1)
     return 0
 
 

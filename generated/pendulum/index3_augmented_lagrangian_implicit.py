@@ -2,7 +2,7 @@
 
 trapezoidal rule in positions with iterated multipliers, velocities and accelerations projected (ALI3-P)
 Cuadrado, Cardenal, Morer, Bayo, Multibody Syst. Dyn. 4 (2000) 55-73; Dopico, Gonzalez, Cuadrado, Kovecses, J. Comput. Nonlinear Dyn. 9 (2014) 041006
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates b45d2be9b8981c86
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 p[3] penalty (default 1000000000.0)
 """
@@ -84,7 +84,7 @@ def residual(t, y, k, p, w, r):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def tangent(t, y, k, p, w, j):
-    """dF/dk, then dF/dy, of the descriptor form: 4 operations, 4 before sharing."""
+    """entries of dF/dk and dF/dy of the descriptor form: 4 operations, 4 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
@@ -92,17 +92,17 @@ def tangent(t, y, k, p, w, j):
     k4 = k[4]
     # outputs
     j[0] = 1.0
-    j[27] = -1.0
-    j[6] = 1.0
-    j[32] = -1.0
-    j[12] = p0
-    j[14] = q0
-    j[33] = k4
-    j[18] = p0
-    j[19] = q1
-    j[38] = k4
-    j[41] = 0.5*(q0 + q0)
-    j[42] = 0.5*(q1 + q1)
+    j[1] = -1.0
+    j[2] = 1.0
+    j[3] = -1.0
+    j[4] = p0
+    j[5] = q0
+    j[6] = k4
+    j[7] = p0
+    j[8] = q1
+    j[9] = k4
+    j[10] = 0.5*(q0 + q0)
+    j[11] = 0.5*(q1 + q1)
     return 0
 
 

@@ -2,7 +2,7 @@
 
 constraints as stiff elements; the error falls like 1 / penalty
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195; Ruzzeh, Kovecses, J. Comput. Nonlinear Dyn. 6 (2011) 021011
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates b45d2be9b8981c86
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
 p[3] penalty (default 1000000000.0)
 p[4] omega (default 10.0)
 p[5] mu (default 1.0)

@@ -2,7 +2,7 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates b45d2be9b8981c86
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
 option solver = elimination
 option weight = identity
 """
@@ -82,7 +82,7 @@ def residual(t, y, k, p, w, r):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def tangent(t, y, k, p, w, j):
-    """dF/dk, then dF/dy, of the descriptor form: 2 operations, 2 before sharing."""
+    """entries of dF/dk and dF/dy of the descriptor form: 2 operations, 2 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     q0 = y[0]  # bob.x [m]
@@ -94,21 +94,21 @@ def tangent(t, y, k, p, w, j):
     k4 = k[4]
     # outputs
     j[0] = 1.0
-    j[27] = -1.0
-    j[6] = 1.0
-    j[32] = -1.0
-    j[12] = p0
-    j[14] = q0
-    j[33] = k4
-    j[18] = p0
-    j[19] = q1
-    j[38] = k4
-    j[22] = q0
-    j[23] = q1
-    j[41] = k2
-    j[42] = k3
-    j[43] = v0 + v0
-    j[44] = v1 + v1
+    j[1] = -1.0
+    j[2] = 1.0
+    j[3] = -1.0
+    j[4] = p0
+    j[5] = q0
+    j[6] = k4
+    j[7] = p0
+    j[8] = q1
+    j[9] = k4
+    j[10] = q0
+    j[11] = q1
+    j[12] = k2
+    j[13] = k3
+    j[14] = v0 + v0
+    j[15] = v1 + v1
     return 0
 
 

@@ -10,6 +10,7 @@ from symgen.emit.emit import render
 from symgen.emit.printer import Printer
 from symgen.ir.program import COUNTERS, FORMAT, STATUS, Block, Target
 from symgen.lower.algebra import SKIP, SUSPICIOUS
+from symgen.lower.looped.forms import FormProgram, form_stride
 from symgen.lower.looped.kernels import KernelInfo, KernelProgram
 from symgen.lower.looped.law import LoopedFunction, LoopedLaw
 from symgen.lower.looped.layout import GENERIC, HEAD
@@ -140,13 +141,37 @@ def _function(f: LoopedFunction, law: LoopedLaw, own: set[str]) -> dict[str, Any
 
 def emit_kernel(kernel: KernelProgram, generator: str) -> str:
     """Return the source of a kernel."""
-    functions = [_kernel_function(block, kernel.info) for block in kernel.blocks]
+    info = kernel.info
+    frames = f"{len(info.frames)} frame" + ("" if len(info.frames) == 1 else "s")
+    numbers = f"{info.constants} constants, {info.hoisted} numbers computed once a run"
+    about = f"A {info.kind} of kind {kernel.label} over {frames}, {numbers}."
+    return _kernel_module(kernel, InstanceAccess(info), about, info.stride, generator)
+
+
+def emit_form(form: FormProgram, kernel: KernelInfo, generator: str) -> str:
+    """Return the source of the kernel of an element's part of a descriptor form."""
+    about = f"What a {kernel.kind} of kind {form.label} adds to a descriptor form at {form.info.level} level."
+    return _kernel_module(form, FormAccess(kernel), about, form_stride(kernel), generator, slopes=True)
+
+
+def _kernel_module(
+    kernel: KernelProgram | FormProgram,
+    access: InstanceAccess,
+    about: str,
+    stride: int,
+    generator: str,
+    slopes: bool = False,
+) -> str:
+    functions = [_kernel_function(block, access) for block in kernel.blocks]
     text = " ".join(line for f in functions for line in f["bases"])
     text += " VECTORS" if any(f["changed"] for f in functions) else ""
     return render(
         "looped/kernel.py.j2",
         {
             "kernel": kernel,
+            "about": about,
+            "stride": stride,
+            "slopes": slopes,
             "format": FORMAT,
             "generator": generator,
             "names": sorted(_upper(text) - {"T"}),
@@ -237,8 +262,50 @@ class InstanceAccess:
         return result
 
 
-def _kernel_function(block: Block, info: KernelInfo) -> dict[str, Any]:
-    access = InstanceAccess(info)
+@dataclass(frozen=True)
+class FormAccess(InstanceAccess):
+    """How the elements of a part of a descriptor form are written."""
+
+    def read(self, space: str, index: int) -> tuple[str, str]:
+        """Return (local name, expression) of an input."""
+        if space == "p" and index >= self.info.constants:
+            return f"option{index - self.info.constants}", f"p[method_parameters + {index - self.info.constants}]"
+        if space == "status":
+            return f"status_{index}", f"w[{index}]"
+        if space.startswith("k_"):
+            return f"{space}{index}", f"w[stage + {self.unknown(space.removeprefix('k_'), index)}]"
+        return super().read(space, index)
+
+    def write(self, target: Target) -> str:
+        """Return the left-hand side of an output, with its operator."""
+        if target.space == "power":
+            return "power +="
+        if target.space == "entry":
+            return f"out[entry + {target.index}] ="
+        return f"out[{self.unknown(target.space, target.index)}] +="
+
+    def unknown(self, group: str, index: int) -> str:
+        """Return the index of an equation or unknown among those of a stage."""
+        if group in ("q", "v"):
+            sizes = [frame[group == "v"] for frame in self.info.frames]
+            frame = 0
+            while index >= sizes[frame]:
+                index -= sizes[frame]
+                frame += 1
+            return f"q{frame} + {index}" if group == "q" else f"nq + v{frame} + {index}"
+        behind = {"first": "", "second": " + m", "third": " + 2 * m"}[group]
+        return f"nq + nv{behind} + row + {index}"
+
+    def places(self) -> list[tuple[str, str]]:
+        """Return (local name, expression) of all numbers of an instance's table."""
+        frames = range(len(self.info.frames))
+        names = [f"{letter}{i}" for letter in "fqv" for i in frames] + ["row", "entry"]
+        names += [f"u{i}" for i in range(self.info.windings)] + [f"c{i}" for i in range(self.info.constants)]
+        numbers = [(name, f"T[here + {i}]" if i else "T[here]") for i, name in enumerate(names)]
+        return [(name, f"records + {number}" if name.startswith("f") else number) for name, number in numbers]
+
+
+def _kernel_function(block: Block, access: InstanceAccess) -> dict[str, Any]:
     printer = Printer(block, access)
     lines = printer.lines()
     outputs = [f"{access.write(target)} {printer.text[n][0]}" for target, n in block.outputs]

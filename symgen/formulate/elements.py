@@ -57,9 +57,12 @@ class Element:
     equations: Equations
     frames: tuple[FrameRecord, ...]
 
-    def over_records(self, nodes: Sequence[int], graph: Graph) -> list[int]:
-        """Copy nodes into `graph` as functions of ``t``, ``p`` and ``("record", RECORD * frame + place)``."""
-        source = self.equations.graph
+    def over_records(self, nodes: Sequence[int], graph: Graph, source: Graph | None = None) -> list[int]:
+        """Copy nodes into `graph` as functions of ``t``, ``p`` and ``("record", RECORD * frame + place)``.
+
+        `source` is a copy of the equations' graph with more nodes, where these are meant.
+        """
+        source = self.equations.graph if source is None else source
         image: dict[int, int] = {}
         for f, frame in enumerate(self.frames):
             inputs = [source.input("q", i) for i in frame.q] + [source.input("v", i) for i in frame.v]

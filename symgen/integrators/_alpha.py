@@ -51,9 +51,9 @@ class AlphaFamily:
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
         from symgen.runtime.manifold import stay
+        from symgen.runtime.newton import Pattern, alpha_plan
 
         law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
-        width, size = info.nq + info.nv, n - info.nq
         values = {q.name: spec.integrator_parameters.get(q.name, q.default) for q in self.parameters}
         assert spec.step is not None, "a constant step is given"
         before = (
@@ -64,6 +64,8 @@ class AlphaFamily:
             *(info.sections["multipliers"][0], info.sections["mask"][0], info.sections["change"][0]),
             *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
         )
-        spins = np.array([j for _, j in info.spins], dtype=np.int64)
-        room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + n * n + n * width + size * size + 2 * size)
-        return LoopCall(self.loop(spec), before, (room, np.zeros(size, dtype=np.int64), spins))
+        plan, numbers, sources = alpha_plan(Pattern.of(compiled, state.w))
+        slopes = np.zeros(sources)
+        slopes[-1] = 1.0
+        room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + 4)
+        return LoopCall(self.loop(spec), before, (room, slopes, numbers, plan))

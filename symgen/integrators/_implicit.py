@@ -84,10 +84,16 @@ class ImplicitTableau:
 
     def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
         """Return the loop for a run and its arguments."""
+        from symgen.runtime.newton import Pattern, stage_plan
+
         law, info, s = compiled.law_module, compiled.info, self.stages
-        n, width, ny = compiled.law.unknowns, info.nq + info.nv, info.ny
+        n, ny, pattern = compiled.law.unknowns, info.ny, Pattern.of(compiled, state.w)
         size = s * n if self.together else n
-        room = np.zeros(2 * ny + n + s * n + 2 * size + s + n * n + n * width + size * size + 2 * size)
+        room = np.zeros(2 * ny + n + s * n + 2 * size + s + s * s + 1)
+        slopes = np.zeros((s if self.together else 1) * pattern.size + 1)
+        slopes[-1] = 1.0
+        single, single_numbers = stage_plan(pattern, np.ones((1, 1)), len(slopes) - 1)
+        plan, numbers = stage_plan(pattern, self.a, len(slopes) - 1) if self.together else (single, single_numbers)
         step = spec.step if spec.step is not None else 1e-4 * spec.until
         before = (
             *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
@@ -98,4 +104,7 @@ class ImplicitTableau:
             *(state.y, state.p, state.w, state.iw, int(spec.adaptive), 0.0, step),
             *(spec.largest_step, spec.until, spec.rtol, spec.atol),
         )
-        return LoopCall(ImplicitTableau.loop(self, spec), before, (room, np.zeros(size, dtype=np.int64)))
+        entries = np.concatenate([pattern.rows, pattern.columns])
+        return LoopCall(
+            ImplicitTableau.loop(self, spec), before, (room, slopes, numbers, plan, single_numbers, single, entries)
+        )

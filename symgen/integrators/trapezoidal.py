@@ -31,6 +31,7 @@ class Trapezoidal(ImplicitTableau):
         if compiled.law.level != "projected":
             return super().call(compiled, spec, state)
         from symgen.runtime.manifold import stay
+        from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
         from symgen.runtime.projected import projected_steps
 
         law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
@@ -42,10 +43,12 @@ class Trapezoidal(ImplicitTableau):
             *(float(penalty), info.nq, info.nv, info.m, info.sections["multipliers"][0], info.sections["change"][0]),
             *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
         )
-        width = info.nq + info.nv
-        spins = np.array([j for _, j in info.spins], dtype=np.int64)
-        room = np.zeros(2 * info.ny + 2 * n + 4 * info.m + 5 * info.nv + n * (n + width) + info.nv**2)
-        return LoopCall(projected_steps, before, (room, np.zeros(info.nv, dtype=np.int64), spins))
+        pattern = Pattern.of(compiled, state.w)
+        plan, numbers, sources = projection_plan(pattern)
+        forces = np.stack(constraint_forces(pattern), axis=1).ravel()
+        room = np.zeros(3 * info.ny + 2 * n + 4 * info.m + 3 * info.nv + 5)
+        after = (room, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern))
+        return LoopCall(projected_steps, before, after)
 
 
 KIND = Trapezoidal(

@@ -49,6 +49,8 @@ def _chain(
 ) -> Mapping[Key, int]:
     if not any(parts):
         return {}
+    if op in ("where", "min", "max"):
+        return _chosen(g, op, args, parts)
     result: dict[Key, int] = {}
     for factor, part in zip(_partials(g, node, op, args, payload), parts, strict=True):
         if factor == g.zero:
@@ -57,6 +59,17 @@ def _chain(
             term = g.mul(factor, inner)
             result[key] = g.add(result[key], term) if key in result else term
     return {key: n for key, n in result.items() if n != g.zero}
+
+
+def _chosen(g: Graph, op: str, args: tuple[int, ...], parts: list[Mapping[Key, int]]) -> Mapping[Key, int]:
+    """Return the derivatives of a choice: those of what is chosen, as the others may not exist where they are not."""
+    if op == "where":
+        condition, first, second = args[0], parts[1], parts[2]
+    else:
+        condition = g.call("le" if op == "min" else "ge", args[0], args[1])
+        first, second = parts
+    keys = dict.fromkeys((*first, *second))
+    return {key: g.call("where", condition, first.get(key, g.zero), second.get(key, g.zero)) for key in keys}
 
 
 def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str) -> tuple[int, ...]:
@@ -80,11 +93,6 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     if op == "atan2":
         square = g.add(g.mul(a, a), g.mul(b, b))
         return g.div(b, square), g.neg(g.div(a, square))
-    if op in ("min", "max"):
-        first = g.call("le" if op == "min" else "ge", a, b)
-        return g.call("where", first, one, zero), g.call("where", first, zero, one)
-    if op == "where":
-        return zero, g.call("where", a, one, zero), g.call("where", a, zero, one)
     if op == "table":
         return (zero if payload.endswith("'") else g.call(f"table:{payload}'", a),)
     if op in _UNARY:

@@ -227,3 +227,4 @@ class LawProgram:
     degrees: int = 0  # room for columns of a tangent basis
     unknowns: int = 0  # of a stage in the descriptor form; 0 where it was not asked for
     level: str = ""  # of the constraints in the descriptor form
+    tangent: tuple[tuple[int, int], ...] = ()  # equation and unknown of each number that `tangent` writes

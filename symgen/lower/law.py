@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from symgen.formulate.equations import Equations
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.algebra import System
-from symgen.lower.descriptor import descriptor_blocks
+from symgen.lower.descriptor import descriptor_form
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.parts import (
@@ -69,12 +69,13 @@ def lower_law(
     elif correction.metric == "augmented":
         builder.augmented_metric()
     unknowns, level = 0, ""
+    pattern: tuple[tuple[int, int], ...] = ()
     if implicit:
         descriptor = method.descriptor(builder.system, options)
         assert descriptor is not None, "the caller has checked that the method gives a form the integrator solves"
-        blocks, unknowns = descriptor_blocks(builder.hoister, builder.system, descriptor)
-        builder.blocks += blocks
-        level = descriptor.level
+        found = descriptor_form(builder.hoister, builder.system, descriptor)
+        builder.blocks += found.blocks
+        unknowns, level, pattern = found.unknowns, descriptor.level, found.pattern
     return LawProgram(
         method=method.name,
         key=method.stem(options, implicit),
@@ -90,6 +91,7 @@ def lower_law(
         degrees=builder.degrees,
         unknowns=unknowns,
         level=level,
+        tangent=pattern,
     )
 
 

@@ -17,7 +17,7 @@ _I = types.int64[::1]
 RHS = types.FunctionType(types.int64(_F8, _A, _A, _A, _I, _A))
 #: accept(t, y, p, w, iw) -> bits: 1 the correction failed, 2 the state was changed.
 ACCEPT = types.FunctionType(types.int64(_F8, _A, _A, _A, _I))
-#: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j).
+#: residual(t, y, k, p, w, r) and tangent(t, y, k, p, w, j); j holds the structural nonzeros alone.
 STAGE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 #: geometry(t, y, p, w).
 MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))

@@ -19,8 +19,8 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.dense import eliminate, leave_out, leave_out_rest, substitute
-from symgen.runtime.manifold import advance, fold_map, unfold
+from symgen.runtime.manifold import advance
+from symgen.runtime.sparse import ROOM, assemble, factorise, leave_out_rest, longer, multiply, solve, turn_rows
 from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -40,7 +40,7 @@ _MOST_ITERATIONS = 20
     _I8(
         *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, abi.MOVE),
         *(_F8, _F8, _F8, _F8, _I8, _I8, _I8, _I8, _I8, _I8, _I8),
-        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I, _I),
+        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _A, _A, _I),
     ),
 )
 def alpha_steps(
@@ -75,8 +75,9 @@ def alpha_steps(
     control: Any,
     events: Any,
     room: Any,
-    rows: Any,
-    spins: Any,
+    slopes: Any,
+    numbers: Any,
+    plan: Any,
 ) -> int:
     """Integrate with constant steps; an output between two steps is reached by a shortened step of its own.
 
@@ -89,8 +90,12 @@ def alpha_steps(
     n, multipliers, mask, changes : int
         Unknowns of a stage, and where the multipliers, the mask of redundant rows and the section ``change`` begin in
         `w`.
-    room, rows : Array
+    room : Array
         Working memory.
+    slopes : Array
+        Sources of the Newton matrix: what ``tangent`` writes, products, and 1.
+    numbers, plan : Array
+        Of the Newton matrix, see `symgen.runtime.newton.alpha_plan`.
 
     Notes
     -----
@@ -117,9 +122,8 @@ def alpha_steps(
     at += nv
     a1 = part(room, at, nv)
     at += nv
-    slopes = part(room, at, n * n + n * width)
-    at += n * n + n * width
-    matrix = part(room, at, size * size + 2 * size)
+    factors = part(room, at, 4)
+    factors[0] = 1.0
 
     t, out, tiny, index = t0, 0, 1e-9 * h, 0
     accept(t, y, p, w, iw)
@@ -173,24 +177,22 @@ def alpha_steps(
                 k[i] = trial[nq + i]
             advance(nq, nv, y, change, trial, w, changes, turn)
             if fresh:
-                unfold(nq, nv, n, slopes)
                 tangent(following, trial, k, p, w, slopes)
-                fold_map(nq, nv, n, slopes, right, spins, change)
-                for r in range(size):
-                    row = nq + r
-                    for c in range(size):
-                        matrix[r * size + c] = slopes[row * n + nq + c]
-                    for c in range(nv):
-                        base = n * n + row * width
-                        matrix[r * size + c] += by_position * slopes[base + c] + by_velocity * slopes[base + nq + c]
-                leave_out(matrix, size, 0, size, nv, m, w, mask)
-                eliminate(matrix, size, rows)
+                multiply(plan, slopes)
+                turn_rows(plan, slopes, change)
+                factors[1], factors[2], factors[3] = by_velocity, by_position, -by_position
+                assemble(plan, slopes, factors, numbers)
+                while factorise(plan, numbers) < 0:
+                    more = plan[ROOM]
+                    plan, numbers = longer(plan, more), longer(numbers, more)
+                    plan[ROOM] = 2 * more
+                    assemble(plan, slopes, factors, numbers)
                 control[_JACOBIANS] += 1
                 fresh = False
             residual(following, trial, k, p, w, right)
             leave_out_rest(right, nq, size, nv, m, w, mask, k, nq)
             control[_EVALUATIONS] += 1
-            substitute(matrix, size, rows, part(right, nq, size), change)
+            solve(plan, numbers, part(right, nq, size), change)
             control[_ITERATIONS] += 1
             moved, total, length = 0.0, 0.0, 1.0
             for i in range(size):

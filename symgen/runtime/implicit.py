@@ -14,7 +14,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.dense import eliminate, leave_out, leave_out_rest, substitute
+from symgen.runtime.sparse import ROOM, assemble, factorise, leave_out_rest, longer, solve
 from symgen.runtime.steps import store
 from symgen.runtime.watch import approach, begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -45,19 +45,6 @@ def stage_state(y: Any, width: int, n: int, h: float, a: Any, row: int, stages: 
 
 
 @jit()
-def place_block(
-    matrix: Any, size: int, at: int, to: int, n: int, width: int, diagonal: float, factor: float, tangent: Any
-) -> None:
-    """Write ``diagonal dF/dk + factor dF/dy`` as block (at, to) of a Newton matrix of `size` unknowns."""
-    for i in range(n):
-        base = (at * n + i) * size + to * n
-        for j in range(n):
-            matrix[base + j] = diagonal * tangent[i * n + j]
-        for j in range(width):
-            matrix[base + j] += factor * tangent[n * n + i * width + j]
-
-
-@jit()
 def work_error(
     step: float, errors: Any, begun: Any, powers: Any, y: Any, trial: Any, gauges: Any, rtol: float, atol: float
 ) -> float:
@@ -77,7 +64,8 @@ def work_error(
     _I8(
         *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, _A, _A, _A, _I8, _I8, _A, _F8),
         *(_I8, _I8, _I8, _I8, _I8, _I8, _I8),
-        *(_A, _A, _A, _I, _I8, _F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I),
+        *(_A, _A, _A, _I, _I8, _F8, _F8, _F8, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A),
+        *(_A, _A, _A, _I, _A, _I, _I),
     ),
 )
 def implicit_steps(
@@ -118,7 +106,12 @@ def implicit_steps(
     control: Any,
     events: Any,
     room: Any,
-    rows: Any,
+    slopes: Any,
+    numbers: Any,
+    plan: Any,
+    filter_numbers: Any,
+    filter_plan: Any,
+    entries: Any,
 ) -> int:
     """Integrate with constant steps, or with steps chosen from the error estimate.
 
@@ -134,10 +127,19 @@ def implicit_steps(
         The estimate is filtered by ``(dF/dk + h filter_factor dF/dy)^-1 dF/dk``; 0: it is not.
     n, multipliers, mask : int
         Unknowns of a stage, and where the multipliers and the mask of redundant rows begin in `w`.
-    room, rows : Array
+    room : Array
         Working memory.
+    slopes : Array
+        For what ``tangent`` writes in each stage; the last element is 1.
+    numbers, plan : Array
+        Of the Newton matrix, see `symgen.runtime.newton.stage_plan`.
+    filter_numbers, filter_plan : Array
+        The same for one stage.
+    entries : Array of int64
+        Equation of each number that ``tangent`` writes, then its unknown.
     """
     width, ny = nq + nv, nq + nv + 1
+    count = entries.shape[0] // 2
     unknowns = n_stages * n if together == 1 else n
     y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)
     gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
@@ -156,9 +158,8 @@ def implicit_steps(
     at += unknowns
     powers = part(room, at, n_stages)
     at += n_stages
-    slopes = part(room, at, n * n + n * width)
-    at += n * n + n * width
-    matrix = part(room, at, unknowns * unknowns + 2 * unknowns)
+    factors = part(room, at, n_stages * n_stages + 1)
+    factors[0] = 1.0
 
     t, out, tiny = t0, 0, 1e-9 * h
     accept(t, y, p, w, iw)
@@ -212,13 +213,16 @@ def implicit_steps(
                 if fresh:
                     for s in range(low, high):
                         stage_state(y, width, n, step, a, s, n_stages, k, trial)
-                        tangent(t + c[s] * step, trial, part(k, s * n, n), p, w, slopes)
+                        stage = part(slopes, (s - low) * count, count)
+                        tangent(t + c[s] * step, trial, part(k, s * n, n), p, w, stage)
                         for j in range(low, high):
-                            factor = step * a[s * n_stages + j]
-                            diagonal = 1.0 if s == j else 0.0
-                            place_block(matrix, unknowns, s - low, j - low, n, width, diagonal, factor, slopes)
-                        leave_out(matrix, unknowns, (s - low) * n, n, width, m, w, mask)
-                    eliminate(matrix, unknowns, rows)
+                            factors[1 + (s - low) * (high - low) + j - low] = step * a[s * n_stages + j]
+                    assemble(plan, slopes, factors, numbers)
+                    while factorise(plan, numbers) < 0:
+                        more = plan[ROOM]
+                        plan, numbers = longer(plan, more), longer(numbers, more)
+                        plan[ROOM] = 2 * more
+                        assemble(plan, slopes, factors, numbers)
                     control[_JACOBIANS] += 1
                     fresh = False
                 for s in range(low, high):
@@ -227,7 +231,7 @@ def implicit_steps(
                     leave_out_rest(right, (s - low) * n, n, width, m, w, mask, k, s * n)
                     powers[s] = w[_POWER]
                     control[_EVALUATIONS] += 1
-                substitute(matrix, unknowns, rows, right, change)
+                solve(plan, numbers, right, change)
                 control[_ITERATIONS] += 1
                 moved, size = 0.0, 0.0
                 for s in range(low, high):
@@ -282,14 +286,18 @@ def implicit_steps(
                     total += errors[s + 1] * k[s * n + i]
                 change[i] = step * total
             if filter_factor > 0.0:
-                tangent(t, y, start, p, w, slopes)
-                for i in range(n):
-                    for j in range(width):
-                        right[i] += slopes[i * n + j] * change[j]
-                place_block(matrix, n, 0, 0, n, width, 1.0, step * filter_factor, slopes)
-                leave_out(matrix, n, 0, n, width, m, w, mask)
-                eliminate(matrix, n, rows)
-                substitute(matrix, n, rows, right, change)
+                tangent(t, y, start, p, w, part(slopes, 0, count))
+                for e in range(count):
+                    if entries[count + e] < width:
+                        right[entries[e]] += slopes[e] * change[entries[count + e]]
+                factors[1] = step * filter_factor
+                assemble(filter_plan, slopes, factors, filter_numbers)
+                while factorise(filter_plan, filter_numbers) < 0:
+                    more = filter_plan[ROOM]
+                    filter_plan, filter_numbers = longer(filter_plan, more), longer(filter_numbers, more)
+                    filter_plan[ROOM] = 2 * more
+                    assemble(filter_plan, slopes, factors, filter_numbers)
+                solve(filter_plan, filter_numbers, right, change)
             for i in range(width):
                 scale = atol + rtol * max(abs(y[i]), abs(trial[i]))
                 error += (change[i] / scale) ** 2

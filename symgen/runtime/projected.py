@@ -16,8 +16,8 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.dense import eliminate, substitute
-from symgen.runtime.manifold import advance, fold_map, unfold
+from symgen.runtime.manifold import advance
+from symgen.runtime.sparse import ROOM, assemble, factorise, longer, multiply, solve, turn_rows
 from symgen.runtime.steps import store
 from symgen.runtime.watch import begin, keep_maxima, watch
 from symgen.store.jit import jit
@@ -35,35 +35,30 @@ _LEAST_PENALTY = 1e3
 
 
 @jit()
-def leading_matrix(step: float, penalty: float, nq: int, nv: int, m: int, slopes: Any, matrix: Any) -> None:
-    """Write W from the Jacobian of the descriptor form."""
-    n, width = nq + nv + m, nq + nv
+def lead(step: float, penalty: float, delta: Any, plan: Any, numbers: Any, slopes: Any, factors: Any) -> bool:
+    """Factorise W from what ``tangent`` wrote; return whether there was room for it."""
     quarter = 0.25 * step * step
-    for i in range(nv):
-        row = nq + i
-        for j in range(nv):
-            base = n * n + row * width
-            total = slopes[row * n + nq + j] + 0.5 * step * slopes[base + nq + j] + quarter * slopes[base + j]
-            for c in range(m):
-                total += quarter * penalty * slopes[row * n + width + c] * slopes[(nq + j) * n + width + c]
-            matrix[i * nv + j] = total
+    factors[0], factors[1], factors[2], factors[3], factors[4] = 1.0, 0.5 * step, quarter, -quarter, quarter * penalty
+    multiply(plan, slopes)
+    turn_rows(plan, slopes, delta)
+    assemble(plan, slopes, factors, numbers)
+    return bool(factorise(plan, numbers) >= 0)
 
 
 @jit()
-def pull_back(factor: float, nq: int, nv: int, m: int, slopes: Any, rest: Any, at: int, right: Any) -> None:
-    """Set right = factor D^T times `m` residuals from index `at` of `rest`."""
-    n, width = nq + nv + m, nq + nv
+def pull_back(factor: float, nv: int, forces: Any, slopes: Any, rest: Any, at: int, right: Any) -> None:
+    """Set right = factor D^T times the residuals from index `at` of `rest`."""
     for i in range(nv):
-        total = 0.0
-        for c in range(m):
-            total += slopes[(nq + i) * n + width + c] * rest[at + c]
-        right[i] = factor * total
+        right[i] = 0.0
+    for e in range(0, forces.shape[0], 3):
+        right[forces[e + 1]] += factor * slopes[forces[e + 2]] * rest[at + forces[e]]
 
 
 @jit(
     _I8(
         *(abi.STAGE, abi.STAGE, abi.RHS, abi.RHS, abi.ACCEPT, abi.MOVE, _F8, _I8, _I8, _I8, _I8, _I8),
-        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A, _A, _I, _I),
+        *(_A, _A, _A, _I, _F8, _F8, _F8, _A, _M, _M, _A, _I, _A),
+        *(_A, _A, _A, _I, _I, _I),
     ),
 )
 def projected_steps(
@@ -93,10 +88,27 @@ def projected_steps(
     control: Any,
     events: Any,
     room: Any,
-    rows: Any,
-    spins: Any,
+    slopes: Any,
+    numbers: Any,
+    plan: Any,
+    pulls: Any,
+    masses: Any,
 ) -> int:
-    """Integrate with constant steps; an output between two steps is reached by a shortened step of its own."""
+    """Integrate with constant steps; an output between two steps is reached by a shortened step of its own.
+
+    Parameters
+    ----------
+    room : Array
+        Working memory.
+    slopes : Array
+        Sources of W: what ``tangent`` writes, then products.
+    numbers, plan : Array
+        Of W, see `symgen.runtime.newton.projection_plan`.
+    pulls : Array of int64
+        Row, velocity and source of each entry of D^T.
+    masses : Array of int64
+        Sources of the diagonal of M.
+    """
     width, ny, n = nq + nv, nq + nv + 1, nq + nv + m
     y, p, w, iw = bare(y), bare(p), bare(w), bare(iw)
     gauges, control, events, status, states = bare(gauges), bare(control), bare(events), bare(status), bare(states)
@@ -119,9 +131,9 @@ def projected_steps(
     at += m
     held = part(room, at, m)  # the same in the iteration
     at += m
-    slopes = part(room, at, n * n + n * width)
-    at += n * n + n * width
-    matrix = part(room, at, nv * nv + 2 * nv)
+    rate = part(room, at, ny)
+    at += ny
+    factors = part(room, at, 5)
 
     t, out, tiny, index = t0, 0, 1e-9 * h, 0
     accept(t, y, p, w, iw)
@@ -143,8 +155,8 @@ def projected_steps(
     for i in range(n):
         k[i] = 0.0
     tangent(t, y, k, p, w, slopes)
-    for i in range(nv):
-        heaviest = max(heaviest, slopes[(nq + i) * n + nq + i])
+    for i in range(masses.shape[0]):
+        heaviest = max(heaviest, slopes[masses[i]])
     asked = penalty
     while t < until - tiny:
         if control[_STOP] != 0:
@@ -181,16 +193,16 @@ def projected_steps(
             residual(following, trial, k, p, w, rest)
             control[_EVALUATIONS] += 2
             if fresh:
-                unfold(nq, nv, n, slopes)
                 tangent(following, trial, k, p, w, slopes)
-                fold_map(nq, nv, n, slopes, change, spins, shift)
-                leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
-                eliminate(matrix, nv, rows)
+                while not lead(step, penalty, shift, plan, numbers, slopes, factors):
+                    more = plan[ROOM]
+                    plan, numbers = longer(plan, more), longer(numbers, more)
+                    plan[ROOM] = 2 * more
                 control[_JACOBIANS] += 1
                 fresh = False
             for i in range(nv):
                 right[i] = quarter * rest[nq + i]
-            substitute(matrix, nv, rows, right, change)
+            solve(plan, numbers, right, change)
             control[_ITERATIONS] += 1
             moved, total, violation = 0.0, 0.0, 0.0
             for i in range(nv):
@@ -214,11 +226,11 @@ def projected_steps(
         for i in range(nv):
             trial[nq + i] = 2.0 / step * shift[i] - y[nq + i]
             k[nq + i] = 4.0 / (step * step) * shift[i] - 4.0 / step * y[nq + i] - begun[nq + i]
-        unfold(nq, nv, n, slopes)
         tangent(following, trial, k, p, w, slopes)
-        fold_map(nq, nv, n, slopes, change, spins, shift)
-        leading_matrix(step, penalty, nq, nv, m, slopes, matrix)
-        eliminate(matrix, nv, rows)
+        while not lead(step, penalty, shift, plan, numbers, slopes, factors):
+            more = plan[ROOM]
+            plan, numbers = longer(plan, more), longer(numbers, more)
+            plan[ROOM] = 2 * more
         for level in range(2):  # velocities, then accelerations
             last = math.inf
             for _ in range(_MOST_ITERATIONS):
@@ -233,8 +245,8 @@ def projected_steps(
                 if violation > 0.95 * last or violation == 0.0:
                     break
                 last = violation
-                pull_back(quarter * penalty, nq, nv, m, slopes, rest, n + level * m, right)
-                substitute(matrix, nv, rows, right, change)
+                pull_back(quarter * penalty, nv, pulls, slopes, rest, n + level * m, right)
+                solve(plan, numbers, right, change)
                 for i in range(nv):
                     if level == 0:
                         trial[nq + i] -= change[i]
@@ -242,7 +254,6 @@ def projected_steps(
                         k[nq + i] -= change[i]
         # multipliers of the iteration belong to accelerations before their projection, of order 1: the power comes from
         # those of the law
-        rate = part(matrix, 0, ny)
         if rhs(following, trial, p, w, iw, rate) != 0:
             confirm(following, trial, p, w, iw, rate)
         control[_EVALUATIONS] += 1

@@ -14,9 +14,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.emitted import mechanism_of
+from support.models import parallelogram
 
 from symgen import catalogue
 from symgen.api import load
+from symgen.lower.looped.forms import form_key
 from symgen.methods import METHODS
 
 TESTS = Path(__file__).resolve().parents[1]
@@ -27,10 +30,21 @@ TOLERANCE = {"parallelogram": 2e-9, "bricard": 2e-9}
 @pytest.fixture(scope="module")
 def plain() -> dict[str, dict[str, float]]:
     """Differences of all cases, from functions that run as plain Python."""
+    return differences("support.both_shapes")
+
+
+@pytest.fixture(scope="module")
+def plain_forms() -> dict[str, dict[str, float]]:
+    """The same for descriptor forms."""
+    return differences("support.both_forms")
+
+
+def differences(module: str) -> dict[str, dict[str, float]]:
+    """Run a module in a process in which nothing is compiled; return what it writes."""
     path = os.pathsep.join([str(TESTS), str(TESTS.parent), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": path}
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-m", "support.both_shapes"],
+        [sys.executable, "-W", "ignore", "-m", module],
         env=environment,
         capture_output=True,
         text=True,
@@ -65,6 +79,34 @@ def test_every_method_has_loops_or_says_why_not(plain):
         assert (name in covered) != bool(method.dense or not {"ode", "one-step"} & set(method.forms)), name
 
 
+@pytest.mark.parametrize(
+    "mechanism", [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "rough", "parallelogram", "spatial"]
+)
+def test_residuals_and_their_jacobians_agree(plain_forms, mechanism):
+    cases = {case: found for case, found in plain_forms.items() if case.split()[0] == mechanism}
+    assert "ggl" in {case.split()[1] for case in cases}
+    apart = {
+        f"{case}: {quantity}": size
+        for case, found in cases.items()
+        for quantity, size in found.items()
+        if not size <= 1e-12
+    }
+    assert not apart
+
+
+def test_every_level_of_a_descriptor_form_is_covered(plain_forms):
+    covered = {case.split()[1] for case in plain_forms}
+    with_form = {
+        name
+        for name in METHODS.names
+        if {"index-1", "index-2", "index-3", "index-3-projected"} & set(METHODS.get(name).forms)
+    }
+    assert covered <= with_form
+    # the others ask for the same constraints as one of these
+    keys = {form_key(METHODS.get(name), METHODS.get(name).complete_options({})) for name in covered}
+    assert {form_key(METHODS.get(name), METHODS.get(name).complete_options({})) for name in with_form} == keys
+
+
 @pytest.mark.parametrize("weight", ["identity", "mass"])
 def test_compiled_runs_agree(weight):
     model = load("slider-crank")
@@ -82,3 +124,23 @@ def test_compiled_runs_agree(weight):
             atol=1e-9 * max(1.0, float(np.abs(values).max(initial=0.0))),
         )
     assert looped.position_violation_max < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "method", "settings"),
+    [
+        ("four-bar", "ggl", {"integrator": "radau5", "rtol": 1e-8, "until": 0.3}),
+        ("slider-crank", "penalty", {"integrator": "sdirk", "rtol": 1e-6, "until": 0.2}),
+        ("spherical-double-pendulum", "generalized-alpha", {"step": 1e-3, "until": 0.1}),
+        ("parallelogram", "index3-augmented-lagrangian", {"step": 1e-3, "until": 0.1}),
+    ],
+)
+def test_compiled_implicit_runs_agree(mechanism, method, settings):
+    model = load(mechanism_of(parallelogram()) if mechanism == "parallelogram" else mechanism)
+    straight, looped = (model.simulate(method=method, shape=shape, **settings) for shape in ("straight", "looped"))
+    assert (straight.shape, looped.shape) == ("straight", "looped")
+    assert straight.status == looped.status == "ok" and straight.steps == looped.steps
+    for table in ("q", "v"):
+        found, expected = getattr(looped, table).values, getattr(straight, table).values
+        scale = max(1.0, float(np.abs(expected).max()))
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * scale)

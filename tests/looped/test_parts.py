@@ -15,12 +15,13 @@ from symgen.api import load
 from symgen.errors import InputError
 from symgen.looped import generate_looped, law_stem, shared_folder
 from symgen.lower.factor import minimum_degree
+from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import is_loopable, refuse_dense
 from symgen.lower.looped.pattern import Elimination, eliminate
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.pipeline import choose_method, generator_digest
+from symgen.pipeline import MethodChoice, choose_method, generator_digest
 from symgen.plan import Settings, make_plan
 from symgen.runtime import large
 from symgen.shapes import choose_shape
@@ -96,13 +97,14 @@ def test_panels_hold_a_factor(neighbours, seed):
 
 
 def test_kernels_do_not_know_their_mechanism():
-    methods = [(METHODS.get("lagrange"), METHODS.get("lagrange").complete_options({}))]
+    methods = [(METHODS.get("lagrange"), METHODS.get("lagrange").complete_options({}), True)]
     few, many = (
         generate_looped(load(name).mechanism, methods, generator_digest()) for name in ("four-bar", "n-four-bar:7")
     )
     common = few.keys() & many.keys() - {"mechanism"}
     assert {"machine", "model", "law_lagrange"} <= common
-    assert sum(stem.startswith("joint_revolute") for stem in common) == 2
+    for prefix in ("joint_revolute", "form_"):
+        assert sum(stem.startswith(prefix) for stem in common) == (2 if prefix == "joint_revolute" else 3)
     for stem in common:
         assert few[stem] == many[stem]
 
@@ -124,6 +126,55 @@ def test_a_new_mechanism_of_known_kinds_compiles_nothing():
     assert cache_stats()["misses"] == before
 
 
+def test_implicit_runs_of_known_kinds_compile_nothing():
+    keys = {"method": "lagrange", "integrator": "sdirk", "until": 0.01, "shape": "looped"}
+    load("n-four-bar:2").simulate(**keys)
+    before = cache_stats()["misses"]
+    assert load("n-four-bar:5").simulate(**keys).status == "ok"
+    assert cache_stats()["misses"] == before
+
+
+def test_equal_constraints_share_kernels():
+    def key(name):
+        return form_key(METHODS.get(name), METHODS.get(name).complete_options({}))
+
+    assert key("lagrange") == key("direct-correction") == key("velocity-projection")
+    names = ("lagrange", "baumgarte", "penalty", "ggl", "generalized-alpha", "index3-augmented-lagrangian")
+    assert len({key(name) for name in names}) == len(names)
+
+
+class Weighed(MultiplierMethod):
+    """Constraints that ask for the masses of all bodies."""
+
+    name = "weighed"
+    summary = reference = "a method of a test"
+
+    def target(self, system):
+        return system.gamma - system.heavy_penalty * system.phi
+
+
+def test_constraints_that_ask_for_more_than_their_joint_have_straight_code():
+    method = Weighed()
+    options = method.complete_options({})
+    assert not is_loopable(method, options, True)
+    with pytest.raises(InputError, match="'weighed', whose constraints ask for 'heavy_penalty'"):
+        refuse_dense(method, options, True)
+    choice = MethodChoice(method, options, True)
+    assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).shape == "straight"
+
+
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [("direct-correction", "radau5"), ("ggl", "radau5"), ("generalized-alpha", "generalized-alpha")],
+)
+def test_large_mechanisms_have_implicit_runs(method, integrator):
+    options = {"integrator.adaptive": "false"} if integrator == "radau5" else {}
+    keys = {"method": method, "integrator": integrator, "options": options, "shape": "looped"}
+    run = load("n-four-bar:100").simulate(step=1e-3, until=5e-3, **keys)
+    assert (run.status, run.steps) == ("ok", 5)
+    assert run.position_violation_max < 1e-10 and run.energy_drift_max < 1e-3
+
+
 # -- which shape -------------------------------------------------------------------------------------------------------
 
 
@@ -143,7 +194,7 @@ def test_short_runs_are_looped_once_the_shared_code_is_there(tmp_path):
     folder = shared_folder(generator_digest())
     assert choose_shape(mechanism, choice, "auto", 1e4, entries).shape == "straight"
     for stem, (source, data) in generate_looped(
-        mechanism, [(choice.method, choice.options)], generator_digest()
+        mechanism, [(choice.method, choice.options, False)], generator_digest()
     ).items():
         entries.put(folder, stem, source, data)
     assert entries.path(folder, law_stem(choice.method, choice.options)).exists()
@@ -161,14 +212,14 @@ def test_dense_methods_have_no_loops_and_a_largest_size(method, tmp_path):
         choose_shape(load("n-four-bar:80").mechanism, choice, "auto", 1e4, Entries(tmp_path))
 
 
-def test_implicit_integrators_and_unknown_shapes_are_refused():
-    model = load("four-bar")
-    with pytest.raises(InputError, match="implicit integrators, whose Newton matrices are dense"):
-        make_plan(model, Settings(integrator="radau5", shape="looped"))
+def test_implicit_integrators_have_both_shapes_at_any_size():
+    assert make_plan(load("four-bar"), Settings(integrator="radau5", shape="looped")).choice.shape == "looped"
+    assert make_plan(load("n-four-bar:250"), Settings(integrator="radau5")).choice.shape == "looped"
+
+
+def test_unknown_shapes_are_refused():
     with pytest.raises(InputError, match="one of auto, straight, looped, got 'lopped'"):
-        make_plan(model, Settings(shape="lopped"))
-    with pytest.raises(InputError, match="with an implicit integrator"):
-        make_plan(load("n-four-bar:80"), Settings(integrator="radau5"))
+        make_plan(load("four-bar"), Settings(shape="lopped"))
 
 
 class Smooth(MultiplierMethod):
@@ -206,7 +257,7 @@ def test_auto_takes_large_mechanisms_without_their_eigenvalues(monkeypatch):
     monkeypatch.setattr(auto, "linearised", refused)
     settings, reasons = auto.resolve(load("n-four-bar:60"), Settings(method="auto", integrator="auto"))
     assert (settings.method, settings.integrator) == ("direct-correction", "dop853")
-    assert "1088 unknowns a stage are too many for dense Newton matrices" in reasons[-1]
+    assert "with 1088 unknowns a stage nobody looked whether the motion is stiff" in reasons[-1]
 
 
 # -- large mechanisms --------------------------------------------------------------------------------------------------

@@ -69,9 +69,13 @@ class Stage:
 
     def tangent(self, t, y, k):
         n, width = self.law.unknowns, self.info.nq + self.info.nv
-        j = [0.0] * (n * (n + width))
+        j = [math.nan] * len(self.law.tangent)
         self.real.tangent.py_func(t, y, k, self.p, [0.0] * self.law.nw, j)
-        return np.array(j[: n * n]).reshape(n, n), np.array(j[n * n :]).reshape(n, width)
+        by = np.zeros((n, n + width))
+        for (row, column), value in zip(self.law.tangent, j, strict=True):
+            assert by[row, column] == 0.0  # straight code writes a place once
+            by[row, column] = value
+        return by[:, :n], by[:, n:]
 
 
 @pytest.mark.parametrize("case", range(len(CASES)), ids=["-".join(kinds[:1]) for kinds, _ in CASES])

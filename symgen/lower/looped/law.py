@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from symgen.errors import InputError
 from symgen.ir.program import Correction
+from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.system import Block, LoopedSystem
 from symgen.lower.looped.vectors import INDEX, Vector
@@ -16,7 +17,7 @@ from symgen.methods._base import Acceleration, Iteration, Method
 if TYPE_CHECKING:
     from symgen.lower.algebra import System
 
-#: Methods that need dense matrices, and implicit integrators, are refused above this number of coordinates.
+#: Methods that need dense matrices are refused above this number of coordinates.
 LARGEST_DENSE = 400
 
 
@@ -78,10 +79,8 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
         Saying in one sentence why.
     """
     if implicit:
-        why = "implicit integrators, whose Newton matrices are dense; the straight shape is for them"
-    elif not {"ode", "one-step"} & set(method.forms):
-        why = f"'{method.name}', which is for implicit integrators; the straight shape is for it"
-    elif options.get("solver") == "dense":
+        form_key(method, options)  # refused where constraints ask for more than their own joint
+    if options.get("solver") == "dense":
         why = f"'{method.name}' with a dense factorisation of D; the straight shape is for it"
     elif method.dense:
         why = f"'{method.name}', {method.dense}; the straight shape is for it"

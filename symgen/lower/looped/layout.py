@@ -36,6 +36,9 @@ HEAD = (
     "diagonal",
     "panel",
     "kept_rows",
+    "stage",  # k of the descriptor form
+    "unknowns",  # length of k
+    "equations",  # length of F with the rows behind it
     "vectors",  # scratch vectors of a law, each as long as the longer of v and lambda
     "vector_size",
     # tables
@@ -51,6 +54,8 @@ HEAD = (
     "full",
     "energy",
     "report",
+    "residuals",
+    "slopes",
     "jacobian_rows",
     "jacobian_columns",
     "jacobian_size",
@@ -82,6 +87,8 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "full": (("body", "motion"), ("joint", "full"), ("force", "motion")),
     "energy": (("body", "energy"), ("force", "energy")),
     "report": (("joint", "report"),),
+    "residuals": (("body", "residual"), ("joint", "residual"), ("force", "residual")),
+    "slopes": (("body", "tangent"), ("joint", "tangent"), ("force", "tangent")),
 }
 
 #: Generic functions that are called through the tables, in the order of their addresses.

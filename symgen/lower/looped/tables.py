@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from symgen.ir.program import STATUS
+from symgen.lower.looped.forms import FormInfo
 from symgen.lower.looped.layout import GENERIC, HEAD, STAGES
 from symgen.lower.looped.shape import Group, RowBlock, Shape
 
@@ -30,6 +31,7 @@ SECTIONS = (
     ("diagonal", "longest"),
     ("panel", "panel"),
     ("kept_rows", "m"),
+    ("stage", "unknowns"),
 )
 
 
@@ -51,6 +53,10 @@ class Tables:
         Length of ``w``.
     groups : tuple of (module, function ``prepare`` or not, index of its table)
         In the order in which numbers are prepared.
+    unknowns : int
+        Unknowns of a stage of the descriptor form; 0 where there is none.
+    tangent : tuple of (int, int)
+        Equation and unknown of each number that ``tangent`` writes.
     """
 
     numbers: array[int]
@@ -59,10 +65,25 @@ class Tables:
     sections: Mapping[str, tuple[int, int]]
     nw: int
     groups: tuple[tuple[str, bool, int], ...]
+    unknowns: int = 0
+    tangent: tuple[tuple[int, int], ...] = ()
+
+
+@dataclass(frozen=True)
+class Forms:
+    """The parts of a descriptor form: module and metadata by the module of an element's kernel."""
+
+    level: str
+    parts: Mapping[str, tuple[str, FormInfo]]
 
 
 def build_tables(
-    shape: Shape, more: Sequence[tuple[str, str]], vectors: int, augmented: bool, stages: Sequence[str] = tuple(STAGES)
+    shape: Shape,
+    more: Sequence[tuple[str, str]],
+    vectors: int,
+    augmented: bool,
+    stages: Sequence[str] = tuple(STAGES),
+    forms: Forms | None = None,
 ) -> Tables:
     """Build the tables for a law.
 
@@ -78,30 +99,55 @@ def build_tables(
         Whether the law factorises M + a D^T D.
     stages : sequence of str
         Stages that are called; the others are empty.
+    forms : Forms, optional
+        The descriptor form for implicit integrators.
     """
-    return _Builder(shape, more, vectors, augmented, stages).tables()
+    return _Builder(shape, more, vectors, augmented, stages, forms).tables()
 
 
 class _Builder:
     def __init__(
-        self, shape: Shape, more: Sequence[tuple[str, str]], vectors: int, augmented: bool, stages: Sequence[str]
+        self,
+        shape: Shape,
+        more: Sequence[tuple[str, str]],
+        vectors: int,
+        augmented: bool,
+        stages: Sequence[str],
+        forms: Forms | None,
     ) -> None:
         self.shape, self.more, self.vectors, self.augmented = shape, more, vectors, augmented
+        self.parts = {} if forms is None else forms.parts
+        self.level = "" if forms is None else forms.level
+        self.tangent: list[tuple[int, int]] = []
         self.head: dict[str, int] = {}
         self.stages = {name: stage if name in stages else () for name, stage in STAGES.items()}
         self.functions = tuple(
             dict.fromkeys(
-                (group.stem, function)
+                found
                 for stage in self.stages.values()
                 for kind, function in stage
                 for group in shape.groups
-                if group.info.kind == kind and function in group.info.functions
+                if group.info.kind == kind and (found := self.function(group, function)) is not None
             )
         )
         length = len(HEAD) + len(more)
         length += length % 2
         self.addresses = length // 2
         self.numbers = [0] * (length + 2 * (len(GENERIC) + len(self.functions)))
+
+    def function(self, group: Group, function: str) -> tuple[str, str] | None:
+        """Return module and name of a function of a group's kernel or of its part of the descriptor form, if any."""
+        if function in group.info.functions:
+            return group.stem, function
+        part = self.parts.get(group.stem)
+        return (part[0], function) if part is not None and function in part[1].functions else None
+
+    @property
+    def unknowns(self) -> int:
+        """Unknowns of a stage."""
+        shape = self.shape
+        rows = {"": 0, "stabilised": 2}.get(self.level, 1)
+        return shape.nq + shape.nv + rows * shape.m if self.level else 0
 
     def tables(self) -> Tables:
         """Return the finished tables."""
@@ -115,11 +161,17 @@ class _Builder:
         head["mean_mass"] = shape.mass_diagonal + 2 * shape.nv
         head["gram_base"] = shape.gram_base
         head["generic"] = self.addresses
+        head["unknowns"] = self.unknowns
+        head["equations"] = self.unknowns + (2 * shape.m if self.level == "projected" else 0)
         places = {group.stem: self.group(group) for group in shape.groups}
+        for group in shape.groups:
+            if group.stem in self.parts:
+                stem, info = self.parts[group.stem]
+                places[stem] = self.part(group, info)
         for name, stage in self.stages.items():
             self.stage(name, stage, places)
         self.matrices()
-        sizes = shape.sizes(self.augmented)
+        sizes = shape.sizes(self.augmented) | {"unknowns": self.unknowns}
         sections: dict[str, tuple[int, int]] = {"status": (0, len(STATUS))}
         offset = len(STATUS) + shape.windings
         sections["winding"] = (len(STATUS), shape.windings)
@@ -138,7 +190,16 @@ class _Builder:
         sections["tables"] = (offset, len(self.numbers) // 2 + 1)
         offset += len(self.numbers) // 2 + 1
         groups = tuple((g.stem, "prepare" in g.info.functions, places[g.stem]) for g in shape.groups)
-        return Tables(array("I", self.numbers), self.functions, self.addresses, sections, offset, groups)
+        return Tables(
+            array("I", self.numbers),
+            self.functions,
+            self.addresses,
+            sections,
+            offset,
+            groups,
+            self.unknowns,
+            tuple(self.tangent),
+        )
 
     def begin(self, name: str) -> None:
         """Let a table begin here."""
@@ -166,14 +227,39 @@ class _Builder:
             self.numbers += [constants + index[c] for c in instance.constants]
         return at
 
+    def part(self, group: Group, info: FormInfo) -> int:
+        """Write the table of a group's part of the descriptor form; return where it begins."""
+        shape, at = self.shape, len(self.numbers)
+        self.numbers.append(len(group.members))
+        owners = [[(f, i) for f, sizes in enumerate(group.info.frames) for i in range(sizes[s])] for s in (0, 1)]
+        for k in group.members:
+            instance = shape.instances[k]
+            names = (instance.name,) if group.info.kind == "body" else instance.frames
+            bodies = [shape.body[name] for name in names]
+            row = shape.row_of[k] if group.info.kind == "joint" else 0
+            rows = shape.nq + shape.nv + row
+            place = {("q", j): bodies[f][0] + i for j, (f, i) in enumerate(owners[0])}
+            place |= {("v", j): shape.nq + bodies[f][1] + i for j, (f, i) in enumerate(owners[1])}
+            for name, start in (("first", rows), ("second", rows + shape.m)):
+                place |= {(name, j): start + j for j in range(len(group.info.rows))}
+            self.numbers += [b[2] for b in bodies] + [b[0] for b in bodies] + [b[1] for b in bodies]
+            self.numbers += [row, len(self.tangent)]
+            self.numbers += [shape.angle_index[angle] for angle in instance.angles]
+            self.numbers += [shape.first_constant + shape.constant_index[c] for c in instance.constants]
+            for equation, i, unknown, j in info.entries:
+                of_state = 0 if unknown.startswith("k_") else self.unknowns
+                column = of_state + place[unknown.removeprefix("k_"), j]
+                self.tangent.append((place[equation, i], column))
+        return at
+
     def stage(self, name: str, stage: Sequence[tuple[str, str]], places: Mapping[str, int]) -> None:
         """Write the list of kernels of a stage: how many, then address and table of each."""
         self.begin(name)
         calls = [
-            (self.addresses + len(GENERIC) + self.functions.index((group.stem, function)), places[group.stem])
+            (self.addresses + len(GENERIC) + self.functions.index(found), places[found[0]])
             for kind, function in stage
             for group in self.shape.groups
-            if (group.stem, function) in self.functions and group.info.kind == kind
+            if group.info.kind == kind and (found := self.function(group, function)) in self.functions
         ]
         self.numbers.append(len(calls))
         for address, place in calls:

@@ -1,0 +1,341 @@
+"""Plans of Newton matrices: their pattern, an order of low fill, and how entries are made of what ``tangent`` writes.
+
+A plan is made once a run from the pattern that the law's metadata give; `symgen.runtime.sparse` works on it.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import sparse
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Pattern:
+    """Where the numbers that ``tangent`` writes belong.
+
+    Parameters
+    ----------
+    nq, nv, m, unknowns : int
+        Sizes.
+    rows, columns : Array of int64
+        Equation and unknown of each number; from `unknowns` on, columns are those of q and v. A place may occur more
+        than once: its numbers are summed.
+    spins : Array of int64
+        Where the angular velocities of bodies in space begin in v.
+    masked : Array of int64
+        Constraint rows that are left out as redundant.
+    """
+
+    nq: int
+    nv: int
+    m: int
+    unknowns: int
+    rows: Indices
+    columns: Indices
+    spins: Indices
+    masked: Indices
+
+    @classmethod
+    def of(cls, compiled: CompiledModel, w: Array) -> Pattern:
+        """Return the pattern of a compiled law; `w` holds the mask of redundant rows."""
+        info, law = compiled.info, compiled.law
+        places = np.asarray(law.tangent, dtype=np.int64).reshape(-1, 2)
+        spins = np.array([j for _, j in info.spins], dtype=np.int64)
+        masked = np.flatnonzero(compiled.section(w, "mask") > 0.0).astype(np.int64)
+        rows, columns = (np.ascontiguousarray(places[:, i]) for i in (0, 1))
+        return cls(info.nq, info.nv, info.m, law.unknowns, rows, columns, spins, masked)
+
+    @property
+    def size(self) -> int:
+        """Numbers that ``tangent`` writes."""
+        return len(self.rows)
+
+    @property
+    def width(self) -> int:
+        """Length of q and v."""
+        return self.nq + self.nv
+
+    @property
+    def left_out(self) -> Indices:
+        """Equations of a stage that belong to redundant rows."""
+        groups = (self.unknowns - self.width) // self.m if self.m else 0
+        firsts = self.width + self.m * np.arange(groups, dtype=np.int64)
+        return np.asarray((firsts[:, None] + self.masked).ravel(), dtype=np.int64)
+
+
+@dataclass(frozen=True)
+class Terms:
+    """Terms of a matrix: entry (`rows`, `columns`) gets coefficient `factors` times source `sources`."""
+
+    rows: Indices
+    columns: Indices
+    factors: Indices
+    sources: Indices
+
+    @classmethod
+    def joined(cls, parts: Sequence[tuple[Indices, Indices, int, Indices]]) -> Terms:
+        """Return terms from (rows, columns, one coefficient, sources)."""
+        whole = [np.full(len(rows), factor, dtype=np.int64) for rows, _, factor, _ in parts]
+        rows, columns, sources = (np.concatenate([p[i] for p in parts]).astype(np.int64) for i in (0, 1, 3))
+        return cls(rows, columns, np.concatenate(whole), sources)
+
+
+@dataclass(frozen=True)
+class Products:
+    """Sources that are sums of products of others, and triples of them that belong to rotation vectors."""
+
+    targets: tuple[int, ...] = ()
+    left: tuple[int, ...] = ()
+    right: tuple[int, ...] = ()
+    triples: tuple[int, ...] = ()
+    count: int = 0
+
+
+def stage_plan(pattern: Pattern, a: Array, one: int) -> tuple[Indices, Array]:
+    """Return the plan of stages solved together, matrix ``delta_ij dF/dk + h a_ij dF/dy``.
+
+    Sources are the stages' numbers one after the other; coefficients are 1, then h a row by row.
+
+    Parameters
+    ----------
+    pattern : Pattern
+        Of one stage.
+    a : Array, shape (s, s)
+        The tableau.
+    one : int
+        The source that is 1.
+    """
+    n, s = pattern.unknowns, len(a)
+    by_k, by_y = np.flatnonzero(pattern.columns < n), np.flatnonzero(pattern.columns >= n)
+    parts = []
+    for i in range(s):
+        first = i * pattern.size
+        parts.append((i * n + pattern.rows[by_k], i * n + pattern.columns[by_k], 0, first + by_k))
+        for j in np.flatnonzero(a[i]):
+            columns = j * n + pattern.columns[by_y] - n
+            parts.append((i * n + pattern.rows[by_y], columns, 1 + s * i + int(j), first + by_y))
+    left_out = (n * np.arange(s)[:, None] + pattern.left_out).ravel()
+    return make_plan(n, s, Terms.joined(parts), left_out, one)
+
+
+def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
+    """Return the plan of ``dF/dv' + h gamma dF/dv + h^2 beta dF/dq N T`` for the unknowns v' and lambda.
+
+    Coefficients are 1, that of v, that of q, and minus that of q, which belongs to products with ``-N``. The third
+    value is the number of sources; the last one is 1.
+    """
+    nq, nv = pattern.nq, pattern.nv
+    dynamic = pattern.rows >= nq
+    parts, products = _along_motion(pattern, dynamic, nq)
+    by_k = np.flatnonzero(dynamic & (pattern.columns >= nq) & (pattern.columns < pattern.unknowns))
+    parts.append((pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k))
+    one, left_out = pattern.size + products.count, nv + pattern.masked
+    return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products), one + 1
+
+
+def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
+    """Return the plan of ``W = M + h/2 C + h^2/4 (K + a D^T D)``; the coefficients are those of these parts.
+
+    As in `alpha_plan`, minus the coefficient of K stands behind it; that of D^T D is the fifth.
+    """
+    nq, nv, width = pattern.nq, pattern.nv, pattern.width
+    dynamic = (pattern.rows >= nq) & (pattern.rows < width)
+    parts, products = _along_motion(pattern, dynamic, nq)
+    by_k = np.flatnonzero(dynamic & (pattern.columns >= nq) & (pattern.columns < width))
+    parts.append((pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k))
+    row, velocity, source = constraint_forces(pattern)
+    by_row: dict[int, list[tuple[int, int]]] = {}
+    for c, j, e in zip(row.tolist(), velocity.tolist(), source.tolist(), strict=True):
+        by_row.setdefault(c, []).append((j, e))
+    place: dict[tuple[int, int], int] = {}
+    first = pattern.size + products.count
+    targets, left, right = list[int](), list[int](), list[int]()
+    for entries in by_row.values():
+        for i, a in entries:
+            for j, b in entries:
+                targets.append(first + place.setdefault((i, j), len(place)))
+                left.append(a)
+                right.append(b)
+    pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
+    parts.append((pairs[:, 0], pairs[:, 1], 4, first + np.arange(len(place))))
+    everything = Products(
+        (*products.targets, *targets),
+        (*products.left, *left),
+        (*products.right, *right),
+        products.triples,
+        products.count + len(place),
+    )
+    one, nothing = pattern.size + everything.count, np.zeros(0, dtype=np.int64)
+    return *make_plan(nv, 1, Terms.joined(parts), nothing, one, everything), one + 1
+
+
+def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
+    """Return row, velocity and source of the entries of D^T in the equations of motion."""
+    width = pattern.width
+    dynamic = (pattern.rows >= pattern.nq) & (pattern.rows < width)
+    found = np.flatnonzero(dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
+    return pattern.columns[found] - width, pattern.rows[found] - pattern.nq, found
+
+
+def mass_diagonal(pattern: Pattern) -> Indices:
+    """Return the sources of the diagonal of M."""
+    dynamic = (pattern.rows >= pattern.nq) & (pattern.rows < pattern.width)
+    return np.flatnonzero(dynamic & (pattern.rows == pattern.columns)).astype(np.int64)
+
+
+def _along_motion(
+    pattern: Pattern, chosen: NDArray[np.bool_], first_row: int
+) -> tuple[list[tuple[Indices, Indices, int, Indices]], Products]:
+    """Return the terms of derivatives by v and by changes of position for the `chosen` numbers.
+
+    The kinematic map is read from the Jacobian itself, whose first rows belong to ``q' - N v``.
+    """
+    n, nq, nv = pattern.unknowns, pattern.nq, pattern.nv
+    by_v = np.flatnonzero(chosen & (pattern.columns >= n + nq))
+    by_q = np.flatnonzero(chosen & (pattern.columns >= n) & (pattern.columns < n + nq))
+    parts = [(pattern.rows[by_v] - first_row, pattern.columns[by_v] - n - nq, 1, by_v)]
+    if nq == nv:
+        parts.append((pattern.rows[by_q] - first_row, pattern.columns[by_q] - n, 2, by_q))
+        return parts, Products()
+    map_entries: dict[int, list[tuple[int, int]]] = {}
+    for e in np.flatnonzero((pattern.rows < nq) & (pattern.columns >= n + nq)).tolist():
+        map_entries.setdefault(int(pattern.rows[e]), []).append((int(pattern.columns[e]) - n - nq, e))
+    place: dict[tuple[int, int], int] = {}
+    targets, left, right = list[int](), list[int](), list[int]()
+    for e in by_q.tolist():
+        for j, other in map_entries.get(int(pattern.columns[e]) - n, ()):
+            targets.append(pattern.size + place.setdefault((int(pattern.rows[e]), j), len(place)))
+            left.append(e)
+            right.append(other)
+    triples = list[int]()
+    starts = {int(j) + i: int(j) for j in pattern.spins for i in range(3)}
+    for r, j in dict.fromkeys((r, starts[j]) for r, j in list(place) if j in starts):
+        triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
+    pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
+    parts.append((pairs[:, 0] - first_row, pairs[:, 1], 3, pattern.size + np.arange(len(place))))
+    return parts, Products(tuple(targets), tuple(left), tuple(right), tuple(triples), len(place))
+
+
+def make_plan(
+    n: int, stages: int, terms: Terms, left_out: Indices, one: int, products: Products | None = None
+) -> tuple[Indices, Array]:
+    """Return a plan and its numbers.
+
+    Parameters
+    ----------
+    n, stages : int
+        Unknowns of a stage, and stages in the matrix, one after the other.
+    terms : Terms
+        What the matrix is made of.
+    left_out : Array of int64
+        Equations that are replaced by *unknown = 0*.
+    one : int
+        The source that is 1.
+    products : Products, optional
+        Sources that are computed first.
+
+    Notes
+    -----
+    Redundant rows depend on the others where the constraints hold only: near them such a row is independent by as much
+    as they are violated, so a threshold on pivots would take it for a regular one, with multipliers of any size.
+    """
+    size, given = n * stages, products or Products()
+    kept = ~np.isin(terms.rows, left_out)
+    nothing = np.zeros(len(left_out), dtype=np.int64)
+    rows, columns = (np.concatenate([x[kept], left_out]) for x in (terms.rows, terms.columns))
+    factors, sources = (
+        np.concatenate([terms.factors[kept], nothing]),
+        np.concatenate([terms.sources[kept], one + nothing]),
+    )
+    within, fill = elimination_order(n, rows % n, columns % n)
+    order = (np.array(within, dtype=np.int64)[:, None] + n * np.arange(stages)).ravel()
+    position = np.empty(size, dtype=np.int64)
+    position[order] = np.arange(size)
+    entries, slots = np.unique(position[columns] * size + rows, return_inverse=True)
+    begins = np.searchsorted(entries, size * np.arange(size + 1))
+    room = 2 * stages * stages * (fill + n)
+    plan = [
+        *((sparse.COLUMNS, begins), (sparse.ROWS, entries % size), (sparse.PLACES, np.zeros(len(entries)))),
+        *((sparse.ORDER, order), (sparse.SLOTS, slots), (sparse.FACTORS, factors), (sparse.SOURCES, sources)),
+        *((sparse.TARGETS, given.targets), (sparse.LEFT, given.left), (sparse.RIGHT, given.right)),
+        *((sparse.TRIPLES, given.triples), (sparse.WORK, np.zeros(9 * size)), (sparse.POOL, np.zeros(room))),
+    ]
+    head = np.zeros(sparse.N_HEAD, dtype=np.int64)
+    head[[sparse.SIZE, sparse.ENTRIES, sparse.TERMS]] = size, len(entries), len(sources)
+    head[[sparse.PRODUCTS, sparse.TURNS, sparse.ROOM]] = len(given.targets), len(given.triples) // 4, room
+    at = sparse.N_HEAD
+    for where, part in plan:
+        head[where] = at
+        at += len(part)
+    whole = np.concatenate([head, *(np.asarray(part, dtype=np.int64) for _, part in plan)])
+    return whole, np.zeros(len(entries) + 4 * size + room)
+
+
+def elimination_order(n: int, rows: Indices, columns: Indices) -> tuple[list[int], int]:
+    """Return an order of low fill, and the entries of L and U beside the diagonal if all pivots stand on it.
+
+    Markowitz's rule (Management Science 3, 1957) on the diagonal: next is the unknown whose elimination can touch the
+    fewest entries, ties by index. An unknown whose own equation has no entry for it, as that of a multiplier, has to
+    wait for all unknowns that have one and share two entries with it: D M^-1 D^T is then in its place, and not a part
+    of it that may be 0 in some positions.
+
+    Parameters
+    ----------
+    n : int
+        Unknowns.
+    rows, columns : Array of int64
+        Places of entries.
+    """
+    beside: list[set[int]] = [set() for _ in range(n)]  # other unknowns of each equation
+    below: list[set[int]] = [set() for _ in range(n)]  # other equations of each unknown
+    diagonal = [False] * n
+    for i, j in set(zip(rows.tolist(), columns.tolist(), strict=True)):
+        if i == j:
+            diagonal[i] = True
+        else:
+            beside[i].add(j)
+            below[j].add(i)
+    waits_for = [0 if diagonal[i] else sum(diagonal[j] for j in beside[i] & below[i]) for i in range(n)]
+    waiting = [[i for i in beside[j] & below[j] if diagonal[j] and not diagonal[i]] for j in range(n)]
+
+    def rank(i: int) -> tuple[bool, int, int]:
+        return waits_for[i] > 0, len(beside[i]) * len(below[i]), i
+
+    queue = [rank(i) for i in range(n)]
+    heapq.heapify(queue)
+    done = [False] * n
+    order: list[int] = []
+    fill = 0
+    while queue:
+        entry = heapq.heappop(queue)
+        pivot = entry[2]
+        if done[pivot] or entry != rank(pivot):
+            continue  # the entry is out of date
+        done[pivot] = True
+        order.append(pivot)
+        unknowns, equations = beside[pivot], below[pivot]
+        fill += len(unknowns) + len(equations)
+        for i in equations:
+            beside[i] |= unknowns
+            beside[i] -= {pivot, i}
+        for j in unknowns:
+            below[j] |= equations
+            below[j] -= {pivot, j}
+        for i in waiting[pivot]:
+            waits_for[i] -= 1
+        for i in equations | unknowns:
+            heapq.heappush(queue, rank(i))
+    return order, fill
