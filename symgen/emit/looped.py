@@ -46,6 +46,18 @@ _GENERIC = (
     ),
     ("factorise", "T, p, w, table, lower, mode", ("factorise", "table", "lower", "mode", "0.0"), "L D L^T in place."),
     ("solve", "T, p, w, table, lower, x", ("solve", "table", "lower", "x", "0.0"), "Solve in place in section `x`."),
+    (
+        "factorise_forward",
+        "T, p, w, table, lower, mode, x",
+        ("factorise", "table", "lower", "mode", "float(x)"),
+        "L D L^T in place, and the first half of `solve` for section `x`.",
+    ),
+    (
+        "solve_rest",
+        "T, p, w, table, lower, x",
+        ("solve", "table", "lower", "x", "1.0"),
+        "The second half of `solve` in section `x`.",
+    ),
 )
 
 

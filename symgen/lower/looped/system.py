@@ -243,11 +243,11 @@ class Block:
         self._alive.append(op)
         if op.kind == "solve":
             assert op.factor is not None, "a solution has a factor"
-            self.make(op.factor)
             target = section or self.new()
             self.assign(target, op.operand)
+            half = self.make(op.factor, target)  # while numbers of the factor are at hand they are used
             table = "AUGMENTED_FACTOR" if op.factor.kind == "augmented" else "GRAM_FACTOR"
-            self.call("solve", f"T, p, w, {table}, {op.factor.lower}, {target}")
+            self.call("solve_rest" if half else "solve", f"T, p, w, {table}, {op.factor.lower}, {target}")
             self.names.add(op.factor.lower)
         else:
             source, target = self.place(op.operand), section or self.new()
@@ -260,20 +260,34 @@ class Block:
         self.helpers.add(helper)
         self.lines.append(f"{helper}({arguments})")
 
-    def make(self, factor: Factor) -> None:
-        """Print the factorisation of a matrix, unless it was made before."""
+    def make(self, factor: Factor, target: str = "") -> bool:
+        """Print the factorisation of a matrix, unless it was made before.
+
+        Parameters
+        ----------
+        factor : Factor
+            What is factorised.
+        target : str
+            A section of which half of the solution is computed on the way.
+
+        Returns
+        -------
+        bool
+            Whether that was done.
+        """
         if factor.stored or factor.lower in self._made:
-            return
+            return False
         self._made.add(factor.lower)
         self.names.add(factor.lower)
-        self.helpers.add("factorise")
+        name, last = ("factorise_forward", f", {target}") if target else ("factorise", "")
+        self.helpers.add(name)
         if factor.kind == "augmented":
             assert factor.penalties is not None, "a is given"
             self.call("augment", f"T, p, w, {self.place(factor.penalties)}, {factor.lower}")
-            self.call("factorise", f"T, p, w, AUGMENTED_FACTOR, {factor.lower}, PLAIN_FACTOR")
-            return
+            self.call(name, f"T, p, w, AUGMENTED_FACTOR, {factor.lower}, PLAIN_FACTOR{last}")
+            return bool(target)
         self.call("weigh", "T, p, w")
         self.call("gram", f"T, p, w, 1, {factor.lower}")
-        self.helpers.add("factorise")
-        self.lines.append(f"suspicious = factorise(T, p, w, GRAM_FACTOR, {factor.lower}, MASKED_FACTOR)")
+        self.lines.append(f"suspicious = {name}(T, p, w, GRAM_FACTOR, {factor.lower}, MASKED_FACTOR{last})")
         self.flagged = True
+        return bool(target)
