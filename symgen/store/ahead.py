@@ -13,6 +13,7 @@ import importlib
 import os
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -47,9 +48,12 @@ def start(function: Any) -> bool:
         environment = os.environ | {ENVIRONMENT_VARIABLE: str(cache_location().path)}
         nothing = subprocess.DEVNULL
         try:
-            _running[name] = subprocess.Popen(command, stdin=nothing, stdout=nothing, stderr=nothing, env=environment)
+            process = subprocess.Popen(command, stdin=nothing, stdout=nothing, stderr=nothing, env=environment)
         except OSError:
             return False
+        _running[name] = process
+        # nobody else asks how it ended, and a process that nobody asks about stays in the system's table
+        threading.Thread(target=process.wait, name="symgen-ahead", daemon=True).start()
     return True
 
 
