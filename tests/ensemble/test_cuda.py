@@ -148,7 +148,7 @@ def test_what_does_not_fit_is_refused_in_one_sentence(words, said, capsys, tmp_p
 
 
 def test_a_target_that_does_not_exist():
-    with pytest.raises(InputError, match="target: expected one of cpu, cuda, got 'cud'; did you mean 'cuda'"):
+    with pytest.raises(InputError, match="target: expected one of cpu, lanes, cuda, got 'cud'; did you mean 'cuda'"):
         symgen.sweep("pendulum", {"bob_mass": [1.0]}, target="cud")
 
 
