@@ -29,7 +29,7 @@ from symgen.runtime.lanes import LANE_FUNCTION
 from symgen.store.jit import jit
 
 METHOD = "direct-correction"
-REPEATS, COUNT = 100, 200
+REPEATS, COUNT = 30, 5000
 _F8, _A, _I = types.float64, types.float64[::1], types.int64[::1]
 
 
@@ -95,7 +95,7 @@ def measure(name: str, table: Table) -> None:
 
 def main(names: list[str]) -> None:
     """Measure and print."""
-    table = Table(title=f"{METHOD}, one function of one run [ns]; {LANES} lanes")
+    table = Table(title=f"{METHOD}, one function of one run, in ns; {LANES} lanes")
     for heading in ("mechanism", "function", "alone", "median", "in lanes", "median", "times as fast"):
         table.add_column(heading, justify="left" if heading in ("mechanism", "function") else "right")
     for name in names or ["four-bar", "slider-crank", "andrews", "bricard"]:

@@ -57,17 +57,24 @@ def start(function: Any) -> bool:
     return True
 
 
-def finish(function: Any) -> None:
+def finish(function: Any) -> float:
     """Wait until the process that compiles a function, if there is one, has left its code or has ended.
 
     Parameters
     ----------
     function : Dispatcher
         What `start` was given.
+
+    Returns
+    -------
+    float
+        Seconds waited.
     """
     process = _running.get(_name(function))
+    began = time.perf_counter()
     while process is not None and process.poll() is None and function.wanting():
         time.sleep(_PAUSE)
+    return 0.0 if process is None else time.perf_counter() - began
 
 
 def _name(function: Any) -> str:

@@ -198,7 +198,9 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         """Compile or load the signatures if that has not happened; True if a failed look-up is worth repeating."""
         if self._ready:
             return False
-        ahead.finish(self)
+        waited = ahead.finish(self)
+        if not _Compiling.depth():
+            counters["compile_seconds"] += waited
         with global_compiler_lock:
             if self._ready or self._busy:  # another thread was faster, or the function calls itself
                 return self._ready
