@@ -9,8 +9,8 @@ class CacheStats(TypedDict):
     """Counters of this process since it started; take the difference of two for one run.
 
     `compile_seconds` holds translation by Numba, writing to the cache, and waiting for another process that does both,
-    `load_seconds` reading from it. Functions that are compiled or loaded while another one is being compiled are counted
-    in `hits` and `misses`, and their seconds belong to the outer one, so the two sums never hold the same second twice.
+    `load_seconds` reading from it. Functions that are compiled or loaded while another one is being compiled are
+    counted in `hits` and `misses`, and their seconds belong to the outer one, so no second is counted twice.
     """
 
     hits: int
