@@ -6,10 +6,10 @@ from symgen.auto import AUTO
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
 from symgen.report.stress_figures import maps, regions
+from symgen.study.effort import BUDGET, IMPLICIT_BUDGET
 from symgen.study.findings import cause, findings
 from symgen.study.machine import machine_class, versions
 from symgen.study.outcome import ACCURATE, OUTCOMES
-from symgen.study.stress_cells import BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress_map import LEGEND, Map
 from symgen.study.stress_rows import Row, Stress
 
@@ -26,7 +26,8 @@ _MEANINGS = {
     "wrong branch": "the error arose near a singular position, and the mechanism moves on, closed, on another branch",
     "singular": "the run ended at a position where the independent constraint rows are almost dependent",
     "diverged": "the run ended early or left the constraints",
-    "too slow": f"more than {BUDGET:g} evaluations, or {IMPLICIT_BUDGET:g} of implicit stages, predicted or counted",
+    "too slow": f"more than {BUDGET:g} evaluations, or {IMPLICIT_BUDGET:g} of implicit stages, fewer on large "
+    "mechanisms; predicted or counted",
     "refused": "the pair or the case is refused with a sentence",
     "unjudged": "the reference itself is not known well enough",
 }
@@ -146,6 +147,9 @@ def _left_out(study: Stress) -> list[Section]:
         tables.append(Table("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4))
     if study.skipped:
         tables.append(Table("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
+    if study.left_out:
+        headings = ("model", "method", "integrator", "why")
+        tables.append(Table("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
     return [Section("What is not judged", tables=tuple(tables))] if tables else []
 
 
