@@ -27,7 +27,7 @@ BUDGET, IMPLICIT_BUDGET = 5_000_000, 100_000
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
 #: No budget of implicit stages is below this: some hundred steps.
-LEAST_IMPLICIT = 2_000
+LEAST_IMPLICIT = 1_500
 #: Mechanisms of more coordinates get no implicit reference: its Newton matrices are dense.
 LARGEST_IMPLICIT_REFERENCE = 40
 #: An explicit run is not begun where the decay at the start asks for so many times its budget of evaluations.
@@ -44,13 +44,16 @@ def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
     return int(most * min(1.0, SMALL / coordinates(mechanism)))
 
 
-def budget_of(plan: Plan, mechanism: Mechanism) -> int:
-    """Return how many evaluations a run may take."""
-    if not is_implicit(plan):
-        return explicit_budget(mechanism)
+def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
+    """Return how many residuals of implicit stages may be computed, `most` for a small mechanism."""
     speeds = sum(len(body.speeds) for body in mechanism.bodies)
     unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
-    return max(LEAST_IMPLICIT, int(IMPLICIT_BUDGET * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+    return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+
+
+def budget_of(plan: Plan, mechanism: Mechanism) -> int:
+    """Return how many evaluations a run may take."""
+    return implicit_budget(mechanism) if is_implicit(plan) else explicit_budget(mechanism)
 
 
 def is_implicit(plan: Plan) -> bool:

@@ -331,8 +331,6 @@ def motion(
             fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done), scale)
             coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done), scale)
             break
-        except OverBudgetError:
-            raise  # it would be over the budget at the other tolerances too
         except SimulationError:
             if tolerances == attempts[-1]:
                 raise

@@ -22,7 +22,7 @@ from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.probe import call_measure
 from symgen.runtime.run import integrate
-from symgen.study.effort import LARGEST_IMPLICIT_REFERENCE, coordinates, explicit_budget
+from symgen.study.effort import LARGEST_IMPLICIT_REFERENCE, coordinates, explicit_budget, implicit_budget
 from symgen.study.points import Points
 from symgen.study.reference import Reference
 
@@ -39,7 +39,7 @@ STIFF_ROUTES: tuple[tuple[str, str, dict[str, str | float], float], ...] = (
     ("ggl", "radau5", {}, 1e-9),
 )
 #: Evaluations after which a route is given up, for small mechanisms.
-BUDGET, STIFF_BUDGET = 6_000_000, 200_000
+BUDGET, STIFF_BUDGET = 6_000_000, 300_000
 
 
 class EmittedGeometry:
@@ -90,7 +90,7 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: f
             f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
-    routes, budget = (STIFF_ROUTES, STIFF_BUDGET) if stiff else (ROUTES, explicit)
+    routes, budget = (STIFF_ROUTES, implicit_budget(model.mechanism, STIFF_BUDGET)) if stiff else (ROUTES, explicit)
     found = []
     for method, integrator, options, rtol in routes:
         settings = Settings(
