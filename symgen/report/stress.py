@@ -148,7 +148,7 @@ def _left_out(study: Stress) -> list[Section]:
     if study.skipped:
         tables.append(Table("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
     if study.left_out:
-        headings = ("model", "method", "integrator", "why")
+        headings = ("mechanism", "method", "integrator", "why")
         tables.append(Table("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
     return [Section("What is not judged", tables=tuple(tables))] if tables else []
 

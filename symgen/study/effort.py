@@ -90,16 +90,19 @@ def predicted(plan: Plan, decay: float) -> float:
 
 @dataclass(frozen=True)
 class LeftOut:
-    """Pairs that a model is not run with, because their code would take too long to compile.
+    """A pair that a mechanism is not run with, because its code would take too long to compile.
 
     Attributes
     ----------
+    mechanism : str
+        Name of the mechanism.
     method, integrator : str
         The pair.
     why : str
         With figures.
     """
 
+    mechanism: str
     method: str
     integrator: str
     why: str
@@ -118,37 +121,34 @@ def straight_seconds(mechanism: Mechanism) -> float:
     return STRAIGHT_LEAST + STRAIGHT_EACH * coordinates(mechanism)
 
 
-def left_out(mechanism: Mechanism, pairs: Sequence[tuple[str, str]], seconds: float) -> tuple[LeftOut, ...]:
+def left_out(mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float) -> tuple[LeftOut, ...]:
     """Return the pairs that do not fit into a time of compilation.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The base model.
+    mechanisms : sequence of Mechanism
+        What is made of a base model and has equations of its own, the base itself first.
     pairs : sequence of (str, str)
         Methods with their integrators.
     seconds : float
         Expected seconds of compilation that pairs without a looped shape may take together [s]. They are taken in the
-        order of `pairs`, those with a method's own integrator first.
+        order of `mechanisms` and `pairs`, those with a method's own integrator first.
     """
-    each = straight_seconds(mechanism)
     wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair)]
     wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
-    stems: dict[tuple[str, bool], int] = {}
-    found = []
-    for method, integrator in wanted:
-        # explicit integrators share the code of a method
-        stem = method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
-        place = stems.setdefault(stem, len(stems) + 1)
-        if place * each > seconds:
-            why = (
-                f"its code would be the {_ordinal(place)} of about {each:.2g} s of compilation at "
-                f"{coordinates(mechanism)} coordinates, and {seconds:g} s are allowed"
-            )
-            found.append(LeftOut(method, integrator, why))
+    found, spent = [], 0.0
+    for mechanism in mechanisms:
+        each, fits = straight_seconds(mechanism), dict[tuple[str, bool], bool]()
+        for method, integrator in wanted:
+            # explicit integrators share the code of a method
+            stem = method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+            if stem not in fits:
+                spent += each
+                fits[stem] = spent <= seconds
+            if not fits[stem]:
+                why = (
+                    f"its code takes about {each:.2g} s to compile for {coordinates(mechanism)} coordinates, and the "
+                    f"{seconds:g} s that are allowed are used up by others"
+                )
+                found.append(LeftOut(mechanism.name, method, integrator, why))
     return tuple(found)
-
-
-def _ordinal(number: int) -> str:
-    ending = "th" if 10 <= number % 100 <= 20 else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
-    return f"{number}{ending}"

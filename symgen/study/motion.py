@@ -40,8 +40,9 @@ ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
 STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
 #: Columns of the extrapolation: order 2 x 8.
 COLUMNS = 8
-#: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square.
-BUDGET, FEW = 3_000_000, 9
+#: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
+#: with dependent rows it needs singular values, which cost about so many times as much.
+BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
 
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
 #: equations(t, q, v, p, out).
@@ -60,6 +61,7 @@ class CompiledEquations(IndependentEquations):
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
+        self.dependent = False
         self.symbols = [sp.Symbol(f"p{i}", real=True) for i in range(len(mechanism.parameters))]
         super().__init__(mechanism, parameters)
         self.set_parameters(parameters)
@@ -99,7 +101,7 @@ class CompiledEquations(IndependentEquations):
     @property
     def budget(self) -> int:
         """Evaluations of an integration by extrapolation."""
-        return int(BUDGET * min(1.0, (FEW / self.n) ** 2))
+        return int(BUDGET * min(1.0, (FEW / self.n) ** 2) / (DEPENDENT if self.dependent else 1))
 
     @cached_property
     def _index(self) -> Any:
@@ -322,6 +324,8 @@ def motion(
     """
     say = progress or (lambda done: None)
     y = equations.project(0.0, np.concatenate([q, v]))
+    d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
+    equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
     stiff = is_stiff(equations, y, float(times[-1]))
     scale = _scale(y, equations.n)
     integrate = by_radau if stiff else _by_extrapolation

@@ -28,18 +28,23 @@ from symgen.study.reference import Reference
 
 Array = NDArray[np.float64]
 
+Route = tuple[str, str, dict[str, str | float], float]
 #: Method, integrator, options and tolerance of the two routes; the first is the reference.
-ROUTES: tuple[tuple[str, str, dict[str, str | float], float], ...] = (
+ROUTES: tuple[Route, ...] = (
     ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
     ("index1-augmented-lagrangian", "abm", {}, 1e-11),
 )
 #: The same where decay asks explicit steps for more evaluations than they may take.
-STIFF_ROUTES: tuple[tuple[str, str, dict[str, str | float], float], ...] = (
+STIFF_ROUTES: tuple[Route, ...] = (
     ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
     ("ggl", "radau5", {}, 1e-9),
 )
+#: The first ones where rounding of very stiff forces makes their tolerances unattainable.
+ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
 #: Evaluations after which a route is given up, for small mechanisms.
-BUDGET, STIFF_BUDGET = 6_000_000, 300_000
+BUDGET, STIFF_BUDGET = 20_000_000, 300_000
+#: Evaluations that decay may ask explicit steps for, for small mechanisms; the stiff routes are taken beyond.
+STIFF_FROM = 6_000_000
 
 
 class EmittedGeometry:
@@ -82,15 +87,25 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: f
     SimulationError
         If a route does not come to its end.
     """
-    explicit = explicit_budget(model.mechanism, BUDGET)
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
-    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit
+    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(model.mechanism, STIFF_FROM)
     if stiff and coordinates(model.mechanism) > LARGEST_IMPLICIT_REFERENCE:
         raise SimulationError(
             f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
         )
-    routes, budget = (STIFF_ROUTES, implicit_budget(model.mechanism, STIFF_BUDGET)) if stiff else (ROUTES, explicit)
+    if stiff:
+        return _agreed(model, parameters, times, STIFF_ROUTES, implicit_budget(model.mechanism, STIFF_BUDGET))
+    explicit = explicit_budget(model.mechanism, BUDGET)
+    try:
+        return _agreed(model, parameters, times, ROUTES, explicit)
+    except SimulationError:
+        return _agreed(model, parameters, times, ROUGH_ROUTES, explicit)
+
+
+def _agreed(
+    model: Model, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
+) -> Reference:
     found = []
     for method, integrator, options, rtol in routes:
         settings = Settings(
@@ -102,7 +117,7 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: f
             until=float(times[-1]),
             times=list(times),
             parameters=parameters,
-            shape="straight" if stiff else "looped",
+            shape="straight" if routes is STIFF_ROUTES else "looped",
         )
         plan = make_plan(model, settings)
         compiled, start = model.ready(plan, parameters)

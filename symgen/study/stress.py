@@ -150,11 +150,20 @@ class _Study:
     @cached_property
     def left_out(self) -> dict[str, tuple[LeftOut, ...]]:
         """Pairs that are not run, by model; mechanisms of families of their own are small."""
-        all_pairs = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
-        return {base.name: left_out(base.mechanism, all_pairs, self.compilation) for base in self.bases}
+        asked = [pair for name in self.methods for pair in (pairs(name)[:1] if self.quick else pairs(name))]
+        found = {}
+        for base in self.bases:
+            made = [base.stressed, *(case.level.mechanism for case in self.cases if case.model == base.name)]
+            # cases that differ in their start alone share code, and have the name of the base
+            distinct = list({mechanism.name: mechanism for mechanism in made}.values())
+            found[base.name] = left_out(distinct, asked, self.compilation)
+        return found
 
     def _is_left_out(self, case: _Case, method: str, integrator: str) -> bool:
-        return (method, integrator) in [(x.method, x.integrator) for x in self.left_out.get(case.model, ())]
+        name = case.level.mechanism.name
+        return (name, method, integrator) in [
+            (x.mechanism, x.method, x.integrator) for x in self.left_out.get(case.model, ())
+        ]
 
     def run(self) -> Stress:
         """Compute references, then runs, then largest steps."""
@@ -176,7 +185,7 @@ class _Study:
             limits=tuple(limits),
             skipped=self.skipped,
             unusable=tuple(_unusable(self.cases, references, motions)),
-            left_out=tuple((name, x.method, x.integrator, x.why) for name, out in self.left_out.items() for x in out),
+            left_out=tuple((x.mechanism, x.method, x.integrator, x.why) for out in self.left_out.values() for x in out),
             quick=self.quick,
             interrupted=interrupted,
         )

@@ -103,7 +103,7 @@ class Stress:
     unusable : tuple of (str, str, str, str)
         Model, family, case and why its reference judges nothing.
     left_out : tuple of (str, str, str, str)
-        Model, method, integrator and why the pair is not run at all.
+        Mechanism, method, integrator and why the pair is not run at all.
     quick, interrupted : bool
         Fewer cases were asked for; cells are missing because the study was stopped.
     """
@@ -138,7 +138,9 @@ class Stress:
             "limits": [asdict(limit) for limit in self.limits],
             "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
             "unusable": [dict(zip(("model", "family", "case", "why"), s, strict=True)) for s in self.unusable],
-            "left_out": [dict(zip(("model", "method", "integrator", "why"), s, strict=True)) for s in self.left_out],
+            "left_out": [
+                dict(zip(("mechanism", "method", "integrator", "why"), s, strict=True)) for s in self.left_out
+            ],
             "false_successes": [{**asdict(row), "why": explained(row)} for row in self.false_successes],
             "findings": list(findings(self)),
         }
