@@ -21,17 +21,19 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
 
-#: Evaluations that a run of a small mechanism may take: of right-hand sides, and of residuals of implicit stages, which
-#: come with Newton's matrices.
-BUDGET, IMPLICIT_BUDGET = 5_000_000, 100_000
+#: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
+#: residuals of implicit stages, which come with Newton's matrices.
+BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
+#: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
+FURTHER, LEAST_FURTHER = 100, 100_000
 #: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
 SMALL, SMALL_STAGE = 15, 30
 #: No budget of implicit stages is below this: some hundred steps.
 LEAST_IMPLICIT = 1_500
 #: Mechanisms of more coordinates get no implicit reference: its Newton matrices are dense.
 LARGEST_IMPLICIT_REFERENCE = 40
-#: An explicit run is not begun where the decay at the start asks for so many times its budget of evaluations.
-HOPELESS = 3.0
+#: An explicit adaptive run is not begun where the decay at the start asks for so many times its budget.
+HOPELESS = 1.5
 
 
 def coordinates(mechanism: Mechanism) -> int:
@@ -53,7 +55,17 @@ def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
 
 def budget_of(plan: Plan, mechanism: Mechanism) -> int:
     """Return how many evaluations a run may take."""
-    return implicit_budget(mechanism) if is_implicit(plan) else explicit_budget(mechanism)
+    if is_implicit(plan):
+        return implicit_budget(mechanism)
+    return explicit_budget(mechanism, ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET)
+
+
+def further_budget(budget: int, used: int) -> int:
+    """Return how many evaluations a run may take that stopped itself after `used`, without its watch.
+
+    Off the constraints steps may become tiny, and iterated methods need many iterations.
+    """
+    return min(budget, max(LEAST_FURTHER, FURTHER * used))
 
 
 def is_implicit(plan: Plan) -> bool:

@@ -24,7 +24,7 @@ from symgen.runtime import abi
 from symgen.runtime.run import Outcome, integrate
 from symgen.study import outcome as judged
 from symgen.study.bench import Level
-from symgen.study.effort import budget_of, predicted
+from symgen.study.effort import budget_of, further_budget, predicted
 from symgen.study.known import KnownModel
 from symgen.study.other_route import EmittedGeometry
 from symgen.study.outcome import Run, classify, largest_error
@@ -156,7 +156,8 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
         note = f"ended at t = {outcome.end:.4g} s"
     if outcome.code in WATCHES and found == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
-        spec = replace(plan.spec, max_violation=UNWATCHED, max_energy_error=UNWATCHED)
+        most = further_budget(budget, outcome.evaluations)
+        spec = replace(plan.spec, max_violation=UNWATCHED, max_energy_error=UNWATCHED, max_evaluations=most)
         further = integrate(compiled, plan.tableau, start, spec)
         if further.interrupted:
             raise KeyboardInterrupt

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from symgen.result.result import finite
-from symgen.study.effort import BUDGET, IMPLICIT_BUDGET
+from symgen.study.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.outcome import ACCURATE, counts, false_success
 
 
@@ -131,7 +131,7 @@ class Stress:
             "quick": self.quick,
             "interrupted": self.interrupted,
             "accurate": ACCURATE,
-            "budget": {"explicit": BUDGET, "implicit": IMPLICIT_BUDGET},
+            "budget": {"explicit": BUDGET, "adaptive": ADAPTIVE_BUDGET, "implicit": IMPLICIT_BUDGET},
             "cells": len(self.rows),
             "outcomes": counts([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],

@@ -43,8 +43,16 @@ def test_budgets_fall_with_the_cost_of_an_evaluation():
 def test_budgets_go_by_what_a_run_evaluates():
     explicit, mechanism = plan_of("four-bar", "lagrange", "dop853")
     implicit, _ = plan_of("four-bar", "ggl", "radau5")
-    assert effort.budget_of(explicit, mechanism) == effort.BUDGET
+    constant, _ = plan_of("four-bar", "lagrange", "rk4")
+    assert effort.budget_of(explicit, mechanism) == effort.ADAPTIVE_BUDGET
+    assert effort.budget_of(constant, mechanism) == effort.BUDGET
     assert effort.budget_of(implicit, mechanism) == effort.IMPLICIT_BUDGET
+
+
+def test_a_run_off_its_constraints_does_not_go_on_for_ever():
+    assert effort.further_budget(5_000_000, 79) == effort.LEAST_FURTHER
+    assert effort.further_budget(5_000_000, 20_000) == 2_000_000
+    assert effort.further_budget(3_000, 79) == 3_000
 
 
 def test_what_is_predicted():
@@ -72,7 +80,7 @@ def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
     monkeypatch.setattr("symgen.study.stress_cells.integrate", None)
     found = compute(RunTask(level, "lagrange", "dop853", known))
-    assert found["outcome"] == "too slow" and found["reason"].startswith("at least 6.26e+08 evaluations, more than")
+    assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
