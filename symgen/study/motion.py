@@ -38,6 +38,8 @@ FINE, COARSE = 3e-14, 3e-13
 #: The same where rounding of very stiff forces makes those unattainable.
 ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
 STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
+#: Steps below this share of the time to the next output lead nowhere.
+COLLAPSE = 1e-7
 #: Columns of the extrapolation: order 2 x 8.
 COLUMNS = 8
 #: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
@@ -255,6 +257,7 @@ def _extrapolate(
     first, rate = np.zeros(size), np.zeros(size)
     table = np.zeros((COLUMNS, size))
     step = state[0] if state[0] > 0.0 else 1e-3 * (until - t)
+    smallest = max(1e-16 * max(until, abs(t)), COLLAPSE * (until - t))
     while t < until:
         last = step >= until - t
         h = until - t if last else step
@@ -292,7 +295,7 @@ def _extrapolate(
             step = h * factor
         if used[0] > budget:
             return 1
-        if step < 1e-16 * max(until, abs(t)):
+        if step < smallest:
             return 2
     state[0] = step
     return 0

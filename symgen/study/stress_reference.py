@@ -42,7 +42,6 @@ def reference_of(level: Level) -> Fields:
 def _moved(level: Level) -> Fields:
     from symgen.study.motion import motion
     from symgen.study.other_route import EmittedGeometry, agreed
-    from symgen.study.stiff import OverBudgetError
 
     model = KnownModel(level.mechanism)
     parameters = model.parameters(level.parameters)
@@ -68,7 +67,9 @@ def _moved(level: Level) -> Fields:
     if moved is None:
         try:
             found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
-        except OverBudgetError as error:
+        except SimulationError as error:  # over its budget, or at a singular position
+            if not planar:
+                raise
             try:
                 found = agreed(model, parameters, times, falling)
             except SimulationError as other:
