@@ -19,6 +19,8 @@ YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
 RK4 = 2.785
 #: Errors up to this share of a link's length are what relative tolerances leave.
 LONG = 1e-6
+#: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.
+OPEN = 1e-4
 #: Sentences about each model are written for so many models at most; beyond, they are summed up.
 FEW_MODELS = 3
 
@@ -256,6 +258,8 @@ def cause(row: Row) -> str:
         return "the penalty lets the joints give, within max_violation"
     if row.family == "length-ratio" and row.error is not None and row.error <= LONG * row.values[0]:
         return f"tolerances are relative, and 1e-3 m is little on links of {row.values[0]:g} m"
+    if (row.position_violation_max or 0.0) > OPEN:
+        return "violations are measured by the largest coordinate, and angles of many turns are large"
     if row.step is not None:
         return "nothing estimates the error of a constant step, and constraints and energy stay within their limits"
     if row.family == "singular-passage":

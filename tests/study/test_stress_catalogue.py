@@ -89,6 +89,7 @@ def test_few_models_are_named_one_by_one():
         ({"family": "length-ratio", "values": (1e2,), "error": None, "step": None}, "add up"),
         ({"family": "singular-passage", "step": None}, "near a singular position"),
         ({"family": "duration", "step": None}, "add up"),
+        ({"family": "duration", "position_violation_max": 2e-3}, "angles of many turns"),
     ],
 )
 def test_causes_are_told_from_the_rows(changes, words):
