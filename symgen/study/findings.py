@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 #: Methods that hold constraints by forces, and only as closely as these push.
 YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
-#: rk4 is stable up to here on the negative real axis.
-RK4 = 2.785
 #: Errors up to this share of a link's length are what relative tolerances leave.
 LONG = 1e-6
 #: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.
@@ -51,7 +49,8 @@ def _counted(study: Stress) -> Iterator[str]:
     beside = f", beside {planes} cells of planes" if planes else ""
     yield f"Of {len(rows)} cells of the map {_listed(parts)}{beside}."
     if study.unusable:
-        cases = [f"{family} {case}" for _, family, case, _ in study.unusable[:3]]
+        several = len(study.models) > 1
+        cases = [f"{family} {case}{f' on {model}' * several}" for model, family, case, _ in study.unusable[:3]]
         more = "" if len(study.unusable) <= len(cases) else ", ..."
         many = _many(len(study.unusable), "case")
         yield f"{many} could not be judged for want of a reference: {', '.join(cases)}{more}."
@@ -115,7 +114,8 @@ def _hardest(rows: Sequence[Row]) -> str:
     own = [row for row in rows if (row.model, row.case) == worst]
     found = counts([row.outcome for row in own])
     parts = [f"{found[name]} {name}" for name in OUTCOMES if found[name]]
-    return f"hardest is {worst[1]}: {_listed(parts)}"
+    where = f"{worst[1]} on {worst[0]}" if len({model for model, _ in cases}) > 1 else worst[1]
+    return f"hardest is {where}: {_listed(parts)}"
 
 
 # -- gains, penalties, steps -------------------------------------------------------------------------------------------
@@ -148,12 +148,10 @@ def _gains(study: Stress) -> Iterator[str]:
                 "rk4 is stable up to 2.785."
             )
     if reaches and not few:
-        least, most = min(below for below, _ in reaches), max(above for _, above in reaches)
-        agree = sum(below < RK4 < above for below, above in reaches)
+        firsts = [above for _, above in reaches]
         yield (
-            f"Baumgarte's gains, on {_many(len(reaches), 'model')}: with real roots, accurate up to |root| h between "
-            f"{least:.3g} and {most:.3g}; the limit of rk4, {RK4}, lies between the last accurate cell and the first "
-            f"that is not on {agree} of them."
+            f"Baumgarte's gains on {_many(len(reaches), 'model')}: with real roots the first cell that is not accurate "
+            f"has |root| h from {min(firsts):.3g} to {max(firsts):.3g}; rk4 is stable up to 2.785."
         )
 
 

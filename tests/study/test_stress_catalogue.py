@@ -63,10 +63,16 @@ def test_findings_sum_up_many_models():
     text = " ".join(found)
     assert "Of the models, model-0 went best, 3 of 4 cells accurate, and model-1 worst, 2 of 4." in found
     assert "Penalty of penalty with rk4: accurate on all models for a = 1e+08." in found
-    assert "accurate up to |root| h between 1 and 3; the limit of rk4, 2.785, lies between the last" in text
-    assert "the first that is not on 2 of them" in text
+    assert "gains on 3 models: with real roots the first cell that is not accurate has |root| h from 2 to 3; rk4" in text
+    assert "hardest is 1 on model-1: 1 ok and 1 inaccurate" in text
     assert "Largest stable steps in damping, of 3 models: lagrange with rk4 on 2 and penalty with rk4 on 1." in found
     assert not [sentence for sentence in found if sentence.startswith("Largest steps on")]
+
+
+def test_cases_without_a_reference_are_named_with_their_model():
+    unusable = (("model-2", "duration", "20 s", "too long"),)
+    text = " ".join(findings(replace(STUDY, unusable=unusable)))
+    assert "1 case could not be judged for want of a reference: duration 20 s on model-2." in text
 
 
 def test_no_penalty_for_all_is_said():
