@@ -22,6 +22,7 @@ from symgen.runtime.run import Array
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
+    from symgen.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.vocabulary.expressions import Expr
 
@@ -92,7 +93,11 @@ class Model:
         shape : {"straight", "looped"}
             Code for this mechanism alone, or loops over tables that all mechanisms share.
         """
-        return compile_model(self.mechanism, replace(choose_method(method, options), shape=shape))
+        return self.compiled(replace(choose_method(method, options), shape=shape))
+
+    def compiled(self, choice: MethodChoice) -> CompiledModel:
+        """Return the emitted functions for a choice of method, options and shape, from the cache if it has them."""
+        return compile_model(self.mechanism, choice)
 
     def initial_state(self, parameters: Mapping[str, float]) -> tuple[Array, list[float | None]]:
         """Return q as described (not yet closed) and the given velocities, None where there is none.
@@ -156,12 +161,12 @@ class Model:
         Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
         M + W D^T D instead, and a note says so.
         """
-        compiled = compile_model(self.mechanism, plan.choice)
+        compiled = self.compiled(plan.choice)
         start = self.assemble(compiled, parameters, plan.method_parameters, strict)
         if not plan.solver_is_free or not has_light_bodies(compiled, start):
             return compiled, start
         choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
-        compiled = compile_model(self.mechanism, choice)
+        compiled = self.compiled(choice)
         start = self.assemble(compiled, parameters, plan.method_parameters, strict)
         note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
         return compiled, replace(start, notes=(*start.notes, note))

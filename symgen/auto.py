@@ -100,11 +100,11 @@ def linearised(compiled: CompiledModel, start: Start) -> NDArray[np.float64]:
     return result
 
 
-def gather(model: Model, parameters: Mapping[str, float]) -> Facts:
-    """Return the facts of a model with given parameters."""
+def gather(model: Model, parameters: Mapping[str, float], shape: str = "auto") -> Facts:
+    """Return the facts of a model with given parameters; `shape` is that of the code that tells them."""
     from symgen.plan import Settings, make_plan
 
-    plan = make_plan(model, Settings(method="lagrange", integrator="dop853"))
+    plan = make_plan(model, Settings(method="lagrange", integrator="dop853", shape=shape))
     compiled, start = model.ready(plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
     small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
@@ -194,7 +194,7 @@ def resolve(model: Model, settings: Settings) -> tuple[Settings, tuple[str, ...]
     """
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
-    facts = gather(model, settings.parameters)
+    facts = gather(model, settings.parameters, settings.shape)
     method, integrator, reasons = decide(facts, settings.method, settings.integrator)
     options = dict(settings.options)
     if settings.method == AUTO and method == "direct-correction" and not facts.massless:

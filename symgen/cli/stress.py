@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 @click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all unless given.")
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto unless given.")
 @click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
+@click.option("--catalogue", is_flag=True, help="Take every model of the catalogue.")
+@click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
@@ -32,6 +35,8 @@ def command(
     cases: str | None,
     methods: str | None,
     quick: bool,
+    catalogue: bool,
+    compilation: float | None,
     output: str | None,
     csv_file: str | None,
     resume: str | None,
@@ -44,10 +49,11 @@ def command(
     the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
     with an error above 1e-3 m.
     """
-    numbers(jobs=jobs)
+    numbers(jobs=jobs, compilation=compilation)
     case_list, method_list = words("--cases", cases), words("--methods", methods)
     path, report = output_file("--csv", csv_file), report_file(output)
 
+    from symgen.catalogue import names
     from symgen.cli._progress import Lines
     from symgen.study.journal import Journal
     from symgen.study.machine import cores
@@ -61,7 +67,9 @@ def command(
         def progress(what: str, status: Status) -> None:
             lines(what, status.done, status.total, status.share, status.seconds_left)
 
-        study = stress(models, case_list, method_list, quick, journal, jobs or cores(), progress)
+        asked = dict.fromkeys((*models, *(names() if catalogue else ())))
+        limit = math.inf if compilation is None else compilation
+        study = stress(tuple(asked), case_list, method_list, quick, journal, jobs or cores(), progress, limit)
     if as_json:
         write_json(study.to_json())
     else:

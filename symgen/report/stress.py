@@ -5,12 +5,12 @@ from __future__ import annotations
 from symgen.auto import AUTO
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
-from symgen.report.stress_figures import maps, regions
-from symgen.study.findings import cause, findings
+from symgen.report.stress_figures import maps, overview, regions
+from symgen.study.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+from symgen.study.findings import FEW_MODELS, cause, findings
 from symgen.study.machine import machine_class, versions
 from symgen.study.outcome import ACCURATE, OUTCOMES
-from symgen.study.stress_cells import BUDGET, IMPLICIT_BUDGET
-from symgen.study.stress_map import LEGEND, Map
+from symgen.study.stress_map import LEGEND, Map, outcomes_of_models
 from symgen.study.stress_rows import Row, Stress
 
 _LEAD = (
@@ -18,6 +18,8 @@ _LEAD = (
     "closed form, or independently derived equations integrated by another scheme at a tight tolerance. The outcome is "
     f"told by that distance, not by what the run says of itself. A run is accurate (ok) up to {ACCURATE:g} m."
 )
+#: More cells than this are not listed.
+MOST_CELLS = 6000
 _MOODS = {"ok": "good", "inaccurate": "doubtful", "refused": "faint", "unjudged": "faint", "too slow": "faint"}
 _MEANINGS = {
     "ok": f"the error is at most {ACCURATE:g} m at all outputs",
@@ -26,7 +28,8 @@ _MEANINGS = {
     "wrong branch": "the error arose near a singular position, and the mechanism moves on, closed, on another branch",
     "singular": "the run ended at a position where the independent constraint rows are almost dependent",
     "diverged": "the run ended early or left the constraints",
-    "too slow": f"more than {BUDGET:g} evaluations, or {IMPLICIT_BUDGET:g} of implicit stages, predicted or counted",
+    "too slow": f"more than {BUDGET:g} evaluations at constant and {ADAPTIVE_BUDGET:g} at adaptive steps, or "
+    f"{IMPLICIT_BUDGET:g} of implicit stages, fewer on large mechanisms; predicted or counted",
     "refused": "the pair or the case is refused with a sentence",
     "unjudged": "the reference itself is not known well enough",
 }
@@ -75,7 +78,20 @@ def _map_section(study: Stress) -> Section:
     headings = ("method", "integrator", *(family.replace("-", " ") for family in shown.families), "all")
     table = Table("Accurate cells of those judged.", headings, rows, words=2, notes=(f"{LEGEND}.",))
     meanings = Table("Outcomes.", ("outcome", "meaning"), tuple((n, _MEANINGS[n]) for n in OUTCOMES), words=2)
-    return Section("Map of methods and cases", tables=(table, meanings), pictures=maps(study))
+    tables: tuple[Table, ...] = (table, meanings)
+    pictures = maps(study)
+    if len(study.models) > FEW_MODELS:
+        tables, pictures = (_models_table(study), *tables), (overview(study), *pictures)
+    return Section("Map of methods and cases", tables=tables, pictures=pictures)
+
+
+def _models_table(study: Stress) -> Table:
+    counted = outcomes_of_models(study.rows)
+    rows = tuple(
+        ("mechanisms of families" if model == "-" else model, str(sum(n.values())), *(str(n[x]) for x in OUTCOMES))
+        for model, n in counted
+    )
+    return Table("Outcomes on each model, planes among them.", ("model", "cells", *OUTCOMES), rows)
 
 
 def _field(text: str) -> str | Cell:
@@ -146,11 +162,17 @@ def _left_out(study: Stress) -> list[Section]:
         tables.append(Table("Cases without a usable reference.", ("model", "family", "case", "why"), study.unusable, 4))
     if study.skipped:
         tables.append(Table("Families that do not apply.", ("model", "family", "why"), study.skipped, 3))
+    if study.left_out:
+        headings = ("mechanism", "method", "integrator", "why")
+        tables.append(Table("Pairs left out for the time of their compilation.", headings, study.left_out, 4))
     return [Section("What is not judged", tables=tuple(tables))] if tables else []
 
 
 def _cells_section(study: Stress) -> Section:
     """Return all cells of the map, a table for each family."""
+    if len(study.rows) > MOST_CELLS:
+        text = f"{len(study.rows)} cells are too many for a page; --csv and --json write them."
+        return Section("All cells", (text,))
     shown = Map.of(study)
     headings = (
         *("model", "case", "method", "integrator", "outcome", "own status"),

@@ -11,7 +11,7 @@ from symgen.report.document import Picture, anchor
 from symgen.report.picture import GREY, below, drawn
 from symgen.study.findings import largest_root
 from symgen.study.outcome import OUTCOMES
-from symgen.study.stress_map import LETTERS, Map, plane_lines, plane_rows
+from symgen.study.stress_map import LETTERS, Entry, Map, plane_lines, plane_rows
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -80,6 +80,40 @@ def _map(shown: Map, model: str) -> Picture:
     return drawn(
         f"map-{anchor(name)}", caption, alternative, draw, height=2.6 + 0.17 * len(lines), wide=len(cases) > 12
     )
+
+
+def overview(study: Stress) -> Picture:
+    """Return the share of accurate cells for each pair of method and integrator on each model, planes left out."""
+    shown = Map.of(study)
+    models = list(dict.fromkeys(row.model for row in shown.rows))
+    shares = np.full((len(shown.lines), len(models)), np.nan)
+    wrong = np.zeros(shares.shape, dtype=int)
+    for i, line in enumerate(shown.lines):
+        for j, model in enumerate(models):
+            entry = Entry(tuple(r for r in shown.entry(line).rows if r.model == model))
+            shares[i, j] = 100.0 * entry.good / entry.judged if entry.judged else np.nan
+            wrong[i, j] = sum(row.false_success for row in entry.rows)
+
+    def draw(figure: Figure) -> None:
+        ax = figure.subplots()
+        image = ax.imshow(shares, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto", interpolation="nearest")
+        for i, j in np.argwhere(np.isfinite(shares)):
+            colour = "white" if shares[i, j] < 55.0 else "black"
+            text = f"{shares[i, j]:.0f}" + (f" ({wrong[i, j]})" if wrong[i, j] else "")
+            ax.text(j, i, text, ha="center", va="center", fontsize=5.5, color=colour)
+        ax.grid(False)
+        ax.set_yticks(range(len(shown.lines)), [m if m == i else f"{m}, {i}" for m, i in shown.lines], fontsize=7.0)
+        names = ["own mechanisms" if model == "-" else model for model in models]
+        ax.set_xticks(range(len(models)), names, rotation=90, fontsize=7.0)
+        ax.tick_params(which="both", length=0)
+        figure.colorbar(image, ax=ax, label="accurate cells of those judged [percent]", fraction=0.03, pad=0.02)
+
+    caption = (
+        "Accurate cells of those judged [percent], a row for each pair of method and integrator, a column for each "
+        "model; in brackets the runs that report success although their error exceeds 1e-3 m; white: not run."
+    )
+    alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
+    return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(shown.lines), wide=True)
 
 
 def _paint(ax: Any, field: np.ndarray[Any, Any]) -> None:

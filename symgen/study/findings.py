@@ -8,13 +8,19 @@ from typing import TYPE_CHECKING
 
 from symgen.auto import AUTO
 from symgen.study.outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
-from symgen.study.stress_map import Map, map_rows, plane_rows
+from symgen.study.stress_map import Map, map_rows, plane_rows, shares_of_models
 
 if TYPE_CHECKING:
     from symgen.study.stress_rows import Limit, Row, Stress
 
 #: Methods that hold constraints by forces, and only as closely as these push.
 YIELDING = ("penalty", "augmented-lagrangian", "augmented-hamiltonian")
+#: Errors up to this share of a link's length are what relative tolerances leave.
+LONG = 1e-6
+#: A run with larger violations |Phi| is within its limit, 1e-6, only because the largest coordinate is so large.
+OPEN = 1e-4
+#: Sentences about each model are written for so many models at most; beyond, they are summed up.
+FEW_MODELS = 3
 
 
 def findings(study: Stress) -> tuple[str, ...]:
@@ -22,6 +28,7 @@ def findings(study: Stress) -> tuple[str, ...]:
     return tuple(
         [
             *_counted(study),
+            *_models(study),
             *_toughest(study),
             *_families(study),
             *_gains(study),
@@ -42,10 +49,23 @@ def _counted(study: Stress) -> Iterator[str]:
     beside = f", beside {planes} cells of planes" if planes else ""
     yield f"Of {len(rows)} cells of the map {_listed(parts)}{beside}."
     if study.unusable:
-        cases = [f"{family} {case}" for _, family, case, _ in study.unusable[:3]]
+        several = len(study.models) > 1
+        cases = [f"{family} {case}{f' on {model}' * several}" for model, family, case, _ in study.unusable[:3]]
         more = "" if len(study.unusable) <= len(cases) else ", ..."
         many = _many(len(study.unusable), "case")
         yield f"{many} could not be judged for want of a reference: {', '.join(cases)}{more}."
+
+
+def _models(study: Stress) -> Iterator[str]:
+    if len(study.models) <= FEW_MODELS:
+        return
+    shares = [(good / judged, model, good, judged) for model, good, judged in shares_of_models(study.rows) if judged]
+    if len(shares) > 1:
+        (_, best, *most), (_, worst, *least) = max(shares), min(shares)
+        yield (
+            f"Of the models, {best} went best, {most[0]} of {most[1]} cells accurate, and {worst} worst, "
+            f"{least[0]} of {least[1]}."
+        )
 
 
 def _toughest(study: Stress) -> Iterator[str]:
@@ -94,7 +114,8 @@ def _hardest(rows: Sequence[Row]) -> str:
     own = [row for row in rows if (row.model, row.case) == worst]
     found = counts([row.outcome for row in own])
     parts = [f"{found[name]} {name}" for name in OUTCOMES if found[name]]
-    return f"hardest is {worst[1]}: {_listed(parts)}"
+    where = f"{worst[1]} on {worst[0]}" if len({model for model, _ in cases}) > 1 else worst[1]
+    return f"hardest is {where}: {_listed(parts)}"
 
 
 # -- gains, penalties, steps -------------------------------------------------------------------------------------------
@@ -107,6 +128,8 @@ def largest_root(alpha: float, beta: float) -> float:
 
 
 def _gains(study: Stress) -> Iterator[str]:
+    few = len(study.models) <= FEW_MODELS
+    reaches = []
     rows = [r for r in plane_rows(study.rows, "alpha-beta") if r.step is not None and r.outcome != UNJUDGED]
     for model in dict.fromkeys(row.model for row in rows):
         # real roots: only for them is the limit the end of the region of stability on the real axis
@@ -117,11 +140,19 @@ def _gains(study: Stress) -> Iterator[str]:
         ]
         stable, unstable = [x for x, good in own if good], [x for x, good in own if not good]
         if stable and unstable:
+            reaches.append((_up_to(stable, unstable), min(unstable)))
+        if stable and unstable and few:
             yield (
                 f"Baumgarte's gains on {model}: with real roots all cells up to |root| h = "
                 f"{_up_to(stable, unstable):.3g} are accurate and the first that is not has {min(unstable):.3g}; "
                 "rk4 is stable up to 2.785."
             )
+    if reaches and not few:
+        firsts = [above for _, above in reaches]
+        yield (
+            f"Baumgarte's gains on {_many(len(reaches), 'model')}: with real roots the first cell that is not accurate "
+            f"has |root| h from {min(firsts):.3g} to {max(firsts):.3g}; rk4 is stable up to 2.785."
+        )
 
 
 def _up_to(stable: Sequence[float], unstable: Sequence[float]) -> float:
@@ -131,6 +162,9 @@ def _up_to(stable: Sequence[float], unstable: Sequence[float]) -> float:
 
 def _penalties(study: Stress) -> Iterator[str]:
     rows = [row for row in study.rows if row.family == "penalty-factor" and row.outcome not in (UNJUDGED, REFUSED)]
+    if len(study.models) > FEW_MODELS:
+        yield from _penalties_of_many(rows)
+        return
     for method, integrator, model in dict.fromkeys((row.method, row.integrator, row.model) for row in rows):
         own = [r for r in rows if (r.method, r.integrator, r.model) == (method, integrator, model)]
         good = [row.values[0] for row in own if row.outcome == GOOD]
@@ -144,7 +178,23 @@ def _penalties(study: Stress) -> Iterator[str]:
         )
 
 
+def _penalties_of_many(rows: Sequence[Row]) -> Iterator[str]:
+    for line in dict.fromkeys((row.method, row.integrator) for row in rows):
+        own = [row for row in rows if (row.method, row.integrator) == line]
+        factors = sorted({row.values[0] for row in own})
+        good = {a: sum(row.outcome == GOOD for row in own if row.values[0] == a) for a in factors}
+        tried = {a: sum(row.values[0] == a for row in own) for a in factors}
+        everywhere = [a for a in factors if good[a] == tried[a]]
+        if everywhere:
+            yield f"Penalty of {_line(line)}: accurate on all models for a = {_listed([f'{a:g}' for a in everywhere])}."
+        else:
+            best = max(factors, key=lambda a: good[a] / tried[a])
+            suits = f"a = {best:g} suits {good[best]} of {tried[best]}"
+            yield f"Penalty of {_line(line)}: no factor suits all models; {suits}."
+
+
 def _steps(study: Stress) -> Iterator[str]:
+    largest: dict[str, list[tuple[str, str]]] = {}
     for model, family, case in dict.fromkeys((x.model, x.family, x.case) for x in study.limits):
         own = [x for x in study.limits if (x.model, x.family, x.case) == (model, family, case)]
         stable = [x for x in own if x.stable_step is not None]
@@ -155,11 +205,18 @@ def _steps(study: Stress) -> Iterator[str]:
             return limit.stable_step or 0.0
 
         most, least = max(stable, key=step), min(stable, key=step)
-        yield (
-            f"Largest steps on {model}, {family} {case}: from {step(least):.3g} s "
-            f"({_line((least.method, least.integrator))}) to {step(most):.3g} s "
-            f"({_line((most.method, most.integrator))})."
-        )
+        largest.setdefault(family, []).append((most.method, most.integrator))
+        if len(study.models) <= FEW_MODELS:
+            yield (
+                f"Largest steps on {model}, {family} {case}: from {step(least):.3g} s "
+                f"({_line((least.method, least.integrator))}) to {step(most):.3g} s "
+                f"({_line((most.method, most.integrator))})."
+            )
+    if len(study.models) > FEW_MODELS:
+        for family, lines in largest.items():
+            order = sorted(dict.fromkeys(lines), key=lambda line: -lines.count(line))
+            parts = [f"{_line(line)} on {lines.count(line)}" for line in order]
+            yield f"Largest stable steps in {family}, of {_many(len(lines), 'model')}: {_listed(parts)}."
 
 
 # -- can a status be trusted? ------------------------------------------------------------------------------------------
@@ -197,8 +254,14 @@ def cause(row: Row) -> str:
         return "another branch was taken at a singular position, where constraints are closed and energy is kept"
     if row.method in YIELDING and (row.position_violation_max or 0.0) > 1e-9:
         return "the penalty lets the joints give, within max_violation"
+    if row.family == "length-ratio" and row.error is not None and row.error <= LONG * row.values[0]:
+        return f"tolerances are relative, and 1e-3 m is little on links of {row.values[0]:g} m"
+    if (row.position_violation_max or 0.0) > OPEN:
+        return "violations are measured by the largest coordinate, and angles of many turns are large"
     if row.step is not None:
         return "nothing estimates the error of a constant step, and constraints and energy stay within their limits"
+    if row.family == "singular-passage":
+        return "the tolerance is kept for each step, and a passage near a singular position multiplies what is left"
     return "the tolerance is kept for each step, and the errors of many steps add up"
 
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numba
@@ -23,9 +24,9 @@ from symgen.describe.mechanism import Mechanism, Table
 from symgen.errors import SimulationError
 from symgen.store.jit import jit
 from symgen.study.independent import CUTOFF, IndependentEquations
-from symgen.study.passing import FAILURES
 from symgen.study.points import Points
 from symgen.study.reference import Reference
+from symgen.study.stiff import OverBudgetError, by_radau, is_stiff
 
 if TYPE_CHECKING:
     from symgen.vocabulary.expressions import Expr
@@ -37,12 +38,13 @@ FINE, COARSE = 3e-14, 3e-13
 #: The same where rounding of very stiff forces makes those unattainable.
 ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
 STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
-#: Decay of so many e-foldings over the motion is left to Radau.
-STIFF_FOLDINGS = 3e4
+#: Steps below this share of the time to the next output lead nowhere.
+COLLAPSE = 1e-7
 #: Columns of the extrapolation: order 2 x 8.
 COLUMNS = 8
-#: Evaluations after which a reference is given up.
-BUDGET = 3_000_000
+#: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
+#: with dependent rows it needs singular values, which cost about so many times as much.
+BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
 
 _F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
 #: equations(t, q, v, p, out).
@@ -61,6 +63,7 @@ class CompiledEquations(IndependentEquations):
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
+        self.dependent = False
         self.symbols = [sp.Symbol(f"p{i}", real=True) for i in range(len(mechanism.parameters))]
         super().__init__(mechanism, parameters)
         self.set_parameters(parameters)
@@ -81,6 +84,31 @@ class CompiledEquations(IndependentEquations):
         d[self._row_index, self._column_index] = flat[m : m + k]
         return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
 
+    def rate(self, t: float, y: Array) -> Array:
+        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss)."""
+        found = np.empty(2 * self.n)
+        _rate(
+            self._function,
+            self._index,
+            self.m,
+            self.n,
+            self.root,
+            self.values,
+            float(t),
+            np.ascontiguousarray(y),
+            found,
+        )
+        return found
+
+    @property
+    def budget(self) -> int:
+        """Evaluations of an integration by extrapolation."""
+        return int(BUDGET * min(1.0, (FEW / self.n) ** 2) / (DEPENDENT if self.dependent else 1))
+
+    @cached_property
+    def _index(self) -> Any:
+        return np.concatenate([self._row_index, self._column_index]).astype(np.int64)
+
     def advance(self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any) -> Array:
         """Integrate to `until` by extrapolation.
 
@@ -100,14 +128,13 @@ class CompiledEquations(IndependentEquations):
         SimulationError
             If the step collapses or the budget is used up.
         """
-        index = np.concatenate([self._row_index, self._column_index]).astype(np.int64)
         y = y.copy()
         code = _extrapolate(
-            *(self._function, index, self.m, self.n, self.root, self.values, t, y, until, rtol, scale, state),
-            *(BUDGET, used),
+            *(self._function, self._index, self.m, self.n, self.root, self.values, t, y, until, rtol, scale, state),
+            *(self.budget, used),
         )
         if code == 1:
-            raise SimulationError(f"the reference takes more than {BUDGET:g} evaluations")
+            raise OverBudgetError(f"the reference takes more than {self.budget:.3g} evaluations")
         if code == 2 or not np.all(np.isfinite(y)):
             raise SimulationError(f"the reference motion cannot be integrated beyond t = {t:.6g} s")
         return y
@@ -230,6 +257,7 @@ def _extrapolate(
     first, rate = np.zeros(size), np.zeros(size)
     table = np.zeros((COLUMNS, size))
     step = state[0] if state[0] > 0.0 else 1e-3 * (until - t)
+    smallest = max(1e-16 * max(until, abs(t)), COLLAPSE * (until - t))
     while t < until:
         last = step >= until - t
         h = until - t if last else step
@@ -267,7 +295,7 @@ def _extrapolate(
             step = h * factor
         if used[0] > budget:
             return 1
-        if step < 1e-16 * max(until, abs(t)):
+        if step < smallest:
             return 2
     state[0] = step
     return 0
@@ -299,13 +327,16 @@ def motion(
     """
     say = progress or (lambda done: None)
     y = equations.project(0.0, np.concatenate([q, v]))
-    stiff = decay(equations, y) * float(times[-1]) > STIFF_FOLDINGS
-    integrate = _by_radau if stiff else _by_extrapolation
+    d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
+    equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
+    stiff = is_stiff(equations, y, float(times[-1]))
+    scale = _scale(y, equations.n)
+    integrate = by_radau if stiff else _by_extrapolation
     attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
     for tolerances in attempts:
         try:
-            fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done))
-            coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done))
+            fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done), scale)
+            coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done), scale)
             break
         except SimulationError:
             if tolerances == attempts[-1]:
@@ -319,27 +350,13 @@ def motion(
     return Reference(how, max(estimated, 1e-14), times, fine)
 
 
-def decay(equations: CompiledEquations, y: Array) -> float:
-    """Return the fastest decay of the linearised equations at a state [1/s], by forward differences."""
-    base = equations.rate(0.0, y)
-    jacobian = np.empty((len(y), len(y)))
-    for j in range(len(y)):
-        moved = y.copy()
-        moved[j] += 1e-7 * max(1.0, abs(float(y[j])))
-        jacobian[:, j] = (equations.rate(0.0, moved) - base) / (moved[j] - y[j])
-    if not np.all(np.isfinite(jacobian)):
-        return 0.0
-    return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))
-
-
 Walk = Callable[[float], None]
 
 
 def _by_extrapolation(
-    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
 ) -> Array:
     """Return q at `times`; every `every`-th output is projected."""
-    scale = _scale(y, equations.n)
     step, used = np.zeros(1), np.zeros(1, dtype=np.int64)
     result = np.empty((len(times), equations.n))
     t = 0.0
@@ -350,31 +367,6 @@ def _by_extrapolation(
         if k % every == 0:
             y = equations.project(t, y)
         result[k] = y[: equations.n]
-        progress(t / float(times[-1]))
-    return result
-
-
-def _by_radau(equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk) -> Array:
-    from scipy.integrate import solve_ivp
-
-    n = equations.n
-    # fast decay leaves velocities at a state of balance: errors of positions are what counts
-    atol = rtol * _scale(y, n)
-    result = np.empty((len(times), n))
-    t = 0.0
-    for k, following in enumerate(times):
-        if following > t:
-            beyond = f"the reference motion cannot be integrated beyond t = {t:.6g} s"
-            try:
-                found = solve_ivp(equations.rate, (t, float(following)), y, "Radau", rtol=rtol, atol=atol)
-            except FAILURES as error:  # SciPy raises where a Jacobian is not finite
-                raise SimulationError(f"{beyond}: {error}") from None
-            if not found.success or not np.all(np.isfinite(found.y[:, -1])):
-                raise SimulationError(beyond)
-            y, t = found.y[:, -1], float(following)
-        if k % every == 0:
-            y = equations.project(t, y)
-        result[k] = y[:n]
         progress(t / float(times[-1]))
     return result
 

@@ -22,18 +22,29 @@ from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.probe import call_measure
 from symgen.runtime.run import integrate
+from symgen.study.effort import LARGEST_IMPLICIT_REFERENCE, coordinates, explicit_budget, implicit_budget
 from symgen.study.points import Points
 from symgen.study.reference import Reference
 
 Array = NDArray[np.float64]
 
+Route = tuple[str, str, dict[str, str | float], float]
 #: Method, integrator, options and tolerance of the two routes; the first is the reference.
-ROUTES: tuple[tuple[str, str, dict[str, str | float], float], ...] = (
+ROUTES: tuple[Route, ...] = (
     ("direct-correction", "dop853", {"method.weight": "mass"}, 1e-12),
     ("index1-augmented-lagrangian", "abm", {}, 1e-11),
 )
-#: Evaluations after which a route is given up.
-BUDGET = 2_000_000
+#: The same where decay asks explicit steps for more evaluations than they may take.
+STIFF_ROUTES: tuple[Route, ...] = (
+    ("direct-correction", "radau5", {"method.weight": "mass"}, 1e-10),
+    ("ggl", "radau5", {}, 1e-9),
+)
+#: The first ones where rounding of very stiff forces makes their tolerances unattainable.
+ROUGH_ROUTES = tuple((*route[:3], rtol) for route, rtol in zip(ROUTES, (1e-9, 1e-8), strict=True))
+#: Evaluations after which a route is given up, for small mechanisms.
+BUDGET, STIFF_BUDGET = 20_000_000, 300_000
+#: Evaluations that decay may ask explicit steps for, for small mechanisms; the stiff routes are taken beyond.
+STIFF_FROM = 6_000_000
 
 
 class EmittedGeometry:
@@ -57,8 +68,8 @@ class EmittedGeometry:
         return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
 
 
-def agreed(model: Model, parameters: Mapping[str, float], times: Array) -> Reference:
-    """Return the motion by the first of `ROUTES`, its error estimated by the second.
+def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: float = 0.0) -> Reference:
+    """Return the motion by the first of `ROUTES`, or of `STIFF_ROUTES`, its error estimated by the second.
 
     Parameters
     ----------
@@ -68,14 +79,35 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array) -> Refer
         Values that differ from the mechanism's own.
     times : Array
         Where the motion is wanted [s], increasing from 0.
+    decay : float
+        Fastest decay at the start [1/s].
 
     Raises
     ------
     SimulationError
         If a route does not come to its end.
     """
+    # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
+    stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(model.mechanism, STIFF_FROM)
+    if stiff and coordinates(model.mechanism) > LARGEST_IMPLICIT_REFERENCE:
+        raise SimulationError(
+            f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
+            f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
+        )
+    if stiff:
+        return _agreed(model, parameters, times, STIFF_ROUTES, implicit_budget(model.mechanism, STIFF_BUDGET))
+    explicit = explicit_budget(model.mechanism, BUDGET)
+    try:
+        return _agreed(model, parameters, times, ROUTES, explicit)
+    except SimulationError:
+        return _agreed(model, parameters, times, ROUGH_ROUTES, explicit)
+
+
+def _agreed(
+    model: Model, parameters: Mapping[str, float], times: Array, routes: tuple[Route, ...], budget: int
+) -> Reference:
     found = []
-    for method, integrator, options, rtol in ROUTES:
+    for method, integrator, options, rtol in routes:
         settings = Settings(
             method=method,
             integrator=integrator,
@@ -85,17 +117,18 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array) -> Refer
             until=float(times[-1]),
             times=list(times),
             parameters=parameters,
+            shape="straight" if routes is STIFF_ROUTES else "looped",
         )
         plan = make_plan(model, settings)
         compiled, start = model.ready(plan, parameters)
-        outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=BUDGET))
+        outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=budget))
         if outcome.interrupted:
             raise KeyboardInterrupt
         if outcome.code != abi.DONE:
-            reason = f"it takes more than {BUDGET:g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
+            reason = f"it takes more than {budget:.3g} evaluations" if outcome.code == abi.STOPPED else outcome.reason
             raise SimulationError(f"the reference by {method} with {integrator} does not come to its end: {reason}")
         found.append(outcome.states[:, : compiled.info.nq])
     apart = Points.of(model.mechanism, model.parameters(parameters)).distance(*found)
-    (method, integrator, _, rtol), (other, with_other, _, _) = ROUTES
+    (method, integrator, _, rtol), (other, with_other, _, _) = routes
     how = f"{method} with {integrator} at {rtol:g}; estimated from {other} with {with_other}"
     return Reference(how, max(apart, 1e-14), times, found[0])

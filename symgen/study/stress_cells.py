@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from symgen.api import Model
 from symgen.auto import AUTO, resolve, settle
 from symgen.errors import AssemblyError, InputError
+from symgen.lower.looped.law import is_loopable
 from symgen.plan import Plan, Settings, make_plan
 from symgen.result.judge import judge
 from symgen.result.result import INTERRUPTED, OK, UNVERIFIED
@@ -23,17 +24,16 @@ from symgen.runtime import abi
 from symgen.runtime.run import Outcome, integrate
 from symgen.study import outcome as judged
 from symgen.study.bench import Level
+from symgen.study.effort import budget_of, further_budget, predicted
+from symgen.study.known import KnownModel
 from symgen.study.other_route import EmittedGeometry
 from symgen.study.outcome import Run, classify, largest_error
 from symgen.study.points import Points
-from symgen.study.stress_reference import equations_of, reference_of, times_of
+from symgen.study.stress_reference import equations_of, reference_of, times_of, without_reference
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
-#: Evaluations that a run may take: of right-hand sides, and of residuals of implicit stages, which come with Newton's
-#: matrices.
-BUDGET, IMPLICIT_BUDGET = 10_000_000, 200_000
 #: Limits of a run that does not watch itself, and the usual ones.
 UNWATCHED, WATCHED = 1e30, Settings()
 #: How a loop ends that stopped itself although it could have gone on.
@@ -107,8 +107,11 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 
 
 def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields:
-    """Run a case and judge it against its reference."""
-    model = Model(level.mechanism)
+    """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
+    why = without_reference(known)
+    if why is not None:
+        return _nothing(judged.UNJUDGED, why)
+    model = KnownModel(level.mechanism)
     parameters = {**level.parameters, **known.get("parameters", {})}
     settings = Settings(
         method=method,
@@ -124,11 +127,12 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
     try:
         asked = settings
         settings, plan = _planned(model, settings)
-        budget = _budget(plan)
+        budget = budget_of(plan, level.mechanism)
         chosen = f"{plan.choice.method.name}, {plan.tableau.name}" if method == AUTO else ""
-        predicted = _predicted(plan)
-        if predicted > budget:
-            return _nothing(judged.TOO_SLOW, f"{predicted:.3g} evaluations, more than {budget:.3g}", 0, chosen)
+        least = predicted(plan, known["decay"])
+        if least > budget:
+            what = "at least " if plan.spec.adaptive else ""
+            return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
         compiled, start = model.ready(plan, parameters)
     except (InputError, AssemblyError) as error:
         return _nothing(judged.REFUSED, str(error))
@@ -152,7 +156,8 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
         note = f"ended at t = {outcome.end:.4g} s"
     if outcome.code in WATCHES and found == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
-        spec = replace(plan.spec, max_violation=UNWATCHED, max_energy_error=UNWATCHED)
+        most = further_budget(budget, outcome.evaluations)
+        spec = replace(plan.spec, max_violation=UNWATCHED, max_energy_error=UNWATCHED, max_evaluations=most)
         further = integrate(compiled, plan.tableau, start, spec)
         if further.interrupted:
             raise KeyboardInterrupt
@@ -175,31 +180,23 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
 
 
 def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
-    """Return settings without ``auto``, and the plan; an adaptive run chooses its own first step."""
-    settings, _ = resolve(model, settings)
-    settings = replace(settings, shape="straight")  # cells are compared with each other: one shape for all
+    """Return settings without ``auto``, and the plan; an adaptive run chooses its own first step.
+
+    The shape is looped where a method has one: it compiles once for all mechanisms, and the runs of a study are short.
+    """
+    settings, _ = resolve(model, replace(settings, shape="looped"))
+    settings = replace(settings, shape="straight")
     plan = make_plan(model, settings)
     if plan.spec.adaptive and settings.step is not None:
         settings = replace(settings, step=None)
         plan = make_plan(model, settings)
+    if is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
+        plan = replace(plan, choice=replace(plan.choice, shape="looped"))
     return settings, plan
-
-
-def _budget(plan: Plan) -> int:
-    return IMPLICIT_BUDGET if plan.choice.implicit and "index-1" in plan.tableau.forms else BUDGET
-
-
-def _predicted(plan: Plan) -> float:
-    """Return how many evaluations a run with constant steps takes at least; 0 for an adaptive one."""
-    if plan.spec.adaptive or plan.spec.step is None:
-        return 0.0
-    return plan.spec.until / plan.spec.step * float(getattr(plan.tableau, "stages", 1))
 
 
 def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, known: Fields) -> Run:
     """Return what classification asks for."""
-    if known["unusable"] is not None:
-        return Run(False, False, np.zeros(0), np.zeros(0), math.inf, None, 1.0)
     values = Model(level.mechanism).parameters(parameters)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
     states = outcome.states[:, :nq]
@@ -230,7 +227,7 @@ def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, k
 
 def _limit(task: LimitTask) -> Fields:
     """Find the largest step that follows the motion at all, and the largest one that is accurate."""
-    if task.reference["unusable"] is not None:
+    if without_reference(task.reference) is not None:
         return {"stable_step": None, "accurate_step": None, "runs": 0}
     ran: dict[float, tuple[bool, bool]] = {}
 

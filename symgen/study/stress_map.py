@@ -106,3 +106,15 @@ def plane_rows(rows: Iterable[Row], family: str) -> tuple[Row, ...]:
 def plane_lines(rows: Sequence[Row]) -> tuple[tuple[str, str, str], ...]:
     """Return (model, method, integrator) of the planes among rows, in order."""
     return tuple(dict.fromkeys((row.model, row.method, row.integrator) for row in rows))
+
+
+def outcomes_of_models(rows: Sequence[Row]) -> tuple[tuple[str, dict[str, int]], ...]:
+    """Return how often each outcome occurs on each model, planes included; ``-`` are mechanisms of families."""
+    models = dict.fromkeys(row.model for row in rows)
+    return tuple((model, counts([row.outcome for row in rows if row.model == model])) for model in models)
+
+
+def shares_of_models(rows: Sequence[Row]) -> tuple[tuple[str, int, int], ...]:
+    """Return model, accurate cells and judged cells of the map."""
+    found = outcomes_of_models(map_rows(rows))
+    return tuple((m, n[GOOD], sum(n.values()) - n[REFUSED] - n[UNJUDGED]) for m, n in found if m != "-")

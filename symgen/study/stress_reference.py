@@ -4,19 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.api import Model
+from symgen.auto import linearised
 from symgen.describe.digest import digest
 from symgen.describe.load import load as load_mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
 from symgen.plan import Settings, make_plan
 from symgen.study.bench import FREE_LENGTH, Level
+from symgen.study.known import KnownModel
+from symgen.study.outcome import ACCURATE, TRUSTED
 from symgen.study.points import Points
 from symgen.study.reference import closed_form
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+    from symgen.runtime.assembly import Start
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -37,9 +43,10 @@ def _moved(level: Level) -> Fields:
     from symgen.study.motion import motion
     from symgen.study.other_route import EmittedGeometry, agreed
 
-    model = Model(level.mechanism)
+    model = KnownModel(level.mechanism)
     parameters = model.parameters(level.parameters)
-    plan = make_plan(model, Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step))
+    settings = Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step, shape="looped")
+    plan = make_plan(model, settings)
     compiled, start = model.ready(plan, parameters)
     nq, nv = compiled.info.nq, compiled.info.nv
     q, v = start.y[:nq].copy(), start.y[nq : nq + nv].copy()
@@ -56,20 +63,47 @@ def _moved(level: Level) -> Fields:
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
     how, estimated, moved = _closed(level, parameters, q, times)
+    falling = fastest_decay(compiled, start)
     if moved is None:
-        found = motion(equations, q, v, times) if planar else agreed(model, parameters, times)
+        try:
+            found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
+        except SimulationError as error:  # over its budget, or at a singular position
+            if not planar:
+                raise
+            try:
+                found = agreed(model, parameters, times, falling)
+            except SimulationError as other:
+                raise SimulationError(f"{error}; {other}") from None
         how, estimated, moved = found.how, found.estimated_error, found.q
     return {
         "unusable": None,
         "how": how,
         "estimated_error": float(estimated),
         "q": moved.tolist(),
+        "decay": falling,
         "sines": _sines(equations, times, moved).tolist(),
         "size": _size(points, moved),
         "parameters": {
             name: value for name, value in parameters.items() if name in {**level.parameters, FREE_LENGTH: 0}
         },
     }
+
+
+def without_reference(known: Mapping[str, Any]) -> str | None:
+    """Return why the outcome of a reference judges nothing, None where it does."""
+    if known["unusable"] is not None:
+        return str(known["unusable"])
+    if known["estimated_error"] > TRUSTED * ACCURATE:
+        return f"the two reference runs differ by {known['estimated_error']:.2g} m"
+    return None
+
+
+def fastest_decay(compiled: CompiledModel, start: Start) -> float:
+    """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
+    jacobian = linearised(compiled, start)
+    if not np.all(np.isfinite(jacobian)):
+        return 0.0
+    return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))
 
 
 def times_of(level: Level) -> list[float]:

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any, cast
 
 from symgen.result.result import finite
+from symgen.study.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.outcome import ACCURATE, counts, false_success
-from symgen.study.stress_cells import BUDGET, IMPLICIT_BUDGET
 
 
 @dataclass(frozen=True)
@@ -102,6 +102,8 @@ class Stress:
         Model, family and why it has no cases.
     unusable : tuple of (str, str, str, str)
         Model, family, case and why its reference judges nothing.
+    left_out : tuple of (str, str, str, str)
+        Mechanism, method, integrator and why the pair is not run at all.
     quick, interrupted : bool
         Fewer cases were asked for; cells are missing because the study was stopped.
     """
@@ -111,6 +113,7 @@ class Stress:
     limits: tuple[Limit, ...]
     skipped: tuple[tuple[str, str, str], ...]
     unusable: tuple[tuple[str, str, str, str], ...]
+    left_out: tuple[tuple[str, str, str, str], ...] = ()
     quick: bool = False
     interrupted: bool = False
 
@@ -128,13 +131,16 @@ class Stress:
             "quick": self.quick,
             "interrupted": self.interrupted,
             "accurate": ACCURATE,
-            "budget": {"explicit": BUDGET, "implicit": IMPLICIT_BUDGET},
+            "budget": {"explicit": BUDGET, "adaptive": ADAPTIVE_BUDGET, "implicit": IMPLICIT_BUDGET},
             "cells": len(self.rows),
             "outcomes": counts([row.outcome for row in self.rows]),
             "rows": [asdict(row) for row in self.rows],
             "limits": [asdict(limit) for limit in self.limits],
             "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
             "unusable": [dict(zip(("model", "family", "case", "why"), s, strict=True)) for s in self.unusable],
+            "left_out": [
+                dict(zip(("mechanism", "method", "integrator", "why"), s, strict=True)) for s in self.left_out
+            ],
             "false_successes": [{**asdict(row), "why": explained(row)} for row in self.false_successes],
             "findings": list(findings(self)),
         }

@@ -88,3 +88,20 @@ def test_bad_input(cli, monkeypatch, tmp_path, words, sentence):
     assert code == 2 and out == "" and sentence in err
     assert err.startswith("symgen: ") and err.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["README.md"]
+
+
+def test_the_whole_catalogue_and_a_time_of_compilation(cli, monkeypatch):
+    from symgen import catalogue
+
+    asked = []
+
+    def study(*arguments):
+        asked.append(arguments)
+        return Stress(arguments[0], (), (), (), ())
+
+    monkeypatch.setattr(module, "stress", study)
+    code, _, _ = cli("stress", "four-bar", "n-four-bar:3", "--catalogue", "--compilation", "36", "--jobs", "1")
+    assert code == 0 and set(asked[0][0]) == {*catalogue.names(), "n-four-bar:3"} and asked[0][-1] == 36.0
+    assert len(asked[0][0]) == len(catalogue.names()) + 1, "four-bar is run once"
+    code, out, err = cli("stress", "--compilation", "0")
+    assert code == 2 and out == "" and "--compilation" in err and len(asked) == 1

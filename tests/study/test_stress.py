@@ -19,9 +19,10 @@ from symgen.study.bench import Base
 from symgen.study.cases import CASES
 from symgen.study.findings import largest_root
 from symgen.study.journal import Journal
-from symgen.study.motion import CompiledEquations, decay, motion
+from symgen.study.motion import CompiledEquations, motion
 from symgen.study.points import Points
 from symgen.study.reference import integrated
+from symgen.study.stiff import decay
 from symgen.study.stress import pairs, stress
 from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
 from symgen.study.stress_reference import parallelogram
@@ -80,7 +81,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
         raise ValueError("array must not contain infs or NaNs")
 
     monkeypatch.setattr("scipy.integrate.solve_ivp", gives_up)
-    monkeypatch.setattr("symgen.study.motion.decay", lambda equations, y: 1e9)
+    monkeypatch.setattr("symgen.study.motion.is_stiff", lambda equations, y, until: True)
     mechanism = symgen.load("pendulum").mechanism
     equations = CompiledEquations(mechanism, {p.name: p.value for p in mechanism.parameters})
     with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: array must not"):
@@ -220,10 +221,10 @@ def test_what_is_too_slow_is_told_without_a_clock():
     level = CASES.get("duration").levels(Base.of("four-bar"), True)[0]
     from dataclasses import replace
 
-    known = {"unusable": "not needed", "parameters": {}}
+    known = {"unusable": None, "estimated_error": 0.0, "decay": 0.0, "parameters": {}}
     predicted = compute(RunTask(replace(level, step=1e-7), "lagrange", "rk4", known))
     assert predicted["outcome"] == "too slow" and predicted["evaluations"] == 0
-    assert predicted["reason"] == "4e+08 evaluations, more than 1e+07"
+    assert predicted["reason"] == "4e+08 evaluations, more than 5e+06"
     refused = compute(RunTask(level, "lagrange", "generalized-alpha", known))
     assert refused["outcome"] == "refused" and "one that solves the form of lagrange" in refused["reason"]
 
@@ -259,7 +260,7 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False))
     keys = {"models", "quick", "interrupted", "accurate", "budget", "cells", "outcomes", "rows", "limits", "skipped"}
-    assert set(found) == keys | {"unusable", "false_successes", "findings"}
+    assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings"}
     assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
     assert not [row for row in study.false_successes if row.method == "auto"]
     path = save_csv(study, tmp_path / "cells.csv")

@@ -1,0 +1,228 @@
+"""What cells of a stress study may cost, what is left out for it, and references that cost less."""
+
+import subprocess
+import sys
+
+import msgspec
+import numpy as np
+import pytest
+
+import symgen
+from symgen.auto import AUTO
+from symgen.errors import SimulationError
+from symgen.methods import METHODS
+from symgen.plan import Settings, make_plan
+from symgen.study import effort, other_route, stiff
+from symgen.study.bench import Base
+from symgen.study.cases import CASES
+from symgen.study.journal import TELLING
+from symgen.study.known import KnownModel
+from symgen.study.motion import CompiledEquations, motion
+from symgen.study.stress import pairs, stress
+from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
+
+
+def plan_of(name, method, integrator, **settings):
+    model = symgen.load(name)
+    return make_plan(model, Settings(method=method, integrator=integrator, **settings)), model.mechanism
+
+
+# -- budgets -----------------------------------------------------------------------------------------------------------
+
+
+def test_budgets_fall_with_the_cost_of_an_evaluation():
+    small, medium, large = (symgen.load(name).mechanism for name in ("four-bar", "n-four-bar:10", "n-four-bar:20"))
+    assert effort.explicit_budget(small) == effort.BUDGET
+    ratio = effort.coordinates(large) / effort.coordinates(medium)
+    assert effort.explicit_budget(medium) / effort.explicit_budget(large) == pytest.approx(ratio, rel=1e-4)
+    assert effort.implicit_budget(small) == effort.IMPLICIT_BUDGET
+    assert effort.implicit_budget(symgen.load("andrews").mechanism) < effort.IMPLICIT_BUDGET / 8
+    assert effort.implicit_budget(large) == effort.LEAST_IMPLICIT
+
+
+def test_budgets_go_by_what_a_run_evaluates():
+    explicit, mechanism = plan_of("four-bar", "lagrange", "dop853")
+    implicit, _ = plan_of("four-bar", "ggl", "radau5")
+    constant, _ = plan_of("four-bar", "lagrange", "rk4")
+    assert effort.budget_of(explicit, mechanism) == effort.ADAPTIVE_BUDGET
+    assert effort.budget_of(constant, mechanism) == effort.BUDGET
+    assert effort.budget_of(implicit, mechanism) == effort.IMPLICIT_BUDGET
+
+
+def test_a_run_off_its_constraints_does_not_go_on_for_ever():
+    assert effort.further_budget(5_000_000, 79) == effort.LEAST_FURTHER
+    assert effort.further_budget(5_000_000, 20_000) == 2_000_000
+    assert effort.further_budget(3_000, 79) == 3_000
+
+
+def test_what_is_predicted():
+    constant, _ = plan_of("four-bar", "lagrange", "rk4", step=1e-3, until=2.0)
+    assert effort.predicted(constant, 1e12) == pytest.approx(4 * 2000)
+    adaptive, _ = plan_of("four-bar", "lagrange", "dop853", until=2.0)
+    assert effort.predicted(adaptive, 1e6) == pytest.approx(1e6 * 2.0 / 6.39 * 12 / effort.HOPELESS)
+    implicit, _ = plan_of("four-bar", "ggl", "radau5", until=2.0)
+    assert effort.predicted(implicit, 1e12) == 0.0
+
+
+def test_a_prediction_is_below_what_a_run_takes():
+    """A damper that decays fast, yet can be integrated: the prediction must not stop a run that could be made."""
+    level = CASES.get("damping").levels(Base.of("four-bar"), False)[2]
+    known = compute(ReferenceTask(level))
+    assert known["decay"] > 1e4
+    found = compute(RunTask(level, "lagrange", "dop853", known))
+    plan, _ = plan_of("four-bar", "lagrange", "dop853", until=level.until)
+    assert found["outcome"] == "ok"
+    assert 0.1 * found["evaluations"] < effort.predicted(plan, known["decay"]) < found["evaluations"]
+
+
+def test_a_run_without_a_chance_is_not_begun(monkeypatch):
+    level = CASES.get("damping").levels(Base.of("four-bar"), False)[4]
+    known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
+    monkeypatch.setattr("symgen.study.stress_cells.integrate", None)
+    found = compute(RunTask(level, "lagrange", "dop853", known))
+    assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
+
+
+def test_cells_without_a_reference_are_not_run(monkeypatch):
+    monkeypatch.setattr("symgen.study.stress_cells.integrate", None)
+    level = CASES.get("gravity").levels(Base.of("pendulum"), True)[0]
+    for known, why in (
+        ({"unusable": "none at hand"}, "none at hand"),
+        ({"unusable": None, "estimated_error": 0.02}, "the two reference runs differ by 0.02 m"),
+    ):
+        found = compute(RunTask(level, "lagrange", "rk4", known))
+        assert (found["outcome"], found["status"], found["reason"]) == ("unjudged", "not run", why)
+        assert compute(LimitTask(level, "lagrange", "rk4", known))["stable_step"] is None
+
+
+# -- what is compiled --------------------------------------------------------------------------------------------------
+
+
+def test_pairs_without_a_looped_shape():
+    assert effort.needs_straight("lagrange", "radau5") and effort.needs_straight("null-space", "rk4")
+    assert not effort.needs_straight("lagrange", "dop853") and not effort.needs_straight(AUTO, AUTO)
+
+
+def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
+    mechanism, other = symgen.load("four-bar").mechanism, symgen.load("driven-four-bar").mechanism
+    each = effort.straight_seconds(mechanism)
+    asked = [pair for name in METHODS.names for pair in pairs(name)]
+    straight = {pair for pair in asked if effort.needs_straight(*pair)}
+    out = effort.left_out([mechanism, other], asked, 3.5 * each)
+    kept = straight - {(x.method, x.integrator) for x in out if x.mechanism == "four-bar"}
+    assert len({method for method, _ in kept}) == 3 < len(kept), "explicit integrators share the code of a method"
+    assert all((method, METHODS.get(method).default_integrator) in kept for method, _ in kept), "own integrators first"
+    assert {(x.method, x.integrator) for x in out if x.mechanism == "driven-four-bar"} == straight
+    assert out[0].why.startswith("its code takes about 1.9 s to compile for 9 coordinates, and the 6.58 s that are")
+    assert not effort.left_out([mechanism, other], asked, 100.0 * each)
+    enough = effort.left_out([mechanism, other], asked, 15.5 * each)
+    assert {x.mechanism for x in enough} == {"driven-four-bar"}, "the base comes first"
+
+
+def test_what_is_left_out_is_listed_and_not_run():
+    study = stress(["pendulum"], ["gravity"], ["lagrange", "ggl"], quick=False, compilation=0.5)
+    assert {(row.method, row.integrator) for row in study.rows} == {("lagrange", "rk4"), ("lagrange", "dop853")}
+    listed = study.to_json()["left_out"]
+    assert [(x["mechanism"], x["method"], x["integrator"]) for x in listed] == [
+        ("pendulum-stressed", "ggl", "radau5"),
+        ("pendulum-stressed", "lagrange", "radau5"),
+    ]
+
+
+def test_forms_are_asked_for_once(monkeypatch):
+    from symgen import api
+
+    asked = []
+    original = api.compile_model
+    monkeypatch.setattr(api, "compile_model", lambda *a: asked.append(a) or original(*a))
+    base = Base.of("pendulum")
+    moved = msgspec.structs.replace(base.stressed, title="the same equations")
+    for mechanism in (base.stressed, moved):
+        model = KnownModel(mechanism)
+        for _ in range(3):
+            model.ready(make_plan(model, Settings(method="udwadia-kalaba", integrator="rk4", shape="looped")))
+    assert len(asked) <= 1
+
+
+def test_no_cell_depends_on_what_a_journal_does_not_know():
+    """Modules outside the key of a cell must not be imported by what computes cells."""
+    names = [f"symgen.study.{name.removesuffix('.py')}" for name in sorted(TELLING)]
+    code = f"import sys, symgen.study.stress_cells; print([n for n in {names} if n in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
+# -- references --------------------------------------------------------------------------------------------------------
+
+
+def equations_of(name, **changes):
+    mechanism = Base.of(name).stressed
+    model = symgen.load(mechanism)
+    values = model.parameters(changes)
+    compiled, start = model.ready(make_plan(model, Settings(method="lagrange")), values)
+    nq, nv = compiled.info.nq, compiled.info.nv
+    return CompiledEquations(mechanism, values), start.y[:nq].copy(), start.y[nq : nq + nv].copy()
+
+
+def test_what_conserves_energy_is_not_stiff_however_long_it_lasts():
+    """Its modes decay and grow in pairs: the slider-crank's fastest is 16 1/s, which over 2000 s is 3e4 e-foldings."""
+    equations, q, v = equations_of("slider-crank")
+    y = equations.project(0.0, np.concatenate([q, v]))
+    assert stiff.decay(equations, y) * 2000.0 > stiff.STIFF_FOLDINGS
+    assert not stiff.is_stiff(equations, y, 2000.0)
+    damped, q, v = equations_of("slider-crank", stress_damping=1e8)
+    assert stiff.is_stiff(damped, damped.project(0.0, np.concatenate([q, v])), 1.0)
+
+
+def test_compiled_rates_are_those_of_numpy():
+    equations, q, v = equations_of("slider-crank", stress_stiffness=100.0)
+    y = equations.project(0.0, np.concatenate([q, v + 0.1]))
+    expected = super(CompiledEquations, equations).rate(0.0, y)
+    np.testing.assert_allclose(equations.rate(0.0, y), expected, rtol=1e-9, atol=1e-9)
+
+
+def test_a_reference_over_its_budget_says_so(monkeypatch):
+    monkeypatch.setattr("symgen.study.motion.BUDGET", 100)
+    equations, q, v = equations_of("slider-crank")
+    with pytest.raises(stiff.OverBudgetError, match="takes more than 100 evaluations"):
+        motion(equations, q, v, np.linspace(0.0, 1.0, 5))
+    monkeypatch.setattr(stiff, "BUDGET", 100)
+    monkeypatch.setattr("symgen.study.motion.is_stiff", lambda equations, y, until: True)
+    with pytest.raises(stiff.OverBudgetError, match="takes more than 100 evaluations"):
+        motion(equations, q, v, np.linspace(0.0, 1.0, 5))
+
+
+def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
+    level = CASES.get("gravity").levels(Base.of("slider-crank"), False)[1]
+    best = compute(ReferenceTask(level))
+    monkeypatch.setattr("symgen.study.motion.BUDGET", 100)
+    found = compute(ReferenceTask(level))
+    assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
+    np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
+    longer = CASES.get("duration").levels(Base.of("slider-crank"), False)[1]
+    monkeypatch.setattr(other_route, "BUDGET", 100)  # a run is stopped some time after that
+    failed = compute(ReferenceTask(longer))
+    assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by direct-corr")
+
+
+def sinking():
+    """A spatial point mass that sinks against a strong damper: v = m g / c along the damper, in closed form."""
+    builder = symgen.MechanismBuilder("sinking-in-space", space="spatial", gravity=(0.0, 0.0, -9.81))
+    builder.parameter("c", 1e8)
+    builder.body("bob", type="point", mass=2.0, position=(0.0, 0.0, -1.0), velocity=(0.0, 0.0, 0.0))
+    builder.joint("guide", "distance", between=("ground", "bob"), at=((1e6, 0.0, -1.0), "centre"), length=1e6)
+    builder.force("damper", "spring-damper", between=("ground", "bob"), at=((0.0, 0.0, 0.0), "centre"), damping="c")
+    return symgen.load(builder.build())
+
+
+def test_stiff_motions_in_space_have_a_reference():
+    model = sinking()
+    times = np.linspace(0.0, 1.0, 5)
+    found = other_route.agreed(model, {"c": 1e8}, times, decay=1e8 / 2.0)
+    assert found.how.startswith("direct-correction with radau5") and found.estimated_error < 1e-9
+    np.testing.assert_allclose(found.q[:, 2], -1.0 - 2.0 * 9.81 / 1e8 * times, rtol=0.0, atol=1e-9)
+
+
+def test_implicit_references_end_with_the_size():
+    with pytest.raises(SimulationError, match="fastest decay, 1e\\+12 1/s, asks for implicit steps"):
+        other_route.agreed(symgen.load("stewart-platform"), {}, np.linspace(0.0, 1.0, 3), decay=1e12)

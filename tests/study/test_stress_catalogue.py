@@ -1,0 +1,129 @@
+"""What a study over many models says: sums over models instead of sentences about each."""
+
+from dataclasses import replace
+
+import pytest
+
+from symgen.report import stress as report
+from symgen.study.findings import FEW_MODELS, cause, findings
+from symgen.study.stress_map import outcomes_of_models, shares_of_models
+from symgen.study.stress_rows import Limit, Row, Stress
+
+MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
+
+
+def row(model, method, outcome, error=1e-6, **changes):
+    base = Row(
+        *(model, "stiffness", "1", (1.0,), method, "rk4", 1e-3, 1.0, outcome, error, 1e-9, "ok", None, 4000),
+        *(1e-12, 1e-12, 0.0, "", "", True),
+    )
+    return replace(base, **changes)
+
+
+def penalty(model, factor, outcome):
+    return row(model, "penalty", outcome, family="penalty-factor", case=f"a = {factor:g}", values=(factor,))
+
+
+def gains(model, alpha, outcome):
+    plane = {"family": "alpha-beta", "values": (alpha, alpha), "watched": False}
+    return row(model, "baumgarte", outcome, **plane)
+
+
+ROWS = (
+    row("-", "lagrange", "ok"),
+    *(row(model, "lagrange", "ok") for model in MODELS),
+    row(MODELS[0], "auto", "ok", integrator="auto", step=None),
+    row(MODELS[1], "direct-correction", "inaccurate", 0.5, status="failed"),
+    row(MODELS[1], "direct-correction", "unjudged", None, case="2", status="not run"),
+    *(penalty(model, 1e8, "ok") for model in MODELS),
+    *(penalty(model, 1e2, "inaccurate") for model in MODELS),
+    *(gains(model, alpha, outcome) for model in MODELS[:2] for alpha, outcome in ((2e3, "ok"), (3e3, "diverged"))),
+    gains(MODELS[2], 1e3, "ok"),
+    gains(MODELS[2], 2e3, "diverged"),
+)
+LIMITS = tuple(
+    Limit(model, "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
+    for model, first, second in (("model-0", 0.1, 0.2), ("model-1", 0.3, 0.2), ("model-2", 0.3, 0.2))
+    for method, step in (("lagrange", first), ("penalty", second))
+)
+STUDY = Stress(MODELS, ROWS, LIMITS, (), ())
+
+
+def test_outcomes_are_counted_by_model():
+    found = dict(outcomes_of_models(ROWS))
+    assert list(found) == ["-", *MODELS]
+    assert found["-"]["ok"] == 1 and found["model-1"]["unjudged"] == 1
+    assert sum(sum(n.values()) for n in found.values()) == len(ROWS)
+    # planes are left out, and what could not be judged
+    assert ("model-1", 2, 4) in shares_of_models(ROWS) and "-" not in [m for m, _, _ in shares_of_models(ROWS)]
+
+
+def test_findings_sum_up_many_models():
+    found = findings(STUDY)
+    text = " ".join(found)
+    assert "Of the models, model-0 went best, 3 of 4 cells accurate, and model-1 worst, 2 of 4." in found
+    assert "Penalty of penalty with rk4: accurate on all models for a = 1e+08." in found
+    assert "gains on 3 models: with real roots the first cell that is not accurate has |root| h from 2 to 3; rk4" in text
+    assert "hardest is 1 on model-1: 1 ok and 1 inaccurate" in text
+    assert "Largest stable steps in damping, of 3 models: lagrange with rk4 on 2 and penalty with rk4 on 1." in found
+    assert not [sentence for sentence in found if sentence.startswith("Largest steps on")]
+
+
+def test_cases_without_a_reference_are_named_with_their_model():
+    unusable = (("model-2", "duration", "20 s", "too long"),)
+    text = " ".join(findings(replace(STUDY, unusable=unusable)))
+    assert "1 case could not be judged for want of a reference: duration 20 s on model-2." in text
+
+
+def test_no_penalty_for_all_is_said():
+    rows = (*(penalty(model, 1e8, "ok") for model in MODELS[1:]), penalty(MODELS[0], 1e8, "diverged"))
+    assert "Penalty of penalty with rk4: no factor suits all models; a = 1e+08 suits 3 of 4." in findings(
+        replace(STUDY, rows=rows)
+    )
+
+
+def test_few_models_are_named_one_by_one():
+    found = " ".join(findings(replace(STUDY, models=MODELS[:1])))
+    assert "Largest steps on model-0" in found and "went best" not in found
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"family": "length-ratio", "values": (1e4,), "error": 8e-3, "step": None}, "little on links of 10000 m"),
+        ({"family": "length-ratio", "values": (1e2,), "error": 8e-3}, "constant step"),
+        ({"family": "length-ratio", "values": (1e2,), "error": None, "step": None}, "add up"),
+        ({"family": "singular-passage", "step": None}, "near a singular position"),
+        ({"family": "duration", "step": None}, "add up"),
+        ({"family": "duration", "position_violation_max": 2e-3}, "angles of many turns"),
+    ],
+)
+def test_causes_are_told_from_the_rows(changes, words):
+    assert words in cause(replace(row("-", "null-space", "inaccurate"), **changes))
+
+
+def test_the_report_shows_all_models_at_once(monkeypatch):
+    monkeypatch.setattr(report, "regions", lambda study: ())
+    document = report.stress_report(STUDY)
+    section = next(s for s in document.sections if s.title == "Map of methods and cases")
+    assert section.pictures[0].name == "overview" and section.pictures[0].data.startswith(b"<svg")
+    first = section.tables[0]
+    assert [r[0] for r in first.rows] == ["mechanisms of families", *MODELS]
+    assert sum(int(str(r[1])) for r in first.rows) == len(ROWS)
+
+
+def test_too_many_cells_are_not_listed(monkeypatch):
+    monkeypatch.setattr(report, "regions", lambda study: ())
+    monkeypatch.setattr(report, "maps", lambda study: ())
+    monkeypatch.setattr(report, "MOST_CELLS", len(ROWS) - 1)
+    section = report.stress_report(STUDY).sections[-1]
+    assert section.title == "All cells" and not section.parts and "--csv" in section.text[0]
+
+
+def test_pairs_left_out_are_in_the_report(monkeypatch):
+    monkeypatch.setattr(report, "regions", lambda study: ())
+    monkeypatch.setattr(report, "maps", lambda study: ())
+    out = (("model-0", "ggl", "radau5", "too long"),)
+    document = report.stress_report(replace(STUDY, left_out=out))
+    section = next(s for s in document.sections if s.title == "What is not judged")
+    assert section.tables[0].rows == out
