@@ -1,7 +1,8 @@
 """What a cell of a stress study may cost, told from a mechanism's size and never by a clock.
 
-Budgets are what small mechanisms may take, and fall as the cost of an evaluation grows: with the coordinates where
-nothing dense is made, with the third power of a stage's unknowns where Newton matrices are.
+Budgets are what small mechanisms may take, and fall as mechanisms grow: with the coordinates for explicit schemes,
+with the third power of a stage's unknowns for implicit ones. That is more than sparse Newton matrices cost, and keeps
+studies of large mechanisms short.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ FURTHER, LEAST_FURTHER = 100, 100_000
 SMALL, SMALL_STAGE = 15, 30
 #: No budget of implicit stages is below this: some hundred steps.
 LEAST_IMPLICIT = 1_500
-#: Mechanisms of more coordinates get no implicit reference: its Newton matrices are dense.
+#: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
 LARGEST_IMPLICIT_REFERENCE = 40
 #: An explicit adaptive run is not begun where the decay at the start asks for so many times its budget.
 HOPELESS = 1.5

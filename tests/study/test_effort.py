@@ -99,8 +99,9 @@ def test_cells_without_a_reference_are_not_run(monkeypatch):
 
 
 def test_pairs_without_a_looped_shape():
-    assert effort.needs_straight("lagrange", "radau5") and effort.needs_straight("null-space", "rk4")
-    assert not effort.needs_straight("lagrange", "dop853") and not effort.needs_straight(AUTO, AUTO)
+    assert effort.needs_straight("null-space", "rk4") and effort.needs_straight("coordinate-partitioning", "dop853")
+    assert not effort.needs_straight("lagrange", "dop853") and not effort.needs_straight("lagrange", "radau5")
+    assert not effort.needs_straight(AUTO, AUTO)
 
 
 def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
@@ -108,24 +109,25 @@ def test_pairs_are_left_out_when_the_time_of_compilation_is_used_up():
     each = effort.straight_seconds(mechanism)
     asked = [pair for name in METHODS.names for pair in pairs(name)]
     straight = {pair for pair in asked if effort.needs_straight(*pair)}
-    out = effort.left_out([mechanism, other], asked, 3.5 * each)
+    out = effort.left_out([mechanism, other], asked, 1.5 * each)
     kept = straight - {(x.method, x.integrator) for x in out if x.mechanism == "four-bar"}
-    assert len({method for method, _ in kept}) == 3 < len(kept), "explicit integrators share the code of a method"
+    assert len({method for method, _ in kept}) == 1 < len(kept), "explicit integrators share the code of a method"
     assert all((method, METHODS.get(method).default_integrator) in kept for method, _ in kept), "own integrators first"
     assert {(x.method, x.integrator) for x in out if x.mechanism == "driven-four-bar"} == straight
-    assert out[0].why.startswith("its code takes about 1.9 s to compile for 9 coordinates, and the 6.58 s that are")
+    assert out[0].why.startswith("its code takes about 1.9 s to compile for 9 coordinates, and the 2.82 s that are")
     assert not effort.left_out([mechanism, other], asked, 100.0 * each)
-    enough = effort.left_out([mechanism, other], asked, 15.5 * each)
+    enough = effort.left_out([mechanism, other], asked, 3.5 * each)
     assert {x.mechanism for x in enough} == {"driven-four-bar"}, "the base comes first"
 
 
 def test_what_is_left_out_is_listed_and_not_run():
-    study = stress(["pendulum"], ["gravity"], ["lagrange", "ggl"], quick=False, compilation=0.5)
-    assert {(row.method, row.integrator) for row in study.rows} == {("lagrange", "rk4"), ("lagrange", "dop853")}
+    study = stress(["pendulum"], ["gravity"], ["lagrange", "null-space"], quick=False, compilation=0.5)
+    run = {("lagrange", "rk4"), ("lagrange", "dop853"), ("lagrange", "radau5")}
+    assert {(row.method, row.integrator) for row in study.rows} == run
     listed = study.to_json()["left_out"]
     assert [(x["mechanism"], x["method"], x["integrator"]) for x in listed] == [
-        ("pendulum-stressed", "ggl", "radau5"),
-        ("pendulum-stressed", "lagrange", "radau5"),
+        ("pendulum-stressed", "null-space", "rk4"),
+        ("pendulum-stressed", "null-space", "dop853"),
     ]
 
 
@@ -200,9 +202,10 @@ def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)
     longer = CASES.get("duration").levels(Base.of("slider-crank"), False)[1]
-    monkeypatch.setattr(other_route, "BUDGET", 100)  # a run is stopped some time after that
+    monkeypatch.setattr(other_route, "BUDGET", 100)  # a run is stopped some time after that, the slower one at least
     failed = compute(ReferenceTask(longer))
-    assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by direct-corr")
+    assert failed["unusable"].startswith("the reference takes more than 100 evaluations; the reference by ")
+    assert "does not come to" in failed["unusable"]
 
 
 def sinking():
