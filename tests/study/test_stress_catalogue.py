@@ -63,7 +63,9 @@ def test_findings_sum_up_many_models():
     text = " ".join(found)
     assert "Of the models, model-0 went best, 3 of 4 cells accurate, and model-1 worst, 2 of 4." in found
     assert "Penalty of penalty with rk4: accurate on all models for a = 1e+08." in found
-    assert "gains on 3 models: with real roots the first cell that is not accurate has |root| h from 2 to 3; rk4" in text
+    assert (
+        "gains on 3 models: with real roots the first cell that is not accurate has |root| h from 2 to 3; rk4" in text
+    )
     assert "hardest is 1 on model-1: 1 ok and 1 inaccurate" in text
     assert "Largest stable steps in damping, of 3 models: lagrange with rk4 on 2 and penalty with rk4 on 1." in found
     assert not [sentence for sentence in found if sentence.startswith("Largest steps on")]
