@@ -96,13 +96,17 @@ def overview(study: Stress) -> Picture:
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
-        image = ax.imshow(shares, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto", interpolation="nearest")
-        for i, j in np.argwhere(np.isfinite(shares)):
-            colour = "white" if shares[i, j] < 55.0 else "black"
-            text = f"{shares[i, j]:.0f}" + (f" ({wrong[i, j]})" if wrong[i, j] else "")
-            ax.text(j, i, text, ha="center", va="center", fontsize=5.5, color=colour)
+        image = ax.imshow(shares, cmap="cividis", vmin=0.0, vmax=100.0, aspect="auto", interpolation="none")
+        places = np.argwhere(wrong > 0)
+        ax.plot(places[:, 1], places[:, 0], "s", markersize=5.5, markerfacecolor="none", markeredgecolor="#D55E00")
         ax.grid(False)
-        ax.set_yticks(range(len(shown.lines)), [m if m == i else f"{m}, {i}" for m, i in shown.lines], fontsize=7.0)
+        # a method's name stands once, where its integrators begin: letters are most of the file
+        before = ("", *(method for method, _ in shown.lines))
+        labels = [
+            integrator if method == last else method if method == integrator else f"{method}, {integrator}"
+            for last, (method, integrator) in zip(before, shown.lines, strict=False)
+        ]
+        ax.set_yticks(range(len(shown.lines)), labels, fontsize=7.0)
         names = ["own mechanisms" if model == "-" else model for model in models]
         ax.set_xticks(range(len(models)), names, rotation=90, fontsize=7.0)
         ax.tick_params(which="both", length=0)
@@ -110,7 +114,7 @@ def overview(study: Stress) -> Picture:
 
     caption = (
         "Accurate cells of those judged [percent], a row for each pair of method and integrator, a column for each "
-        "model; in brackets the runs that report success although their error exceeds 1e-3 m; white: not run."
+        "model; a frame marks where runs report success although their error exceeds 1e-3 m; white: not run."
     )
     alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
     return drawn("overview", caption, alternative, draw, height=2.0 + 0.17 * len(shown.lines), wide=True)
