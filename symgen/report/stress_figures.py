@@ -110,7 +110,7 @@ def overview(study: Stress) -> Picture:
         names = ["own mechanisms" if model == "-" else model for model in models]
         ax.set_xticks(range(len(models)), names, rotation=90, fontsize=7.0)
         ax.tick_params(which="both", length=0)
-        figure.colorbar(image, ax=ax, label="accurate cells of those judged [percent]", fraction=0.03, pad=0.02)
+        figure.colorbar(image, ax=ax, label="accurate [percent]", fraction=0.03, pad=0.02)
 
     caption = (
         "Accurate cells of those judged [percent], a row for each pair of method and integrator, a column for each "
