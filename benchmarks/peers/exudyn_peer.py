@@ -13,15 +13,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-sys.exudynFast = True  # type: ignore[attr-defined]
+sys.exudynFast = True  # type: ignore[attr-defined]  # read by the import below
 
-import exudyn as exu  # noqa: E402
-import numpy as np  # noqa: E402
-from exudyn import itemInterface as items  # noqa: E402
+import exudyn as exu  # noqa: E402  # after the choice of the build
+import numpy as np  # noqa: E402  # after the choice of the build
+from exudyn import itemInterface as items  # noqa: E402  # after the choice of the build
 
-from . import reference  # noqa: E402
-from .measure import Measured, Row, best_of, row  # noqa: E402
-from .models import GROUND, Array, Model, Point  # noqa: E402
+from . import reference  # noqa: E402  # after the choice of the build
+from .measure import Measured, Row, best_of, row  # noqa: E402  # after the choice of the build
+from .models import GROUND, Array, Model, Point  # noqa: E402  # after the choice of the build
 
 NAME = "exudyn"
 VERSION = str(exu.__version__)

@@ -87,9 +87,9 @@ class Quantity(Protocol):
     """Anything with a name and a unit."""
 
     @property
-    def name(self) -> str: ...  # noqa: D102
+    def name(self) -> str: ...  # noqa: D102  # the class says what they are
     @property
-    def unit(self) -> str: ...  # noqa: D102
+    def unit(self) -> str: ...  # noqa: D102  # the class says what they are
 
 
 def labelled(values: Array, quantities: Iterable[Quantity]) -> Labelled:

@@ -125,4 +125,4 @@ def test_redundant_rows_are_shown(tmp_path, capsys):
 def test_the_python_interface_is_lazy():
     assert set(symgen.__all__) <= set(dir(symgen))
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        symgen.nothing  # noqa: B018
+        symgen.nothing  # noqa: B018  # looking it up is the test

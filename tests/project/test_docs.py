@@ -212,7 +212,7 @@ KINDS = [*((k, JOINTS) for k in JOINTS.names), *((k, FORCES) for k in FORCES.nam
 def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: object) -> None:
     text = page("file-format")
     assert any(cell.startswith(f"`{kind}`") for cell in rows(text)), f"{kind} is in no table"
-    keys = {field.name for field in msgspec.structs.fields(registry.get(kind))}  # type: ignore[attr-defined]
+    keys = {field.name for field in msgspec.structs.fields(registry.get(kind))}  # type: ignore[attr-defined]  # a registry of structs
     table = " ".join(rows(section(text, f"`{kind}`")))
     assert set(re.findall(r"`(\w+)`", table)) == keys
 
