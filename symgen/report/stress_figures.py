@@ -107,13 +107,13 @@ def overview(study: Stress) -> Picture:
             for last, (method, integrator) in zip(before, shown.lines, strict=False)
         ]
         ax.set_yticks(range(len(shown.lines)), labels, fontsize=7.0)
-        names = ["own mechanisms" if model == "-" else model for model in models]
+        names = ["own" if model == "-" else model for model in models]
         ax.set_xticks(range(len(models)), names, rotation=90, fontsize=7.0)
         ax.tick_params(which="both", length=0)
-        figure.colorbar(image, ax=ax, label="accurate [percent]", fraction=0.03, pad=0.02)
+        figure.colorbar(image, ax=ax, label="accurate [percent]", ticks=[0, 50, 100], fraction=0.03, pad=0.02)
 
     caption = (
-        "Accurate cells of those judged [percent], a row for each pair of method and integrator, a column for each "
+        "Accurate cells of those judged, a row for each pair of method and integrator, a column for each "
         "model; a frame marks where runs report success although their error exceeds 1e-3 m; white: not run."
     )
     alternative = "Share of accurate cells by method and model; the tables below say the same for each family."
