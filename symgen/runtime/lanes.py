@@ -14,7 +14,7 @@ from typing import Any
 
 from numba import types
 
-from symgen.ir.program import LANE_COUNTERS, LANES
+from symgen.ir.program import LANE_COUNTERS, LANES, lane_bases
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
@@ -210,7 +210,6 @@ def lane_runs(
     one, outputs = part(room, at, nw), part(room, at + nw, k_times * width * _L)
     p_at, w_at = 2 * full * _L, (2 * full + n_p) * _L
     total = selected.shape[0]
-    lanes = _L + 0 * control[_STOP]  # a number that the compiler does not know
     for g in range(0, total, _L):
         if control[_STOP] != 0:
             return int(g)
@@ -252,7 +251,7 @@ def lane_runs(
             lane_gauges,
             limits,
             control,
-            lanes,
+            _L,
         )
         if steps < 0:
             return int(g)
@@ -307,6 +306,6 @@ def lane_runs(
 
 def room_of_lanes(n: int, n_stages: int, n_p: int, nw: int, windings: int, n_times: int) -> int:
     """Return the length of the working memory of `lane_runs`."""
-    full = (n + 3) // 4 * 4
-    numbers = (3 + n_stages) * full + n_p + nw + _SPARE + N_LANE_GAUGES
+    bases = lane_bases(n, n_p, nw)
+    numbers = bases["numbers"] + (1 + n_stages) * bases["ydot"] + N_LANE_GAUGES
     return LANES * (numbers + n_times * (n + _N_STATUS + windings)) + nw
