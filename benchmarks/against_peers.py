@@ -159,7 +159,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--model", action="append", help=f"one of {', '.join(models.NAMES)}; repeatable; default all")
     parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
     parser.add_argument("--peers-json", type=Path, help="rows of an earlier run of the peers, instead of running them")
-    parser.add_argument("--peers", default="casadi,exudyn,mujoco", help="tools to run, comma-separated")
+    parser.add_argument("--peers", default="casadi,exudyn,heyoka,mujoco", help="tools to run, comma-separated")
     parser.add_argument("--only", default="", help="settings of symgen to run: those that contain this text")
     parser.add_argument("--json", type=Path, help="file for all rows")
     parser.add_argument("--error", type=float, default=TARGET, help="error of the summary [rad]")

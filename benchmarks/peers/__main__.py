@@ -11,7 +11,7 @@ from pathlib import Path
 from . import models
 from .measure import Measured, Row, fastest, row, table
 
-PEERS = ("casadi", "exudyn", "mujoco")
+PEERS = ("casadi", "exudyn", "heyoka", "mujoco")
 
 
 def collect(model: models.Model, peer: str) -> Iterable[Row]:
