@@ -34,8 +34,9 @@ from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
 from symgen.runtime.run import RunSpec, integrate
+from symgen.settings import Settings
 
 Array = NDArray[np.float64]
 
@@ -101,7 +102,7 @@ def declared_order(method: str, integrator: str) -> int:
 
 def positions(model: Model, method: str, integrator: str, count: int) -> Array:
     """Return q at the times of comparison, from `count` constant steps; not a number where the run broke off."""
-    plan = make_plan(model, Settings(method=method, integrator=integrator, options=OPTIONS.get(method, {})))
+    plan = make_plan(model.mechanism, Settings(method=method, integrator=integrator, options=OPTIONS.get(method, {})))
     compiled, start = model.ready(plan)
     spec = RunSpec(
         until=UNTIL,

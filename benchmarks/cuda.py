@@ -31,7 +31,7 @@ from symgen.ensemble.device import DeviceRuns, compilable, usable
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.local import cores
 from symgen.ensemble.plan import make_ensemble
-from symgen.plan import Settings
+from symgen.settings import Settings
 
 #: Compute capability that is compiled for where there is no device: that of an A100.
 CAPABILITY = (8, 0)

@@ -69,12 +69,8 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         plan, numbers = stage_plan(pattern, a, len(a) * pattern.size)
         sources = np.append(np.tile(slopes, len(a)), 1.0)
         coefficients = np.append(1.0, STEP * a.ravel())
-    sparse.assemble(plan, sources, coefficients, numbers)
-    while (skipped := sparse.factorise(plan, numbers)) < 0:
-        room = int(plan[sparse.ROOM])
-        plan, numbers = sparse.longer(plan, room), sparse.longer(numbers, room)
-        plan[sparse.ROOM] = 2 * room
-        sparse.assemble(plan, sources, coefficients, numbers)
+    while (skipped := sparse.prepare(plan, sources, coefficients, numbers)) < 0:
+        plan, numbers = sparse.enlarged(plan, numbers)
     stored = sparse.stored_entries(plan)
     entries = int(plan[sparse.ENTRIES])
     return {"unknowns": int(plan[sparse.SIZE]), "entries": entries, "stored": stored, "skipped": skipped}

@@ -97,10 +97,11 @@ def reference(name: str, model: Model, until: float) -> tuple[Array, float]:
 def fitted_slope(counts: list[int], errors: list[float], floor: float) -> float | None:
     """Return minus the slope of log error over log count, over the finest steps that are clear of the floor."""
     usable = [(n, e) for n, e in zip(counts, errors, strict=True) if ABOVE_FLOOR * floor < e < 1.0]
-    coarsest = usable[-1][0] / 2**HALVINGS * 1.05 if usable else 0.0  # counts are rounded
-    window = [(n, e) for n, e in usable if n >= coarsest / 1.05**2]
-    if not window or window[0][0] > coarsest:
+    coarsest = usable[-1][0] / (0.93 * 2**HALVINGS) if usable else 0.0  # counts are rounded
+    first = max((n for n, _ in usable if n <= coarsest), default=0)
+    if first == 0:
         return None
+    window = [(n, e) for n, e in usable if n >= first]
     return -float(np.polyfit([math.log(n) for n, _ in window], [math.log(e) for _, e in window], 1)[0])
 
 

@@ -28,8 +28,8 @@ from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
 from symgen.errors import InputError
 from symgen.methods import METHODS
+from symgen.result.points import Points
 from symgen.result.result import Result
-from symgen.study.points import Points
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from benchmarks.motions import positions, run
 from benchmarks.show import show
 from symgen.api import Model, load
 from symgen.integrators import INTEGRATORS
-from symgen.study.points import Points
+from symgen.result.points import Points
 
 Array = NDArray[np.float64]
 

@@ -22,8 +22,9 @@ import symgen
 from benchmarks.show import show
 from symgen.ensemble.kernel import kernel_of
 from symgen.ensemble.local import cores
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
 from symgen.runtime.run import integrate
+from symgen.settings import Settings
 
 #: Single runs that are timed from Python; the time of one does not depend on their number.
 SINGLE = 200
@@ -63,7 +64,7 @@ def main(words: list[str]) -> None:
             assert found.counts["ok"] == len(found), found.reasons()
             row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
 
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan)
     integrate(compiled, plan.tableau, start, plan.spec)
     wall, processor, _ = timed(lambda: [integrate(compiled, plan.tableau, start, plan.spec) for _ in range(SINGLE)])

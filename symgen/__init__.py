@@ -23,9 +23,9 @@ if TYPE_CHECKING:
     from symgen.ensemble.study import Sweep
     from symgen.ensemble.sweep import sweep
     from symgen.errors import AssemblyError, InputError, SimulationError, SymgenError
-    from symgen.plan import Settings
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
+    from symgen.settings import Settings
     from symgen.study.compare import Study, compare
 
 #: Public name -> module that has it.
@@ -37,7 +37,7 @@ _WHERE = {
     "MechanismBuilder": "symgen.describe.builder",
     "Model": "symgen.api",
     "Result": "symgen.result.result",
-    "Settings": "symgen.plan",
+    "Settings": "symgen.settings",
     "SimulationError": "symgen.errors",
     "Study": "symgen.study.compare",
     "Sweep": "symgen.ensemble.study",

@@ -1,8 +1,4 @@
-"""Automatic choice of method and integrator from facts of the model, each with its reason, and a check of the result.
-
-Who leaves the choice to the program has not looked at tolerances either. So a run with anything chosen is repeated with
-finer steps until two runs agree; where they do not, the result says so and is not ok.
-"""
+"""Automatic choice of method and integrator from facts of the model, each with its reason."""
 
 from __future__ import annotations
 
@@ -16,16 +12,17 @@ from numpy.typing import NDArray
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
+from symgen.plan import make_plan
+from symgen.run_setup import ready
 from symgen.runtime import abi
-from symgen.runtime.probe import call_rhs
-from symgen.runtime.run import integrate
+from symgen.runtime.assembly import state_scales
+from symgen.runtime.probe import Ready
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.api import Model
+    from symgen.describe.mechanism import Mechanism
     from symgen.model import CompiledModel
-    from symgen.plan import Plan, Settings
     from symgen.runtime.assembly import Start
-    from symgen.runtime.run import Outcome
 
 #: What asks for an automatic choice.
 AUTO = "auto"
@@ -35,12 +32,6 @@ STIFF_RATIO = 20.0
 _STEPS_A_CHANGE = 8.0
 #: Above this many unknowns of a stage nobody asks for eigenvalues: they would take longer than a run.
 LARGEST_LINEARISED = 400
-#: Runs agree when no point of a body differs by more than this [m], and by this share of the largest body's length.
-AGREEMENT, AGREEMENT_SHARE = 2.5e-4, 1e-3
-#: Finer runs have this share of the tolerances, where they differ by far the square of it, or this share of the step.
-FINER, FINER_STEP = 0.1, 0.5
-#: Tolerances are not made smaller than this.
-SMALLEST_RTOL = 1e-13
 
 
 @dataclass(frozen=True)
@@ -75,7 +66,7 @@ class Facts:
         return self.fastest_decay / 3.0 / max(self.slowest_change * _STEPS_A_CHANGE, 1e-300)
 
 
-def linearised(compiled: CompiledModel, start: Start) -> NDArray[np.float64]:
+def linearised(compiled: CompiledModel, start: Start, scales: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the Jacobian of (q', v') with respect to (q, v) at the start, by central differences: an estimate only.
 
     Parameters
@@ -84,38 +75,41 @@ def linearised(compiled: CompiledModel, start: Start) -> NDArray[np.float64]:
         A method whose rates are those of the state.
     start : Start
         Where to linearise.
+    scales : Array, shape (nq + nv,)
+        What the state is compared with, from `symgen.runtime.assembly.state_scales`.
     """
-    width = len(start.y) - 1
+    width, rhs = len(start.y) - 1, Ready(compiled.law_module.rhs, abi.RHS)
     result = np.zeros((width, width))
     iw = np.zeros(len(COUNTERS), dtype=np.int64)
     for j in range(width):
-        step = 1e-6 * max(1.0, abs(float(start.y[j])))
+        step = 1e-6 * max(scales[j], abs(float(start.y[j])))
         sides = []
         for sign in (1.0, -1.0):
             y, rate = start.y.copy(), np.zeros_like(start.y)
             y[j] += sign * step
-            call_rhs(compiled.law_module.rhs, 0.0, y, start.p, start.w.copy(), iw, rate)
+            rhs(0.0, y, start.p, start.w.copy(), iw, rate)
             sides.append(rate[:width])
         result[:, j] = (sides[0] - sides[1]) / (2.0 * step)
     return result
 
 
-def gather(model: Model, parameters: Mapping[str, float], shape: str = "auto") -> Facts:
-    """Return the facts of a model with given parameters; `shape` is that of the code that tells them."""
-    from symgen.plan import Settings, make_plan
-
-    plan = make_plan(model, Settings(method="lagrange", integrator="dop853", shape=shape))
-    compiled, start = model.ready(plan, parameters)
+def gather(mechanism: Mechanism, parameters: Mapping[str, float], shape: str = "auto") -> Facts:
+    """Return the facts of a mechanism with given parameters; `shape` is that of the code that tells them."""
+    plan = make_plan(mechanism, Settings(method="lagrange", integrator="dop853", shape=shape))
+    compiled, start = ready(mechanism, plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
     small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
-    jacobian = linearised(compiled, start) if small else np.zeros((1, 1))
+    scales = state_scales(compiled, start.w, plan.spec.until)
+    jacobian = linearised(compiled, start, scales) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)
     iw = np.zeros(len(COUNTERS), dtype=np.int64)
-    call_rhs(compiled.law_module.rhs, 0.0, start.y.copy(), start.p, start.w.copy(), iw, rate)
-    speed = max(1e-12, float(np.abs(start.y[nq:width]).max(initial=0.0)))
-    acceleration = float(np.abs(rate[nq:width]).max(initial=0.0))
+    Ready(compiled.law_module.rhs, abi.RHS)(0.0, start.y.copy(), start.p, start.w.copy(), iw, rate)
+    # speeds and accelerations of points, over the mechanism's length
+    levers = 1.0 / (float(start.w[abi.LENGTH]) * np.sqrt(compiled.section(start.w, "gauge")))
+    speed = float(np.abs(start.y[nq:width] * levers).max(initial=0.0))
+    acceleration = float(np.abs(rate[nq:width] * levers).max(initial=0.0))
     change = max(speed, np.sqrt(acceleration), 1.0 / plan.spec.until)
     return Facts(
         rows=compiled.info.m,
@@ -182,115 +176,21 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
     )
 
 
-def resolve(model: Model, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
+def resolve(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
     """Return settings without ``auto``, and the reasons of each choice.
 
     Parameters
     ----------
-    model : Model
-        The model.
+    mechanism : Mechanism
+        What is run.
     settings : Settings
         As asked for.
     """
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
-    facts = gather(model, settings.parameters, settings.shape)
+    facts = gather(mechanism, settings.parameters, settings.shape)
     method, integrator, reasons = decide(facts, settings.method, settings.integrator)
     options = dict(settings.options)
     if settings.method == AUTO and method == "direct-correction" and not facts.massless:
         options.setdefault("method.weight", "mass")
     return replace(settings, method=method, integrator=integrator, options=options), reasons
-
-
-# -- the check ---------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Settled:
-    """A run that was repeated with finer steps.
-
-    Attributes
-    ----------
-    plan, outcome : Plan, Outcome
-        The finest run and what it was.
-    doubt : str or None
-        Why the motion is not known well enough; None where two runs agree.
-    note : str or None
-        What was done, one sentence.
-    evaluations : int
-        Of all runs together.
-    """
-
-    plan: Plan
-    outcome: Outcome
-    doubt: str | None
-    note: str | None
-    evaluations: int
-
-
-def settle(model: Model, asked: Settings, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Settled:
-    """Repeat a run with finer steps until two runs agree.
-
-    Tolerances that were not asked for are made smaller until they do; a tolerance or step that was asked for is kept,
-    and its run is compared with one finer run.
-
-    Parameters
-    ----------
-    model : Model
-        What was run.
-    asked : Settings
-        As asked for, with ``auto``.
-    plan, compiled, outcome : Plan, CompiledModel, Outcome
-        The run.
-
-    Returns
-    -------
-    Settled
-        The run as it is where it did not come to its end.
-    """
-    from symgen.study.points import Points
-
-    total = outcome.evaluations
-    if outcome.code != abi.DONE:
-        return Settled(plan, outcome, None, None, total)
-    points = Points.of(model.mechanism, model.parameters(asked.parameters))
-    longest = max((length for _, length in points.bodies), default=0.0)
-    limit = min(AGREEMENT, AGREEMENT_SHARE * longest) if longest > 0.0 else AGREEMENT
-    free = plan.spec.adaptive and asked.rtol is None and asked.atol is None
-    share, apart = FINER, 0.0
-    nq = compiled.info.nq
-    while True:
-        finer = _finer(plan, share)
-        name = _steps_of(finer)
-        if free and apart > 0.0 and finer.spec.rtol < SMALLEST_RTOL:
-            return Settled(plan, outcome, f"two runs still differ by {apart:.2g} m at {_steps_of(plan)}", None, total)
-        second = integrate(compiled, plan.tableau, outcome.start, finer.spec)
-        total += second.evaluations
-        if second.interrupted:
-            note = "the check with finer steps was interrupted"
-            return Settled(plan, replace(outcome, interrupted=True), note, None, total)
-        if second.code != abi.DONE:
-            what = second.reason if second.code != abi.STOPPED else "it takes too many evaluations"
-            return Settled(plan, outcome, f"a check with {name} did not come to its end: {what}", None, total)
-        with np.errstate(all="ignore"):
-            apart = points.distance(outcome.states[:, :nq], second.states[:, :nq])
-        if apart <= limit:
-            kept, result = (finer, second) if free else (plan, outcome)
-            return Settled(kept, result, None, f"checked: a run with {name} agrees within {apart:.2g} m", total)
-        if not free:
-            return Settled(plan, outcome, f"a run with {name} differs by {apart:.2g} m", None, total)
-        # errors fall about as tolerances do: far from agreement, the next but one is tried
-        share = FINER**2 if apart > limit / FINER else FINER
-        plan, outcome = finer, second
-
-
-def _finer(plan: Plan, share: float) -> Plan:
-    spec = plan.spec
-    if spec.adaptive:
-        return replace(plan, spec=replace(spec, rtol=spec.rtol * share, atol=spec.atol * share))
-    assert spec.step is not None, "a constant step is given"
-    return replace(plan, spec=replace(spec, step=spec.step * FINER_STEP))
-
-
-def _steps_of(plan: Plan) -> str:
-    return f"rtol = {plan.spec.rtol:g}" if plan.spec.adaptive else f"step = {plan.spec.step:g} s"

@@ -1,15 +1,28 @@
-"""Every error symgen raises on purpose, with the exit code the command line gives it."""
+"""Every error symgen raises on purpose, with the exit code the command line gives it, and the words they are made of.
+
+Whatever a message repeats of a file or an argument goes through `quoted`, so that it is short and printable.
+"""
 
 from __future__ import annotations
 
 import difflib
 from collections.abc import Iterable
 
+#: Characters at most of a part of a message, such as what was found, and of a text that it repeats in quotes.
+LONGEST_PART, LONGEST_QUOTE = 1000, 60
+#: Known names that a hint lists at most, that it compares a word with at most, and the length of such a word.
+MOST_LISTED, MOST_COMPARED, LONGEST_COMPARED = 60, 2000, 64
+#: Share of letters that two spellings of one word have in common.
+CLOSE = 0.6
+
 
 class SymgenError(Exception):
-    """Base of all errors whose text is one sentence written for the person at the keyboard."""
+    """Base of all errors whose text is one printable sentence written for the person at the keyboard."""
 
     exit_code = 1
+
+    def __str__(self) -> str:
+        return printable(super().__str__())
 
 
 class InputError(SymgenError):
@@ -30,8 +43,13 @@ class InputError(SymgenError):
     exit_code = 2
 
     def __init__(self, where: str, expected: str, got: str, hint: str = "") -> None:
-        self.where, self.expected, self.got, self.hint = where, expected, got, hint
-        super().__init__(f"{where}: expected {expected}, got {got}" + (f"; {hint}" if hint else ""))
+        self.where, self.expected, self.got, self.hint = (
+            text if len(text) <= LONGEST_PART else f"{text[:LONGEST_PART]}..." for text in (where, expected, got, hint)
+        )
+        super().__init__(f"{self.where}: expected {self.expected}, got {self.got}" + (f"; {self.hint}" if hint else ""))
+
+    def __reduce__(self) -> tuple[type, tuple[str, str, str, str]]:
+        return type(self), (self.where, self.expected, self.got, self.hint)
 
 
 class AssemblyError(SymgenError):
@@ -44,10 +62,34 @@ class SimulationError(SymgenError):
     """A run could not be started or its result cannot be used."""
 
 
+def printable(text: str) -> str:
+    """Return `text` on one line, with escapes in place of characters that a terminal would act on or not show."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
+    """Return `text` in quotes, shortened and without control characters, fit for a one-line message."""
+    if isinstance(text, str):
+        shown = repr(text[:longest])  # a text may be as long as a file
+        return shown if len(text) <= longest and len(shown) <= longest else f"{shown[: longest - 4]}...{shown[0]}"
+    try:
+        shown = "'" + printable(str(text)) + "'"
+    except Exception:  # whatever an object of somebody else does when it is asked for its text
+        return f"an object of type '{type(text).__name__}'"
+    return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
     names = sorted(known)
-    close = difflib.get_close_matches(word, names, n=1, cutoff=0.6)
-    if close:
-        return f"did you mean '{close[0]}'?"
-    return "known: " + ", ".join(names) if names else ""
+    if len(word) <= LONGEST_COMPARED:
+        alike = [name for name in names if 2 * min(len(name), len(word)) >= CLOSE * (len(name) + len(word))]
+        if len(alike) > MOST_COMPARED:
+            alike.sort(key=lambda name: sum(a != b for a, b in zip(name, word, strict=False)))
+        close = difflib.get_close_matches(word, alike[:MOST_COMPARED], n=1, cutoff=CLOSE)
+        if close:
+            return f"did you mean '{close[0]}'?"
+    more = f" and {len(names) - MOST_LISTED} more" if len(names) > MOST_LISTED else ""
+    return "known: " + ", ".join(names[:MOST_LISTED]) + more if names else ""

@@ -25,6 +25,7 @@ from symgen.lower.looped.law import refuse_dense
 from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Forms, Tables, build_tables
+from symgen.lower.record import record_form
 from symgen.model import LawInfo
 from symgen.store.entries import Entries, FolderName
 from symgen.store.modules import load_module
@@ -49,6 +50,7 @@ class LoopedLawInfo(msgspec.Struct, frozen=True):
     positions: bool
     position_correction: bool
     velocity_correction: bool
+    modules: tuple[str, ...]
 
 
 def shared_folder(generator: str) -> str:
@@ -85,7 +87,8 @@ def emit_missing(
     forms : mapping of str to str
         Module of each kernel's part of the descriptor form; empty where no implicit integrator asks for it.
     """
-    from symgen.emit.looped import emit_form, emit_kernel, emit_looped_law, emit_machine, emit_shared_model
+    from symgen.emit.kernels import emit_form, emit_kernel
+    from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
     from symgen.lower.looped.kernels import lower_kernel
     from symgen.lower.looped.law import lower_looped
 
@@ -98,6 +101,8 @@ def emit_missing(
     stem = law_stem(method, options)
     if not known(stem):
         law = lower_looped(method, options)
+        sources = emit_looped_law(law, generator, method.summary, method.reference)
+        *shared, _ = sources
         info = LoopedLawInfo(
             method=law.method,
             key=law.key,
@@ -109,9 +114,10 @@ def emit_missing(
             positions=law.positions,
             position_correction=law.correction.position != "none",
             velocity_correction=law.correction.velocity,
+            modules=tuple(shared),
         )
-        source = emit_looped_law(law, generator, method.summary, method.reference)
-        modules[stem] = source, msgspec.to_builtins(info)
+        modules |= {name: (sources[name], {}) for name in shared}
+        modules[stem] = sources[stem], msgspec.to_builtins(info)
     for name, instance in elements.items():
         form = forms.get(name)
         if known(name) and (form is None or known(form)):
@@ -128,12 +134,14 @@ def emit_missing(
     return modules
 
 
-def form_stems(elements: Iterable[str], method: Method, options: Mapping[str, str], implicit: bool) -> dict[str, str]:
+def form_stems(
+    elements: Mapping[str, Instance], method: Method, options: Mapping[str, str], implicit: bool
+) -> dict[str, str]:
     """Return the module of each kernel's part of a method's descriptor form; empty where it is not asked for."""
     if not implicit:
         return {}
-    key = form_key(method, options)
-    return {stem: form_stem(key, stem) for stem in elements}
+    keys = {kind: form_key(method, options, kind) for kind in ("body", "joint", "force")}
+    return {stem: form_stem(keys[instance.kind], stem) for stem, instance in elements.items()}
 
 
 def law_stem(method: Method, options: Mapping[str, str]) -> str:
@@ -176,11 +184,11 @@ def compile_looped(
     found, stems, elements = named(instances(mechanism))
     forms = form_stems(elements, method, options, implicit)
     wanted = (_MACHINE, _MODEL, law, *elements, *forms.values())
-    metadata = {stem: store.get(folder, stem) for stem in wanted}
+    metadata = _found(store, folder, law, wanted)
     emit_seconds = 0.0
     if any(data is None for data in metadata.values()):
         with store.building(folder):
-            metadata = {stem: store.get(folder, stem) for stem in wanted}  # another process may have been faster
+            metadata = _found(store, folder, law, wanted)  # another process may have been faster
             emitting = time.perf_counter()
             modules = emit_missing(elements, method, options, generator, lambda stem: metadata[stem] is not None, forms)
             for stem, (source, data) in modules.items():
@@ -191,7 +199,8 @@ def compile_looped(
     info = msgspec.convert(metadata[law], LoopedLawInfo)
     shape = Shape(found, stems, infos, len(mechanism.parameters))
     parts = {stem: (form, msgspec.convert(metadata[form], FormInfo)) for stem, form in forms.items()}
-    tables = law_tables(shape, info, parts)
+    level = level_of(method, options, implicit)
+    tables = law_tables(shape, info, parts, level)
     path = store.path(folder, _MODEL).parent
     kernels = {stem: load_module(path / f"{stem}.py") for stem in (*elements, *forms.values())}
     machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
@@ -220,7 +229,7 @@ def compile_looped(
             velocity_correction=info.velocity_correction,
             nw=tables.nw,
             unknowns=tables.unknowns,
-            level=level_of(parts),
+            level=level,
             tangent=tables.tangent,
             operations={},
         ),
@@ -232,6 +241,15 @@ def compile_looped(
         kernels=kernels,
         machine=machine,
     )
+
+
+def _found(store: Entries, folder: str, law: str, wanted: Iterable[str]) -> dict[str, dict[str, Any] | None]:
+    """Return the metadata of modules, None for those that are not there: a law without its parts is not."""
+    metadata = {stem: store.get(folder, stem) for stem in wanted}
+    own = metadata[law]
+    if own is not None and any(store.get(folder, stem) is None for stem in own["modules"]):
+        metadata[law] = None
+    return metadata
 
 
 def generate_looped(
@@ -254,6 +272,8 @@ def generate_looped(
         Generic code, kernels and laws, which are the same for all mechanisms; ``mechanism`` says how often each kernel
         is used, and its metadata are the tables for every law.
     """
+    from symgen.emit.looped import emit_mechanism
+
     found, stems, elements = named(instances(mechanism))
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
@@ -265,29 +285,28 @@ def generate_looped(
         infos = {stem: msgspec.convert(modules[stem][1], KernelInfo) for stem in elements}
         shape = Shape(found, stems, infos, len(mechanism.parameters))
         parts = {stem: (form, msgspec.convert(modules[form][1], FormInfo)) for stem, form in forms.items()}
-        built = law_tables(shape, msgspec.convert(modules[law][1], LoopedLawInfo), parts)
+        info, level = msgspec.convert(modules[law][1], LoopedLawInfo), level_of(method, options, implicit)
+        built = law_tables(shape, info, parts, level)
         functions = [f"{stem}.{name}" for stem, name in built.functions]
         tables[f"{law}_implicit" if implicit else law] = {
             "numbers": list(built.numbers),
             "functions": functions,
             "sections": dict(built.sections),
         }
-    counts = "\n".join(f"{stem}: {stems.count(stem)}" for stem in elements)
-    text = f'"""Kernels of mechanism `{mechanism.name}`, and how many instances each has; tables stand in the metadata.'
-    modules["mechanism"] = f'{text}\n\n{counts}\n"""\n', tables
+    modules["mechanism"] = emit_mechanism(mechanism.name, {stem: stems.count(stem) for stem in elements}), tables
     return modules
 
 
-def law_tables(shape: Shape, info: LoopedLawInfo, parts: Mapping[str, tuple[str, FormInfo]]) -> Tables:
+def law_tables(shape: Shape, info: LoopedLawInfo, parts: Mapping[str, tuple[str, FormInfo]], level: str) -> Tables:
     """Return the tables of a mechanism for a law, with the parts of its descriptor form by kernel."""
     stages = [name for name in STAGES if name != "full" or info.positions]
-    forms = Forms(level_of(parts), parts) if parts else None
+    forms = Forms(level, parts) if parts else None
     return build_tables(shape, info.sections, info.vectors, info.augmented, stages, forms)
 
 
-def level_of(parts: Mapping[str, tuple[str, FormInfo]]) -> str:
-    """Return the level of a descriptor form, empty where there is none."""
-    return next((info.level for _, info in parts.values()), "")
+def level_of(method: Method, options: Mapping[str, str], implicit: bool) -> str:
+    """Return the level of a method's descriptor form, empty where there is none."""
+    return record_form(method, options).form if implicit else ""
 
 
 def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dict[str, Instance]]:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
-from symgen.lower.looped.instances import kept_rows
+from symgen.describe.repeats import without_repeats
 from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Tables
@@ -83,8 +83,7 @@ class LoopedModel(CompiledModel):
         part.view(np.int64)[-1] = offset
         first = self.tables.addresses
         part.view(np.int64)[first : first + len(found)] = found
-        self.section(w, "pivot")[:] = 1.0
-        return w
+        return self.with_scales(w)
 
 
 def diagonal(shape: Shape, tables: Tables) -> Callable[[Array, Array], int]:
@@ -118,7 +117,6 @@ def preparation(
             if computes:
                 interpreted(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
         first = shape.mass_diagonal
-        p[first + 2 * shape.nv] = p[first : first + shape.nv].mean() if shape.nv else 0.0
         inverse = p[first + shape.nv : first + 2 * shape.nv]
         for base, weights in ((shape.gram_base, product), (shape.gram_base + size, product * inverse[velocity])):
             p[base : base + size] = np.bincount(target, weights, size)
@@ -129,7 +127,7 @@ def preparation(
 
 def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelInfo:
     """Return what the runtime has to know of a mechanism in the looped shape."""
-    joints, dropped = kept_rows(mechanism)
+    mechanism, repeats = without_repeats(mechanism)
     operations: dict[str, int] = {}
     for group in shape.groups:
         for name, count in group.info.functions.items():
@@ -142,7 +140,7 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         velocities=tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds),
         rows=tuple(
             Row(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
-            for joint in joints
+            for joint in mechanism.joints
             for row in joint.rows
         ),
         joint_coordinates=tuple(
@@ -153,7 +151,7 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         sections=dict(tables.sections),
         jacobian=tuple((row, column, None, slot) for row, column, slot in shape.entries),
         hoisted=shape.hoisted,
-        dropped_rows=dropped,
+        dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
         massless=tuple(shape.massless),
         windings=shape.windings,
         spins=tuple(shape.spins),

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.ir.program import SCALES, STATUS
 from symgen.store.modules import interpreted, load_module
 
 if TYPE_CHECKING:
@@ -117,7 +118,7 @@ class LawInfo(msgspec.Struct, frozen=True):
     """Metadata of an emitted law module; `parameters` are (name, default) pairs.
 
     `tangent` says for each number that the function of this name writes its equation and unknown in the descriptor
-    form; from `unknowns` on, unknowns are q and v.
+    form; from `unknowns` on, unknowns are q and v. `modules` are those that hold the law's functions, beside its own.
     """
 
     method: str
@@ -133,9 +134,10 @@ class LawInfo(msgspec.Struct, frozen=True):
     level: str
     tangent: tuple[tuple[int, int], ...]
     operations: dict[str, int]
+    modules: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, program: LawProgram) -> LawInfo:
+    def of(cls, program: LawProgram, modules: tuple[str, ...] = ()) -> LawInfo:
         """Collect the metadata of a program."""
         return cls(
             method=program.method,
@@ -151,6 +153,7 @@ class LawInfo(msgspec.Struct, frozen=True):
             level=program.level,
             tangent=program.tangent,
             operations={b.name: b.operations for b in program.blocks},
+            modules=modules,
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -172,6 +175,16 @@ class CompiledModel:
     law_module: ModuleType
     derive_seconds: float = 0.0
     emit_seconds: float = 0.0
+    #: What it is made again from in another process: a function and its arguments. Code itself does not travel.
+    origin: tuple[Callable[..., CompiledModel], tuple[Any, ...]] | None = field(default=None, repr=False, compare=False)
+
+    def __reduce__(self) -> tuple[Callable[..., CompiledModel], tuple[Any, ...]]:
+        if self.origin is None:
+            raise TypeError("a compiled model that was loaded from files cannot be pickled; compile it from its model")
+        return self.origin
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
+        return self  # nothing of it ever changes
 
     @property
     def shape(self) -> str:
@@ -194,9 +207,14 @@ class CompiledModel:
         return p
 
     def scratch(self) -> Array:
-        """Return a new scratch array ``w``."""
-        w = np.zeros(max(1, self.law.nw))
-        self.section(w, "pivot")[:] = 1.0
+        """Return a new scratch array ``w``; scales are 1 until a start finds them."""
+        return self.with_scales(np.zeros(max(1, self.law.nw)))
+
+    def with_scales(self, w: Array) -> Array:
+        """Return a scratch array whose scales, and pivots of rows that never change theirs, are set to 1."""
+        for name in ("pivot", "gauge", "row_weight"):
+            self.section(w, name)[:] = 1.0
+        w[[STATUS.index(name) for name in SCALES]] = 1.0
         return w
 
     def section(self, w: Array, name: str) -> Array:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import hashlib
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -30,7 +30,7 @@ from symgen.store.entries import Entries, FolderName
 
 @dataclass(frozen=True)
 class Generated:
-    """Emitted source with its metadata: ``model`` and one module a law, by file stem."""
+    """Emitted source with its metadata, by file stem: ``model``, one module a law, and those that laws share."""
 
     folder: str
     modules: Mapping[str, tuple[str, Mapping[str, Any]]]
@@ -79,10 +79,10 @@ def generator_digest() -> str:
     inside, beside = package / "templates", package.parent / "templates"
     templates = inside if inside.is_dir() else beside
     digest = hashlib.sha256(_sympy_version().encode())
-    for folder in ("formulate", "ir", "lower", "emit", "methods"):
+    for folder in ("vocabulary", "formulate", "ir", "lower", "emit", "methods"):
         for path in sorted((package / folder).rglob("*.py")):
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    for path in sorted(path for folder in ("numba", "looped", "lanes") for path in (templates / folder).glob("*.j2")):
+    for path in sorted(path for folder in ("looped", "parts") for path in (templates / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
@@ -120,7 +120,7 @@ def generate(
     ------
     InputError
         If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
-        ``cuda``, or a method iterates for ``lanes``.
+        ``cuda``, or a method iterates for ``lanes``; if numbers overflow.
     """
     if target != "cpu":
         _refuse_target(target, choices, shape)
@@ -128,6 +128,14 @@ def generate(
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
+    try:
+        return _generate_straight(mechanism, choices, target)
+    except OverflowError:  # of numbers that only meet where the equations are solved; the others name their section
+        expected = "numbers whose products, sums and quotients are finite"
+        raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
+
+
+def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str) -> Generated:
     from symgen.emit.emit import emit_law, emit_model
     from symgen.emit.lanes import emit_lanes_law, emit_lanes_model
     from symgen.formulate.formulate import formulate
@@ -147,10 +155,12 @@ def generate(
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         words = (choice.method.summary, choice.method.reference)
         if target == "lanes":
-            source = emit_lanes_law(law, program, equations, *words)
+            sources = {f"{choice.stem}{suffix}": emit_lanes_law(law, program, equations, *words)}
         else:
-            source = emit_law(law, program, equations, *words, target)
-        modules[f"{choice.stem}{suffix}"] = (source, LawInfo.of(law).to_dict())
+            sources = emit_law(law, program, equations, *words, target)
+        *shared, own = sources
+        modules |= {stem: (sources[stem], {}) for stem in shared}
+        modules[own] = (sources[own], LawInfo.of(law, tuple(shared)).to_dict())
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
@@ -185,25 +195,37 @@ def compile_model(
         As for `generate`.
     """
     store = Entries() if entries is None else entries
+    arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
     if choice.shape == "looped" and target == "cpu":
-        return compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
+        found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
+        return replace(found, origin=(compile_again, arguments))
     folder = folder_of(mechanism)
     derive_seconds = emit_seconds = 0.0
     model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
-    found = _find(store, folder, model, stem)
-    if found is None:
+    known = _find(store, folder, model, stem)
+    if known is None:
         with store.building(folder):
-            found = _find(store, folder, model, stem)  # another process may have built it while this one waited
-            if found is None:
+            known = _find(store, folder, model, stem)  # another process may have built it while this one waited
+            if known is None:
                 generated = generate(mechanism, (choice,), choice.shape, target)
                 derive_seconds, emit_seconds = generated.derive_seconds, generated.emit_seconds
                 for name, (source, metadata) in generated.modules.items():
                     store.put(folder, name, source, metadata)
-                found = generated.modules[model][1], generated.modules[stem][1]
+                known = generated.modules[model][1], generated.modules[stem][1]
     path = store.path(folder, stem).parent
-    return load_compiled(path, stem, found[0], found[1], derive_seconds, emit_seconds, model)
+    loaded = load_compiled(path, stem, *known, derive_seconds, emit_seconds, model)
+    return replace(loaded, origin=(compile_again, arguments))
+
+
+def compile_again(
+    mechanism: Mechanism, method: str, options: Mapping[str, str], implicit: bool, shape: str, target: str
+) -> CompiledModel:
+    """Return a compiled model that was pickled elsewhere: from the cache, or generated."""
+    return compile_model(mechanism, replace(choose_method(method, options, implicit), shape=shape), target=target)
 
 
 def _find(store: Entries, folder: str, model: str, law: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
     shared, own = store.get(folder, model), store.get(folder, law)
-    return None if shared is None or own is None else (shared, own)
+    if shared is None or own is None or any(store.get(folder, stem) is None for stem in own.get("modules", ())):
+        return None
+    return shared, own

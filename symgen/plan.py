@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.arguments import shown
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
+from symgen.memory import require
 from symgen.methods import METHODS
 from symgen.pipeline import MethodChoice, choose_method
-from symgen.runtime.run import Array, RunSpec
+from symgen.runtime.run import MAX_STEPS, Array, RunSpec
+from symgen.settings import Settings
 from symgen.shapes import choose_shape
 
 if TYPE_CHECKING:
-    from symgen.api import Model
-    from symgen.integrators._base import Integrator
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.integrator import Integrator
 
 #: Adaptive runs without asked output times report this many equidistant ones.
 DEFAULT_OUTPUTS = 1001
@@ -26,43 +29,6 @@ DEFAULT_OUTPUTS = 1001
 ADAPTIVE_EVALUATIONS = 2000.0
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
-
-
-@dataclass(frozen=True)
-class Settings:
-    """Everything that shapes a run beside the model; see `Model.simulate` for the meaning."""
-
-    method: str = "direct-correction"
-    integrator: str | None = None  # None: the method's default
-    step: float | None = None
-    rtol: float | None = None
-    atol: float | None = None
-    until: float | None = None
-    output_step: float | None = None
-    times: Sequence[float] | None = None
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    options: Mapping[str, str | float] = field(default_factory=dict)
-    strict: bool = False
-    verify: bool = False
-    max_violation: float = 1e-6
-    max_energy_error: float = 0.05
-    repeat: int = 1
-    shape: str = "auto"
-
-
-def changed(settings: Settings, changes: Mapping[str, object]) -> Settings:
-    """Return `settings` with some replaced.
-
-    Raises
-    ------
-    InputError
-        If a name is not a setting; says the nearest one.
-    """
-    known = [f.name for f in fields(Settings)]
-    for name in changes:
-        if name not in known:
-            raise InputError("settings", "the name of a setting", f"'{name}'", nearest(name, known))
-    return replace(settings, **changes)  # type: ignore[arg-type]  # values are checked by make_plan
 
 
 @dataclass(frozen=True)
@@ -83,7 +49,7 @@ class Plan:
         return f"{self.choice.stem} {self.choice.shape}", tuple(sorted(self.method_parameters.items()))
 
 
-def make_plan(model: Model, s: Settings) -> Plan:
+def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     """Resolve and check settings.
 
     Raises
@@ -103,17 +69,14 @@ def make_plan(model: Model, s: Settings) -> Plan:
         )
     choice, method_parameters, integrator_options = split_options(s, tableau)
     adaptive = tableau.adaptive and integrator_options.get("adaptive", "true") == "true"
-    defaults = model.mechanism.defaults
-    until = _positive("until", defaults.until if s.until is None else s.until)
+    defaults = mechanism.defaults
+    until = defaults.until if s.until is None else s.until
     step = s.step if adaptive or s.step is not None else defaults.step
-    if step is not None:
-        step = _positive("step", step)
-        if not adaptive and until / step > 2e9:
-            raise InputError("step", "at most 2e9 steps", f"{until / step:.3g}")
-    rtol = _positive("rtol", RTOL if s.rtol is None else s.rtol)
-    atol = _positive("atol", ATOL if s.atol is None else s.atol)
-    if not isinstance(s.repeat, int) or not 1 <= s.repeat <= 1000:
-        raise InputError("repeat", "a whole number from 1 to 1000", f"{s.repeat}")
+    if s.step is not None and s.step > until:  # the mechanism's own is meant for longer runs
+        raise InputError("step", f"at most until = {until:g}", f"{s.step:g}")
+    if not adaptive and step is not None and until / step > (s.max_steps or 2e9):
+        expected = "at most 2e9 steps" if s.max_steps is None else f"at most max_steps = {s.max_steps:g} steps"
+        raise InputError("step", expected, f"{until / step:.3g}")
     warnings = list[str]()
     limit = method.largest_step(
         {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, tableau.real_boundary
@@ -122,31 +85,32 @@ def make_plan(model: Model, s: Settings) -> Plan:
         warnings.append(
             f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
         )
-    max_violation = _positive("max_violation", s.max_violation)
     spec = RunSpec(
         until=until,
         step=step,
         adaptive=adaptive,
-        times=_output_times(s, defaults.output_step, until, step, adaptive),
-        rtol=rtol,
-        atol=atol,
+        times=_output_times(s, mechanism, until, step, adaptive),
+        rtol=RTOL if s.rtol is None else s.rtol,
+        atol=ATOL if s.atol is None else s.atol,
+        relative=s.atol is None,
         largest_step=np.inf if limit is None else limit,
-        max_violation=max_violation,
+        max_violation=s.max_violation,
         # an error of the discretisation, not drift: half the digits are asked of it
-        max_velocity_violation=math.sqrt(max_violation) if method.velocities_follow else None,
-        max_energy_error=_positive("max_energy_error", s.max_energy_error),
+        max_velocity_violation=math.sqrt(s.max_violation) if method.velocities_follow else None,
+        max_energy_error=s.max_energy_error,
+        max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
         integrator_parameters={
             q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
         },
     )
     asked = any(key.partition(".")[2] == "solver" for key in s.options)
     free = "solver" in choice.options and not asked
-    if any(body.massless for body in model.mechanism.bodies):
+    if any(body.massless for body in mechanism.bodies):
         if method.needs_regular_mass(choice.options):
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
-    shape = choose_shape(model.mechanism, choice, s.shape, expected_evaluations(tableau, until, step, adaptive))
+    shape = choose_shape(mechanism, choice, s.shape, expected_evaluations(tableau, until, step, adaptive))
     choice = replace(choice, shape=shape.shape)
     return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason)
 
@@ -155,7 +119,7 @@ def expected_evaluations(tableau: Integrator, until: float, step: float | None, 
     """Return about how many evaluations a run takes, to choose the shape of its code by."""
     if adaptive or step is None:
         return ADAPTIVE_EVALUATIONS * until
-    return float(getattr(tableau, "stages", 1) + 1) * until / step  # an accepted state costs about one more
+    return float(tableau.stages + 1) * until / step  # an accepted state costs about one more
 
 
 def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[str, float], dict[str, str]]:
@@ -206,21 +170,72 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
     )
 
 
-def _output_times(s: Settings, default: float | None, until: float, step: float | None, adaptive: bool) -> Array:
+def _output_times(s: Settings, mechanism: Mechanism, until: float, step: float | None, adaptive: bool) -> Array:
+    size = output_size(mechanism)
     if s.times is not None:
-        given = np.asarray(s.times, dtype=np.float64)
+        try:
+            given = np.asarray(s.times, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError("times", "finite, increasing output times", shown(s.times)) from None
         if given.ndim != 1 or not np.all(np.isfinite(given)) or np.any(np.diff(given) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
         if len(given) and (given[0] < 0.0 or given[-1] > until * (1.0 + 1e-12)):
             raise InputError("times", f"output times from 0 to {until:g}", f"{given[0]:g} to {given[-1]:g}")
+        require("times", f"{len(given):.3g} outputs of {mechanism.name}", size * len(given))
         return np.minimum(given, until)  # a multiple of a step may exceed the end by rounding
-    every = s.output_step if s.output_step is not None else default
+    every = s.output_step if s.output_step is not None else mechanism.defaults.output_step
     if every is None:
         if adaptive:
+            require("model", f"{DEFAULT_OUTPUTS} outputs of {mechanism.name}", size * DEFAULT_OUTPUTS)
             return np.linspace(0.0, until, DEFAULT_OUTPUTS)
         assert step is not None, "a constant step is given"
         every = step
-    every = _positive("output_step", every)
+    return multiples(every, until, size)
+
+
+def output_size(mechanism: Mechanism, saved: bool = False) -> float:
+    """Return about how much memory an output of a run takes [bytes].
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    saved : bool
+        Whether all tables of it are made and put into a file, which is done in memory.
+    """
+    state = sum(len(b.coordinates) + len(b.speeds) for b in mechanism.bodies)
+    rows = sum(len(joint.rows) for joint in mechanism.joints)
+    if not saved:
+        return 8.0 * (state + len(mechanism.joints) + 16)  # status, energies, and angles that are counted
+    reported = sum(2 * len(j.coordinates) + (6 if mechanism.space == "spatial" else 3) for j in mechanism.joints)
+    entries = 12 * rows  # of D at every output, for the reactions
+    return 8.0 * (5 * (2 * state + rows + reported + 16) + entries)  # tables, their copy, and the file
+
+
+def check_saving(mechanism: Mechanism, s: Settings) -> None:
+    """Refuse a run whose tables would not fit into memory when they are saved.
+
+    Raises
+    ------
+    InputError
+        If they would not.
+    """
+    until = mechanism.defaults.until if s.until is None else s.until
+    every = s.output_step or mechanism.defaults.output_step
+    if s.times is not None:
+        count = float(len(s.times))
+    elif every is not None:
+        count = until / every
+    elif s.integrator in INTEGRATORS and not INTEGRATORS.get(s.integrator or "").adaptive:
+        count = until / (s.step or mechanism.defaults.step)
+    else:
+        count = DEFAULT_OUTPUTS
+    require("--save", f"{count:.3g} outputs of {mechanism.name}", count * output_size(mechanism, saved=True))
+
+
+def multiples(every: float, until: float, size: float) -> Array:
+    """Return the multiples of an output step, and the end; `size` is what an output takes [bytes]."""
+    require("output_step", f"{until / every:.3g} outputs", size * until / every)
     if until / every > 2e7:
         raise InputError("output_step", "at most 2e7 outputs", f"{until / every:.3g}")
     count = math.floor(until / every * (1.0 + 1e-12))
@@ -231,18 +246,12 @@ def _output_times(s: Settings, default: float | None, until: float, step: float 
     return times
 
 
-def _positive(name: str, value: float) -> float:
-    number = _number(name, value)
-    if not number > 0.0:
-        raise InputError(name, "a number above 0", f"{value}")
-    return number
-
-
-def _number(name: str, value: object) -> float:
+def _number(key: str, value: str | float) -> float:
+    """Return the number of an option, which a command gives as text."""
     try:
-        number = float(value)  # type: ignore[arg-type]  # anything else raises
-    except (TypeError, ValueError):
+        number = float(value)
+    except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        raise InputError(f"option {name}" if "." in name else name, "a finite number", f"'{value}'")
+        raise InputError(f"option {key}", "a finite number", shown(value))
     return number

@@ -12,7 +12,8 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Generic, TypeVar, cast
 
-from symgen.errors import InputError, nearest
+from symgen.arguments import text
+from symgen.errors import InputError, nearest, quoted
 
 T = TypeVar("T")
 
@@ -76,14 +77,15 @@ class Registry(Generic[T]):
 
     def canonical(self, name: str, where: str = "") -> str:
         """Return `name` with an alias resolved, or raise `InputError` naming the nearest spelling."""
+        article = "an" if self.what[0] in "aeiou" else "a"
+        text(where or self.what, name, f"{article} {self.what}")
         resolved = self.aliases.get(name, name)
         if resolved not in self._loaded and resolved not in self._scan():
             known = (*self.names, *self.aliases)
             hint = nearest(name, known)
             if not hint.startswith("known"):
                 hint += " (known: " + ", ".join(sorted(known)) + ")"
-            article = "an" if self.what[0] in "aeiou" else "a"
-            raise InputError(where or self.what, f"{article} {self.what}", f"'{name}'", hint)
+            raise InputError(where or self.what, f"{article} {self.what}", quoted(name), hint)
         return resolved
 
     def get(self, name: str, where: str = "") -> T:

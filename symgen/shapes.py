@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError
 from symgen.looped import form_stems, law_stem, named, shared_folder
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
@@ -23,19 +23,20 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.pipeline import MethodChoice
 
-SHAPES = ("auto", "straight", "looped")
 
-#: Seconds to derive, emit and compile a mechanism straight: at least, and for each coordinate.
-STRAIGHT_LEAST, STRAIGHT_EACH = 0.8, 0.12
-#: The same for each coordinate with the Jacobian for implicit integrators.
-STRAIGHT_EACH_IMPLICIT = 0.3
+#: Seconds to derive, emit and compile a mechanism straight: at least, and for each coordinate (in the plane 0.009, in
+#: space 0.024).
+STRAIGHT_LEAST, STRAIGHT_EACH = 0.6, 0.013
+#: The same for each coordinate with the Jacobian for implicit integrators (0.009 and 0.035).
+STRAIGHT_EACH_IMPLICIT = 0.02
 #: Seconds to compile what the looped shape shares: generic code, a law, a kernel, a kernel's part of a descriptor form.
 LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL, LOOPED_FORM = 5.0, 1.5, 0.45, 0.6
 #: Part of these seconds that counts: other mechanisms and later runs will not pay them again.
 SHARED_PART = 0.4
 #: Seconds of an evaluation for each coordinate; looped ones cost something whatever the size.
 STRAIGHT_EVALUATION, LOOPED_EVALUATION, LOOPED_CALL = 1.0e-8, 2.1e-8, 1.0e-7
-#: From this many coordinates on straight code is not considered: it would take many minutes to compile.
+#: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
+#: many, for a mechanism in the plane.
 LARGEST_STRAIGHT = 600
 
 
@@ -67,7 +68,7 @@ def choose_shape(
     choice : MethodChoice
         The method with its options.
     asked : str
-        One of `SHAPES`.
+        One of `symgen.settings.SHAPES`.
     evaluations : float
         Evaluations that are expected.
     entries : Entries, optional
@@ -78,8 +79,6 @@ def choose_shape(
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    if asked not in SHAPES:
-        raise InputError("--shape", "one of " + ", ".join(SHAPES), f"'{asked}'", nearest(asked, SHAPES))
     coordinates = sum(len(b.coordinates) for b in mechanism.bodies)
     dense = not is_loopable(choice.method, choice.options, choice.implicit)
     if asked == "looped":
@@ -95,7 +94,7 @@ def choose_shape(
     if dense:
         return ShapeChoice("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
-        return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take minutes to compile")
+        return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take long to compile")
     return _shorter(mechanism, choice, coordinates, evaluations, Entries() if entries is None else entries)
 
 

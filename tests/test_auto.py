@@ -8,11 +8,12 @@ from support.models import parallelogram
 
 from benchmarks.pairs import forms_in_common
 from benchmarks.stiff import model as stiff_model
-from symgen import auto
 from symgen.api import Model, load
 from symgen.auto import STIFF_RATIO, Facts, decide, gather, resolve
 from symgen.methods import METHODS
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.result import agreement
+from symgen.settings import Settings
 
 CALM = Facts(
     rows=8,
@@ -35,7 +36,7 @@ def facts(**changes):
 def settled(name, method="auto", integrator="auto"):
     models = {"stiff": stiff_model, "parallelogram": lambda: Model(mechanism_of(parallelogram()))}
     model = models[name]() if name in models else load(name)
-    return resolve(model, Settings(method=method, integrator=integrator))
+    return resolve(model.mechanism, Settings(method=method, integrator=integrator))
 
 
 def test_regular_mechanism():
@@ -76,7 +77,7 @@ def test_only_what_is_asked_for_is_chosen():
 
 def test_nothing_is_gathered_where_nothing_is_asked():
     asked = Settings(method="lagrange", integrator="rk4")
-    assert resolve(load("four-bar"), asked) == (asked, ())
+    assert resolve(load("four-bar").mechanism, asked) == (asked, ())
 
 
 @pytest.mark.parametrize(
@@ -103,7 +104,7 @@ def test_what_is_chosen_fits(method, decay):
     _, integrator, reasons = decide(facts(fastest_decay=decay), method, "auto")
     assert forms_in_common(method, integrator), f"{method} with {integrator}"
     assert reasons and reasons[0].startswith(f"integrator {integrator}: ")
-    make_plan(load("pendulum"), Settings(method=method, integrator=integrator))
+    make_plan(load("pendulum").mechanism, Settings(method=method, integrator=integrator))
 
 
 def test_stiffness_is_relative_to_the_motion():
@@ -123,7 +124,7 @@ def test_reasons_are_among_the_notes_of_a_run():
 
 
 def test_the_facts_of_the_stiff_case():
-    found = gather(stiff_model(), {})
+    found = gather(stiff_model().mechanism, {})
     assert found.rank == found.rows == 10 and found.coordinates == 12
     assert found.fastest_decay == pytest.approx(5.5e4, rel=0.05)  # damping over the reduced mass
 
@@ -133,19 +134,19 @@ def test_the_facts_of_the_stiff_case():
 
 def test_two_runs_agree():
     result = load("four-bar").simulate(method="auto", integrator="auto", until=2.0)
-    assert result.status == "ok" and result.rtol == pytest.approx(1e-9)
-    assert any(note.startswith("checked: a run with rtol = 1e-09 agrees within") for note in result.notes)
+    assert result.status == "ok" and result.rtol == pytest.approx(1e-9) and 0.0 < result.error_estimate < 1e-4
+    assert any(note.startswith("verified: a run with rtol = 1e-09 agrees within") for note in result.notes)
 
 
 def test_tolerances_fall_until_two_runs_agree(monkeypatch):
     """What is reported then is as near to an independent reference as the runs are to each other."""
     import numpy as np
 
-    from symgen.study.points import Points
+    from symgen.result.points import Points
     from symgen.study.reference import reference
 
     model, times = load("four-bar"), np.linspace(0.0, 2.0, 21)
-    monkeypatch.setattr(auto, "AGREEMENT", 1e-10)
+    monkeypatch.setattr(agreement, "AGREEMENT", 2.5e-11)
     result = model.simulate(method="auto", integrator="auto", until=2.0, times=times)
     assert result.status == "ok" and 1e-13 <= result.rtol < 5e-10
     q, v = result.q.values, result.v.values
@@ -154,7 +155,7 @@ def test_tolerances_fall_until_two_runs_agree(monkeypatch):
 
 
 def test_runs_that_never_agree_are_unverified(monkeypatch):
-    monkeypatch.setattr(auto, "AGREEMENT", 0.0)
+    monkeypatch.setattr(agreement, "AGREEMENT", 0.0)
     result = load("four-bar").simulate(method="auto", integrator="auto", until=1.0)
     assert result.status == "unverified" and result.reason.startswith("two runs still differ by ")
 
@@ -175,4 +176,5 @@ def test_what_was_asked_for_is_kept_and_doubted(changes, reason):
 
 def test_who_chooses_is_not_checked():
     result = load("four-bar").simulate(method="direct-correction", integrator="dop853", rtol=1e-3, atol=1e-3, until=2.0)
-    assert result.status == "ok" and not any("checked" in note for note in result.notes)
+    assert result.status == "ok" and not any("verified" in note for note in result.notes)
+    assert result.error_estimate is None

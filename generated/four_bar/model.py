@@ -1,6 +1,6 @@
 """Model `four-bar`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 2, templates 06e8f0c6b361de81
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -74,9 +74,10 @@ def prepare(p):
     p[14] = 2.083333333333333*p2
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D D^T that decides rank: 211 operations, 217815 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 223 operations, 259615 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -87,12 +88,15 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[24]
-    mask_2 = w[25]
-    mask_3 = w[26]
-    mask_4 = w[27]
-    mask_5 = w[28]
-    mask_7 = w[30]
+    mask_1 = w[28]
+    mask_2 = w[29]
+    mask_3 = w[30]
+    mask_4 = w[31]
+    mask_5 = w[32]
+    mask_7 = w[34]
+    gauge_2 = w[87]
+    gauge_5 = w[90]
+    gauge_8 = w[93]
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -110,180 +114,194 @@ def geometry(t, y, p, w):
     s13 = q7 - q4 + s12 - s8
     s14 = q6 - 10.0 - s10
     s15 = q7 - s12
-    s16 = s1*s1
-    s17 = 1.0 + s16
-    s18 = s0*s1
-    s19 = -1.0 + s16
-    s20 = s0*s0
-    s21 = 1.0 + s20
-    s22 = s8*s8
-    s23 = 1.0 + s17 + s22
-    s24 = s5*s8
+    s16 = s1*gauge_2
+    s17 = s0*gauge_2
+    s18 = s8*gauge_5
+    s19 = s5*gauge_5
+    s20 = s12*gauge_8
+    s21 = s10*gauge_8
+    s22 = s1*s16
+    s23 = 1.0 + s22
+    s24 = s0*s16
     s25 = -1.0 + s22
-    s26 = s5*s5
-    s27 = 1.0 + s21 + s26
-    s28 = s12*s12
-    s29 = 1.0 + 1.0 + s22 + s28
-    s30 = s10*s12
-    s31 = 1.0 - s28
-    s32 = s10*s10
-    s33 = 1.0 + 1.0 + s26 + s32
-    s34 = 1.0 + s32
-    s35 = 1.0/s17
-    s36 = s18*s35
-    s37 = -s36
-    s38 = s19*s35
-    s39 = s18*s36
-    s40 = s21 - s39
-    s41 = s19*s36 - s18
-    s42 = -1.0 + s20 - s39
-    s43 = 1.0*(s40 > mask_1 + 1e-12*s21)
-    s44 = s43/(s40 + 1.0 - s43)
-    s45 = s41*s44
-    s46 = s42*s44
-    s47 = s23 - s19*s38 - s41*s45
-    s48 = s18*s38 - (s18 + s24) - s42*s45
-    s49 = 1.0/(1.0 + s28)
-    s50 = s30*s49
-    s51 = s31*s49
-    s52 = s30*s50
-    s53 = s34 - s52
-    s54 = s30 + s31*s50
-    s55 = 1.0 - s32 + s52
-    s56 = 1.0*(s53 > mask_7 + 1e-12*s34)
-    s57 = s56/(s53 + 1.0 - s56)
-    s58 = s54*s57
-    s59 = s55*s57
-    s60 = 1.0*(s47 > mask_2 + 1e-12*s23)
-    s61 = s60/(s47 + 1.0 - s60)
-    s62 = s48*s61
-    s63 = s25*s61
-    s64 = s24*s61
-    s65 = s27 - s39 - s42*s46 - s48*s62
-    s66 = s24 + s25*s62
-    s67 = -1.0 + s26 + s24*s62
-    s68 = 1.0*(s65 > mask_3 + 1e-12*s27)
-    s69 = s68/(s65 + 1.0 - s68)
-    s70 = s66*s69
-    s71 = s67*s69
-    s72 = s29 - s31*s51 - s54*s58 - s25*s63 - s66*s70
-    s73 = s24*s63 - (s24 + s30 + s30*s51 + s55*s58) + s67*s70
-    s74 = 1.0*(s72 > mask_4 + 1e-12*s29)
-    s75 = s74/(s72 + 1.0 - s74)
-    s76 = s73*s75
-    s77 = s33 - s52 - s55*s59 - s24*s64 - s67*s71 - s73*s76
-    s78 = 1.0*(s77 > mask_5 + 1e-12*s33)
-    s79 = s40/s21
-    s80 = s47/s23
-    s81 = s65/s27
-    s82 = s72/s29
-    s83 = s77/s33
-    s84 = min(min(min(min(min(1.0, mask_1 + s79), mask_2 + s80), mask_3 + s81), mask_4 + s82), mask_5 + s83)
-    s85 = s53/s34
+    s26 = s0*s17
+    s27 = 1.0 + s26
+    s28 = s8*s18
+    s29 = 1.0 + s23 + s28
+    s30 = s5*s18
+    s31 = -1.0 + s28
+    s32 = s5*s19
+    s33 = 1.0 + s27 + s32
+    s34 = s12*s20
+    s35 = 1.0 + 1.0 + s28 + s34
+    s36 = s10*s20
+    s37 = 1.0 - s34
+    s38 = s10*s21
+    s39 = 1.0 + 1.0 + s32 + s38
+    s40 = s12*s21
+    s41 = 1.0 + s38
+    s42 = 1.0/s23
+    s43 = s24*s42
+    s44 = -s43
+    s45 = s25*s42
+    s46 = s24*s43
+    s47 = s27 - s46
+    s48 = s25*s43 - s1*s17
+    s49 = -1.0 + s26 - s46
+    s50 = 1.0*(s47 > mask_1 + 1e-12*s27)
+    s51 = s50/(s47 + 1.0 - s50)
+    s52 = s48*s51
+    s53 = s49*s51
+    s54 = s29 - s25*s45 - s48*s52
+    s55 = s24*s45 - (s24 + s30) - s49*s52
+    s56 = 1.0/(1.0 + s34)
+    s57 = s36*s56
+    s58 = s37*s56
+    s59 = s40*s56
+    s60 = s41 - s36*s57
+    s61 = s36 + s37*s57
+    s62 = 1.0 - s38 + s40*s57
+    s63 = 1.0*(s60 > mask_7 + 1e-12*s41)
+    s64 = s63/(s60 + 1.0 - s63)
+    s65 = s61*s64
+    s66 = s62*s64
+    s67 = 1.0*(s54 > mask_2 + 1e-12*s29)
+    s68 = s67/(s54 + 1.0 - s67)
+    s69 = s55*s68
+    s70 = s31*s68
+    s71 = s30*s68
+    s72 = s33 - s46 - s49*s53 - s55*s69
+    s73 = s8*s19 + s31*s69
+    s74 = -1.0 + s32 + s30*s69
+    s75 = 1.0*(s72 > mask_3 + 1e-12*s33)
+    s76 = s75/(s72 + 1.0 - s75)
+    s77 = s73*s76
+    s78 = s74*s76
+    s79 = s35 - s37*s58 - s61*s65 - s31*s70 - s73*s77
+    s80 = s30*s70 - (s30 + s36 + s40*s58 + s62*s65) + s74*s77
+    s81 = 1.0*(s79 > mask_4 + 1e-12*s35)
+    s82 = s81/(s79 + 1.0 - s81)
+    s83 = s80*s82
+    s84 = s39 - s40*s59 - s62*s66 - s30*s71 - s74*s78 - s80*s83
+    s85 = 1.0*(s84 > mask_5 + 1e-12*s39)
+    s86 = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+    s87 = s47/s27
+    s88 = s54/s29
+    s89 = s72/s33
+    s90 = s79/s35
+    s91 = s84/s39
+    s92 = min(min(min(min(min(1.0, mask_1 + s87), mask_2 + s88), mask_3 + s89), mask_4 + s90), mask_5 + s91)
+    s93 = s60/s41
     # outputs
-    w[39] = s3
-    w[40] = s4
-    w[41] = s7
-    w[42] = s9
-    w[43] = s11
-    w[44] = s13
-    w[45] = s14
-    w[46] = s15
-    w[0] = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
-    w[81] = s1
-    w[82] = s2
-    w[83] = s1
-    w[84] = s8
-    w[85] = s2
-    w[86] = s6
-    w[87] = s8
-    w[88] = -s12
-    w[89] = s6
-    w[90] = s10
-    w[91] = s12
-    w[92] = -s10
-    w[56] = s79
-    w[57] = s80
-    w[58] = s81
-    w[59] = s82
-    w[60] = s83
-    w[62] = s85
-    w[5] = s56 + 1.0 + s78 + s74 + s68 + s60 + 1.0 + s43
-    w[4] = min(s84, mask_7 + s85)
-    w[93] = s37
-    w[94] = s38
-    w[95] = s37
-    w[96] = s45
-    w[97] = s46
-    w[98] = -s50
-    w[99] = s51
-    w[100] = s50
-    w[101] = s58
-    w[102] = s59
-    w[103] = s62
-    w[104] = s63
-    w[105] = -s64
-    w[106] = -s70
-    w[107] = s71
-    w[108] = s76
-    w[109] = s35
-    w[110] = s44
-    w[111] = s49
-    w[112] = s57
-    w[113] = s61
-    w[114] = s69
-    w[115] = s75
-    w[116] = s78/(s77 + 1.0 - s78)
+    w[43] = s3
+    w[44] = s4
+    w[45] = s7
+    w[46] = s9
+    w[47] = s11
+    w[48] = s13
+    w[49] = s14
+    w[50] = s15
+    w[0] = s86
+    w[8] = s86
+    w[102] = s1
+    w[103] = s2
+    w[104] = s1
+    w[105] = s8
+    w[106] = s2
+    w[107] = s6
+    w[108] = s8
+    w[109] = -s12
+    w[110] = s6
+    w[111] = s10
+    w[112] = s12
+    w[113] = -s10
+    w[60] = s87
+    w[61] = s88
+    w[62] = s89
+    w[63] = s90
+    w[64] = s91
+    w[66] = s93
+    w[5] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50
+    w[4] = min(s92, mask_7 + s93)
+    w[10] = 1.0
+    w[114] = s44
+    w[115] = s45
+    w[116] = s44
+    w[117] = s52
+    w[118] = s53
+    w[119] = -s57
+    w[120] = s58
+    w[121] = s59
+    w[122] = s65
+    w[123] = s66
+    w[124] = s69
+    w[125] = s70
+    w[126] = -s71
+    w[127] = -s77
+    w[128] = s78
+    w[129] = s83
+    w[130] = s42
+    w[131] = s51
+    w[132] = s56
+    w[133] = s64
+    w[134] = s68
+    w[135] = s76
+    w[136] = s82
+    w[137] = s85/(s84 + 1.0 - s85)
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """the correction -D^+ times the section `residual`, of v, or of q by N: 102 operations, 6981 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 105 operations, 6984 before sharing."""
     # inputs
-    lower_0 = w[93]
-    lower_1 = w[94]
-    lower_2 = w[95]
-    lower_3 = w[96]
-    lower_4 = w[97]
-    lower_5 = w[98]
-    lower_6 = w[99]
-    lower_7 = w[100]
-    lower_8 = w[101]
-    lower_9 = w[102]
-    lower_10 = w[103]
-    lower_11 = w[104]
-    lower_12 = w[105]
-    lower_13 = w[106]
-    lower_14 = w[107]
-    lower_15 = w[108]
-    reciprocal_0 = w[109]
-    reciprocal_1 = w[110]
-    reciprocal_2 = w[111]
-    reciprocal_3 = w[112]
-    reciprocal_4 = w[113]
-    reciprocal_5 = w[114]
-    reciprocal_6 = w[115]
-    reciprocal_7 = w[116]
-    residual_0 = w[39]
-    residual_1 = w[40]
-    residual_2 = w[41]
-    residual_3 = w[42]
-    residual_4 = w[43]
-    residual_5 = w[44]
-    residual_6 = w[45]
-    residual_7 = w[46]
-    jacobian_0 = w[81]
-    jacobian_1 = w[82]
-    jacobian_2 = w[83]
-    jacobian_3 = w[84]
-    jacobian_4 = w[85]
-    jacobian_5 = w[86]
-    jacobian_6 = w[87]
-    jacobian_7 = w[88]
-    jacobian_8 = w[89]
-    jacobian_9 = w[90]
-    jacobian_10 = w[91]
-    jacobian_11 = w[92]
+    gauge_2 = w[87]
+    gauge_5 = w[90]
+    gauge_8 = w[93]
+    lower_0 = w[114]
+    lower_1 = w[115]
+    lower_2 = w[116]
+    lower_3 = w[117]
+    lower_4 = w[118]
+    lower_5 = w[119]
+    lower_6 = w[120]
+    lower_7 = w[121]
+    lower_8 = w[122]
+    lower_9 = w[123]
+    lower_10 = w[124]
+    lower_11 = w[125]
+    lower_12 = w[126]
+    lower_13 = w[127]
+    lower_14 = w[128]
+    lower_15 = w[129]
+    reciprocal_0 = w[130]
+    reciprocal_1 = w[131]
+    reciprocal_2 = w[132]
+    reciprocal_3 = w[133]
+    reciprocal_4 = w[134]
+    reciprocal_5 = w[135]
+    reciprocal_6 = w[136]
+    reciprocal_7 = w[137]
+    residual_0 = w[43]
+    residual_1 = w[44]
+    residual_2 = w[45]
+    residual_3 = w[46]
+    residual_4 = w[47]
+    residual_5 = w[48]
+    residual_6 = w[49]
+    residual_7 = w[50]
+    jacobian_0 = w[102]
+    jacobian_1 = w[103]
+    jacobian_2 = w[104]
+    jacobian_3 = w[105]
+    jacobian_4 = w[106]
+    jacobian_5 = w[107]
+    jacobian_6 = w[108]
+    jacobian_7 = w[109]
+    jacobian_8 = w[110]
+    jacobian_9 = w[111]
+    jacobian_10 = w[112]
+    jacobian_11 = w[113]
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_3*s0
@@ -305,20 +323,21 @@ def spread(p, w):
     s17 = reciprocal_1*s0 - lower_3*s14 - lower_4*s11
     s18 = reciprocal_0*residual_0 + lower_0*s17 + lower_1*s14 + lower_2*s11
     # outputs
-    w[63] = s13 - s12 - s18
-    w[64] = s17 + s10 - s9
-    w[65] = s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4
-    w[66] = s14 + s7 - s6
-    w[67] = s11 - s5
-    w[68] = s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8
-    w[69] = s8 - s16
-    w[70] = s5 + s15
-    w[71] = s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11
+    w[67] = s13 - s12 - s18
+    w[68] = s17 + s10 - s9
+    w[69] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)
+    w[70] = s14 + s7 - s6
+    w[71] = s11 - s5
+    w[72] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)
+    w[73] = s8 - s16
+    w[74] = s5 + s15
+    w[75] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left, and the energies: 75 operations, 131 before sharing."""
+    """D v - nu with the D and nu that `geometry` left, and the energies: 75 operations, 203 before sharing."""
     # inputs
     q1 = y[1]  # crank.y [m]
     v0 = y[9]  # crank.vx [m/s]
@@ -341,18 +360,18 @@ def measure(t, y, p, w):
     p9 = p[9]
     p10 = p[10]
     p11 = p[11]
-    jacobian_0 = w[81]
-    jacobian_1 = w[82]
-    jacobian_2 = w[83]
-    jacobian_3 = w[84]
-    jacobian_4 = w[85]
-    jacobian_5 = w[86]
-    jacobian_6 = w[87]
-    jacobian_7 = w[88]
-    jacobian_8 = w[89]
-    jacobian_9 = w[90]
-    jacobian_10 = w[91]
-    jacobian_11 = w[92]
+    jacobian_0 = w[102]
+    jacobian_1 = w[103]
+    jacobian_2 = w[104]
+    jacobian_3 = w[105]
+    jacobian_4 = w[106]
+    jacobian_5 = w[107]
+    jacobian_6 = w[108]
+    jacobian_7 = w[109]
+    jacobian_8 = w[110]
+    jacobian_9 = w[111]
+    jacobian_10 = w[112]
+    jacobian_11 = w[113]
     # intermediate terms
     s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
     s1 = v0 + v2*jacobian_0
@@ -363,19 +382,22 @@ def measure(t, y, p, w):
     s6 = v7 + v5*jacobian_8 - v4 + v8*jacobian_9
     s7 = v6 + v8*jacobian_10
     s8 = v7 + v8*jacobian_11
+    s9 = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
     # outputs
-    w[39] = s1
-    w[40] = s2
-    w[41] = s3
-    w[42] = s4
-    w[43] = s5
-    w[44] = s6
-    w[45] = s7
-    w[46] = s8
-    w[1] = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
+    w[43] = s1
+    w[44] = s2
+    w[45] = s3
+    w[46] = s4
+    w[47] = s5
+    w[48] = s6
+    w[49] = s7
+    w[50] = s8
+    w[1] = s9
+    w[9] = s9
     w[2] = s0 + v8*v8*p11
     w[3] = q1*p4 + q4*p7 + q7*p10
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def observe(t, y, p, w, ydot, out):
@@ -437,6 +459,7 @@ def observe(t, y, p, w, ydot, out):
     out[15] = v8
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
@@ -448,13 +471,13 @@ def masses(p, w):
     p13 = p[13]
     p14 = p[14]
     # outputs
-    w[72] = p0
-    w[73] = p0
-    w[74] = p12
-    w[75] = p1
-    w[76] = p1
-    w[77] = p13
-    w[78] = p2
-    w[79] = p2
-    w[80] = p14
+    w[76] = p0
+    w[77] = p0
+    w[78] = p12
+    w[79] = p1
+    w[80] = p1
+    w[81] = p13
+    w[82] = p2
+    w[83] = p2
+    w[84] = p14
     return 0

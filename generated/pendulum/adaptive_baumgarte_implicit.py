@@ -2,137 +2,15 @@
 
 Baumgarte's gains bounded by a multiple of one over the step
 Chang, Nikravesh, J. Mech. Trans. Autom. Des. 107 (1985) 488-492; Lin, Huang, J. Mech. Des. 124 (2002) 633-640, doi 10.1115/1.1519277
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
 option solver = elimination
-p[3] gain (default 20.0)
-p[4] a (default 1.0)
+p[6] gain (default 20.0)
+p[7] a (default 1.0)
 """
 
-import math
+from .accept_measured_ff439807c5f4f6fd import accept
+from .form_acceleration_1b06dc0497a2dbb7 import residual, tangent
+from .prepare_ff3d175fb6c40462 import prepare
+from .rhs_direct_ed52607f1bff3adc import rhs
 
-from numba import njit
-
-from .model import geometry, measure
-
-CHANGE = 21  # sections of w
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def prepare(p):
-    """numbers that depend on parameters alone: 3 operations, 5 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    # intermediate terms
-    s0 = 9.81*p0
-    s1 = 1.0/p0
-    # outputs
-    p[5] = s0
-    p[6] = s1
-    p[7] = s0*s1
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers by adaptive-baumgarte: 37 operations, 115 before sharing."""
-    # inputs
-    q0 = y[0]  # bob.x [m]
-    q1 = y[1]  # bob.y [m]
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    p5 = p[5]
-    p3 = p[3]
-    p4 = p[4]
-    mask_0 = w[16]
-    status_8 = w[8]
-    p6 = p[6]
-    p7 = p[7]
-    # intermediate terms
-    s0 = min(p3, p4*(1.0/status_8))
-    s1 = (v0*v0 + v1*v1 + (q0*v0 + q1*v1)*(2.0*s0) + 0.5*(q0*q0 + q1*q1 - 1.0)*(s0*s0) - q1*p7)*(1.0/(mask_0 + q0*(q0*p6) + q1*(q1*p6)))
-    # outputs
-    ydot[0] = v0
-    ydot[1] = v1
-    ydot[2] = -p6*(q0*s1)
-    ydot[3] = -p6*(p5 + q1*s1)
-    ydot[4] = 0.0
-    w[15] = s1
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def residual(t, y, k, p, w, r):
-    """F(t, y, k) of the descriptor form, and the power: 33 operations, 39 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    q0 = y[0]  # bob.x [m]
-    q1 = y[1]  # bob.y [m]
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    p5 = p[5]
-    p3 = p[3]
-    p4 = p[4]
-    status_8 = w[8]
-    k0 = k[0]
-    k1 = k[1]
-    k2 = k[2]
-    k3 = k[3]
-    k4 = k[4]
-    # intermediate terms
-    s0 = min(p3, p4*(1.0/status_8))
-    s1 = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*(2.0*s0) + 0.5*(q0*q0 + q1*q1 - 1.0)*(s0*s0) + q0*k2 + q1*k3
-    # outputs
-    r[0] = k0 - v0
-    r[1] = k1 - v1
-    r[2] = p0*k2 + q0*k4
-    r[3] = p5 + p0*k3 + q1*k4
-    r[4] = s1
-    w[14] = 0.0
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def tangent(t, y, k, p, w, j):
-    """entries of dF/dk and dF/dy of the descriptor form: 23 operations, 48 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    q0 = y[0]  # bob.x [m]
-    q1 = y[1]  # bob.y [m]
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    p3 = p[3]
-    p4 = p[4]
-    status_8 = w[8]
-    k2 = k[2]
-    k3 = k[3]
-    k4 = k[4]
-    # intermediate terms
-    s0 = min(p3, p4*(1.0/status_8))
-    s1 = 2.0*s0
-    s2 = s0*s0
-    # outputs
-    j[0] = 1.0
-    j[1] = -1.0
-    j[2] = 1.0
-    j[3] = -1.0
-    j[4] = p0
-    j[5] = q0
-    j[6] = k4
-    j[7] = p0
-    j[8] = q1
-    j[9] = k4
-    j[10] = q0
-    j[11] = q1
-    j[12] = k2 + v0*s1 + s2*(0.5*(q0 + q0))
-    j[13] = k3 + v1*s1 + s2*(0.5*(q1 + q1))
-    j[14] = v0 + v0 + q0*s1
-    j[15] = v1 + v1 + q1*s1
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def accept(t, y, p, w, iw):
-    """Measure an accepted state; nothing is corrected."""
-    geometry(t, y, p, w)
-    measure(t, y, p, w)
-    return 0
+__all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

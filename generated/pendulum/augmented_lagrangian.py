@@ -2,144 +2,15 @@
 
 penalty terms with iterated multipliers and stabilised constraints
 Bayo, Garcia de Jalon, Serna, Comput. Methods Appl. Mech. Eng. 71 (1988) 183-195
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
-p[3] penalty (default 10000000.0)
-p[4] omega (default 10.0)
-p[5] mu (default 1.0)
-p[6] iteration_tolerance (default 1e-13)
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+p[7] penalty (default 10000000.0)
+p[8] omega (default 10.0)
+p[9] mu (default 1.0)
+p[10] iteration_tolerance (default 1e-13)
 """
 
-import math
+from .accept_measured_ff439807c5f4f6fd import accept
+from .prepare_c4079d5be56cada4 import prepare
+from .rhs_iterated_ecc7558feb1a76ab import rhs
 
-from numba import njit
-
-from .model import geometry, measure
-
-CHANGE = 21  # sections of w
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def prepare(p):
-    """numbers that depend on parameters alone: 8 operations, 9 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    p4 = p[4]
-    p5 = p[5]
-    # intermediate terms
-    s0 = 9.81*p0
-    # outputs
-    p[7] = -s0
-    p[8] = 2.0*(p4*p5)
-    p[9] = p4*p4
-    p[10] = -s0*(1.0/p0)
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def begin(t, y, p, w):
-    """matrices and start of the iteration: 30 operations, 58 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    q0 = y[0]  # bob.x [m]
-    q1 = y[1]  # bob.y [m]
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    p7 = p[7]
-    p3 = p[3]
-    mask_0 = w[16]
-    p8 = p[8]
-    p9 = p[9]
-    p10 = p[10]
-    # intermediate terms
-    s0 = p3*(1.0*(1.0 > mask_0))
-    s1 = q0*s0
-    s2 = q1*s1
-    s3 = 1.0/(p0 + q0*s1)
-    s4 = s2*s3
-    # outputs
-    w[28] = s4
-    w[29] = s3
-    w[30] = 1.0/(p0 + q1*(q1*s0) - s2*s4)
-    w[31] = s0
-    w[32] = q0
-    w[33] = q1
-    w[34] = p7
-    w[35] = -(v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p8 + 0.5*(q0*q0 + q1*q1 - 1.0)*p9)
-    w[36] = 0.0
-    w[37] = p10
-    w[15] = 0.0
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def iterate(p, w):
-    """one iteration of augmented-lagrangian: 36 operations, 359 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    kept_factor_0 = w[28]
-    kept_factor_1 = w[29]
-    kept_factor_2 = w[30]
-    kept_penalties_0 = w[31]
-    kept_jacobian_0 = w[32]
-    kept_jacobian_1 = w[33]
-    kept_force_0 = w[34]
-    kept_target_0 = w[35]
-    kept_acceleration_0 = w[36]
-    kept_acceleration_1 = w[37]
-    multipliers_0 = w[15]
-    # intermediate terms
-    s0 = kept_penalties_0*(kept_jacobian_0*kept_acceleration_0 + kept_jacobian_1*kept_acceleration_1 - kept_target_0)
-    s1 = multipliers_0 + s0
-    s2 = p0*kept_acceleration_0 + kept_jacobian_0*s1
-    s3 = kept_factor_2*(kept_force_0 - p0*kept_acceleration_1 - kept_jacobian_1*s1 + kept_factor_0*s2)
-    s4 = kept_factor_1*s2 + kept_factor_0*s3
-    s5 = kept_acceleration_0 - s4
-    s6 = kept_acceleration_1 + s3
-    # outputs
-    w[36] = s5
-    w[37] = s6
-    w[15] = multipliers_0 + kept_penalties_0*(kept_jacobian_0*s5 + kept_jacobian_1*s6 - kept_target_0)
-    w[9] = math.sqrt((s4*s4 + s3*s3)/(1.0 + s5*s5 + s6*s6))
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def finish(t, y, p, w, ydot):
-    """rates of the state, and power: 0 operations, 0 before sharing."""
-    # inputs
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    kept_acceleration_0 = w[36]
-    kept_acceleration_1 = w[37]
-    # outputs
-    ydot[0] = v0
-    ydot[1] = v1
-    ydot[2] = kept_acceleration_0
-    ydot[3] = kept_acceleration_1
-    ydot[4] = 0.0
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def rhs(t, y, p, w, iw, ydot):
-    """Rates of the state by iteration until v' changes no more, at most 30 times."""
-    begin(t, y, p, w)
-    last = math.inf
-    for _ in range(30):
-        iterate(p, w)
-        iw[6] += 1
-        increment = w[9]
-        # at the floor of rounding another iteration gains nothing
-        if increment <= p[6] or (increment > 0.5 * last and increment < 1e-6):
-            break
-        last = increment
-    finish(t, y, p, w, ydot)
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def accept(t, y, p, w, iw):
-    """Measure an accepted state; nothing is corrected."""
-    geometry(t, y, p, w)
-    measure(t, y, p, w)
-    return 0
+__all__ = ["accept", "prepare", "rhs"]

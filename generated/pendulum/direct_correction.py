@@ -2,86 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
 option solver = elimination
 option weight = identity
-p[3] tolerance (default 1e-13)
+p[6] tolerance (default 1e-13)
 """
 
-import math
+from .accept_identity_e5df34fffbc90410 import accept
+from .metric_identity_9c7507a51185d7d1 import geometry, spread
+from .prepare_ff3d175fb6c40462 import prepare
+from .rhs_direct_e8071acbf2bf5192 import rhs
 
-from numba import njit
-
-from .model import geometry, measure, spread
-
-CHANGE = 21  # sections of w
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def prepare(p):
-    """numbers that depend on parameters alone: 3 operations, 5 before sharing."""
-    # inputs
-    p0 = p[0]  # bob_mass [kg]
-    # intermediate terms
-    s0 = 9.81*p0
-    s1 = 1.0/p0
-    # outputs
-    p[4] = s0
-    p[5] = s1
-    p[6] = s0*s1
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def rhs(t, y, p, w, iw, ydot):
-    """q', v', power and multipliers by direct-correction: 20 operations, 46 before sharing."""
-    # inputs
-    q0 = y[0]  # bob.x [m]
-    q1 = y[1]  # bob.y [m]
-    v0 = y[2]  # bob.vx [m/s]
-    v1 = y[3]  # bob.vy [m/s]
-    p4 = p[4]
-    mask_0 = w[16]
-    p5 = p[5]
-    p6 = p[6]
-    # intermediate terms
-    s0 = (v0*v0 + v1*v1 - q1*p6)*(1.0/(mask_0 + q0*(q0*p5) + q1*(q1*p5)))
-    # outputs
-    ydot[0] = v0
-    ydot[1] = v1
-    ydot[2] = -p5*(q0*s0)
-    ydot[3] = -p5*(p4 + q1*s0)
-    ydot[4] = 0.0
-    w[15] = s0
-    return 0
-
-
-@njit(error_model="numpy", fastmath={"contract"})
-def accept(t, y, p, w, iw):
-    """Correct an accepted state and measure it; bit 1: the correction failed, bit 2: the state was changed."""
-    # each helper is called at one place only: the compiler copies it to every place it is called from
-    tolerance = p[3] * w[6]
-    last = math.inf
-    bits = 2
-    for round in range(15):
-        geometry(t, y, p, w)
-        violation = w[0]
-        # at the floor of rounding another iteration gains nothing
-        stalled = violation > 0.5 * last and violation <= 1e4 * tolerance
-        closed = violation <= tolerance or stalled or round == 14
-        if closed:
-            measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
-        spread(p, w)
-        if closed:
-            for j in range(2, 4):
-                y[j] += w[CHANGE - 2 + j]
-            break
-        for j in range(2):
-            y[j] += w[CHANGE + j]
-        last = violation
-        iw[3] += 1
-    if not violation <= 1e4 * tolerance:
-        iw[4] += 1
-        bits |= 1
-    measure(t, y, p, w)
-    return bits
+__all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -1,6 +1,6 @@
 """Model `pendulum`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 2, templates 06e8f0c6b361de81
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
 2 coordinates, 2 velocities, 1 constraint rows, 1 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -37,59 +37,68 @@ def prepare(p):
     p[2] = 9.81*p0
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D D^T that decides rank: 8 operations, 21 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 8 operations, 33 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
     # intermediate terms
     s0 = q0*q0 + q1*q1
     s1 = 0.5*(s0 - 1.0)
+    s2 = math.sqrt(s1*s1)
     # outputs
-    w[18] = s1
-    w[0] = math.sqrt(s1*s1)
-    w[25] = q0
-    w[26] = q1
+    w[22] = s1
+    w[0] = s2
+    w[8] = s2
+    w[32] = q0
+    w[33] = q1
     w[5] = 1.0
     w[4] = 1.0
-    w[27] = 1.0/s0
+    w[10] = 1.0
+    w[34] = 1.0/s0
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 5 operations, 6 before sharing."""
     # inputs
-    reciprocal_0 = w[27]
-    residual_0 = w[18]
-    jacobian_0 = w[25]
-    jacobian_1 = w[26]
+    reciprocal_0 = w[34]
+    residual_0 = w[22]
+    jacobian_0 = w[32]
+    jacobian_1 = w[33]
     # intermediate terms
     s0 = reciprocal_0*residual_0
     # outputs
-    w[21] = -s0*jacobian_0
-    w[22] = -s0*jacobian_1
+    w[25] = -s0*jacobian_0
+    w[26] = -s0*jacobian_1
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left, and the energies: 11 operations, 17 before sharing."""
+    """D v - nu with the D and nu that `geometry` left, and the energies: 11 operations, 25 before sharing."""
     # inputs
     q1 = y[1]  # bob.y [m]
     v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p1 = p[1]
     p2 = p[2]
-    jacobian_0 = w[25]
-    jacobian_1 = w[26]
+    jacobian_0 = w[32]
+    jacobian_1 = w[33]
     # intermediate terms
     s0 = v0*jacobian_0 + v1*jacobian_1
+    s1 = math.sqrt(s0*s0)
     # outputs
-    w[18] = s0
-    w[1] = math.sqrt(s0*s0)
+    w[22] = s0
+    w[1] = s1
+    w[9] = s1
     w[2] = v0*v0*p1 + v1*v1*p1
     w[3] = q1*p2
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def observe(t, y, p, w, ydot, out):
@@ -105,12 +114,13 @@ def observe(t, y, p, w, ydot, out):
     out[0] = v0*v0 + v1*v1 + q0*ydot_2 + q1*ydot_3
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
     # inputs
     p0 = p[0]  # bob_mass [kg]
     # outputs
-    w[23] = p0
-    w[24] = p0
+    w[27] = p0
+    w[28] = p0
     return 0

@@ -1,6 +1,6 @@
 """Model `slider-crank`: what every method of it shares. Emitted by symgen; do not edit.
 
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 2, templates 06e8f0c6b361de81
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates a360905d90dcc4fd
 9 coordinates, 9 velocities, 8 constraint rows, 3 parameters,
 0 fill-ins in the factor of D D^T
 
@@ -72,9 +72,10 @@ def prepare(p):
     p[12] = 0.016875*p1
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D D^T that decides rank: 150 operations, 18968 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 167 operations, 21629 before sharing."""
     # inputs
     q0 = y[0]  # crank.x [m]
     q1 = y[1]  # crank.y [m]
@@ -85,10 +86,15 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
-    mask_1 = w[24]
-    mask_2 = w[25]
-    mask_3 = w[26]
-    mask_5 = w[28]
+    mask_1 = w[28]
+    mask_2 = w[29]
+    mask_3 = w[30]
+    mask_5 = w[32]
+    gauge_2 = w[87]
+    gauge_5 = w[90]
+    gauge_8 = w[93]
+    status_6 = w[6]
+    row_weight_7 = w[101]
     # intermediate terms
     s0 = 0.075*math.cos(q2)
     s1 = -s0
@@ -102,164 +108,179 @@ def geometry(t, y, p, w):
     s9 = q4 - q1 - s8 - s3
     s10 = q6 - q3 - s5
     s11 = q7 - q4 - s8
-    s12 = s3*s3
-    s13 = 1.0 + s12
-    s14 = s0*s3
-    s15 = -1.0 + s12
-    s16 = s0*s0
+    s12 = s3*gauge_2
+    s13 = s0*gauge_2
+    s14 = s8*gauge_5
+    s15 = s5*gauge_5
+    s16 = s3*s12
     s17 = 1.0 + s16
-    s18 = s8*s8
-    s19 = 1.0 + s13 + s18
-    s20 = s5*s8
-    s21 = -1.0 + s18
-    s22 = s5*s5
+    s18 = s0*s12
+    s19 = -1.0 + s16
+    s20 = s0*s13
+    s21 = 1.0 + s20
+    s22 = s8*s14
     s23 = 1.0 + s17 + s22
-    s24 = 1.0 + 1.0 + s22
-    s25 = 1.0/s13
-    s26 = s14*s25
-    s27 = -s26
-    s28 = s15*s25
-    s29 = s14*s26
-    s30 = s17 - s29
-    s31 = s15*s26 - s14
-    s32 = -1.0 + s16 - s29
-    s33 = 1.0*(s30 > mask_1 + 1e-12*s17)
-    s34 = s33/(s30 + 1.0 - s33)
-    s35 = s31*s34
-    s36 = s32*s34
-    s37 = 1.0/(1.0 + 1.0 + s18)
-    s38 = s20*s37
-    s39 = -s38
-    s40 = s21*s37
-    s41 = s20*s38
-    s42 = s24 - 1.0 - s41
-    s43 = s21*s38 - s20
-    s44 = -1.0 + s22 - s41
-    s45 = 1.0*(s42 > mask_5 + 1e-12*s24)
-    s46 = s45/(s42 + 1.0 - s45)
-    s47 = s43*s46
-    s48 = s44*s46
-    s49 = s19 - s15*s28 - s31*s35 - s21*s40 - s43*s47
-    s50 = s14*s28 - (s14 + s20) - s32*s35 + s20*s40 - s44*s47
-    s51 = 1.0*(s49 > mask_2 + 1e-12*s19)
-    s52 = s51/(s49 + 1.0 - s51)
-    s53 = s50*s52
-    s54 = s23 - s29 - s32*s36 - s41 - s44*s48 - s50*s53
-    s55 = 1.0*(s54 > mask_3 + 1e-12*s23)
-    s56 = s30/s17
-    s57 = s49/s19
-    s58 = s54/s23
-    s59 = s42/s24
+    s24 = s5*s14
+    s25 = -1.0 + s22
+    s26 = s5*s15
+    s27 = 1.0 + s21 + s26
+    s28 = s8*s15
+    s29 = 1.0 + 1.0 + s26
+    s30 = 1.0/s17
+    s31 = s18*s30
+    s32 = -s31
+    s33 = s19*s30
+    s34 = s18*s31
+    s35 = s21 - s34
+    s36 = s19*s31 - s3*s13
+    s37 = -1.0 + s20 - s34
+    s38 = 1.0*(s35 > mask_1 + 1e-12*s21)
+    s39 = s38/(s35 + 1.0 - s38)
+    s40 = s36*s39
+    s41 = s37*s39
+    s42 = 1.0/(1.0 + 1.0 + s22)
+    s43 = s24*s42
+    s44 = s25*s42
+    s45 = s28*s42
+    s46 = s29 - 1.0 - s24*s43
+    s47 = s25*s43 - s24
+    s48 = -1.0 + s26 - s28*s43
+    s49 = 1.0*(s46 > mask_5 + 1e-12*s29)
+    s50 = s49/(s46 + 1.0 - s49)
+    s51 = s47*s50
+    s52 = s48*s50
+    s53 = s23 - s19*s33 - s36*s40 - s25*s44 - s47*s51
+    s54 = s18*s33 - (s18 + s24) - s37*s40 + s28*s44 - s48*s51
+    s55 = 1.0*(s53 > mask_2 + 1e-12*s23)
+    s56 = s55/(s53 + 1.0 - s55)
+    s57 = s54*s56
+    s58 = s27 - s34 - s37*s41 - s28*s45 - s48*s52 - s54*s57
+    s59 = 1.0*(s58 > mask_3 + 1e-12*s27)
+    s60 = q8*status_6
+    s61 = s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7
+    s62 = s35/s21
+    s63 = s53/s23
+    s64 = s58/s27
+    s65 = s46/s29
     # outputs
-    w[39] = s2
-    w[40] = s4
-    w[41] = s7
-    w[42] = s9
-    w[43] = s10
-    w[44] = s11
-    w[45] = q7
-    w[46] = q8
-    w[0] = math.sqrt(s2*s2 + s4*s4 + s7*s7 + s9*s9 + s10*s10 + s11*s11 + q7*q7 + q8*q8)
-    w[81] = s3
-    w[82] = s1
-    w[83] = s3
-    w[84] = s8
-    w[85] = s1
-    w[86] = s6
-    w[87] = s8
-    w[88] = s6
-    w[56] = s56
-    w[57] = s57
-    w[58] = s58
-    w[60] = s59
-    w[5] = 1.0 + 1.0 + s45 + 1.0 + s55 + s51 + 1.0 + s33
-    w[4] = min(min(min(min(1.0, mask_1 + s56), mask_2 + s57), mask_3 + s58), mask_5 + s59)
-    w[89] = s27
-    w[90] = s28
-    w[91] = s27
-    w[92] = s35
-    w[93] = s36
-    w[94] = s39
-    w[95] = s40
-    w[96] = s39
-    w[97] = s47
-    w[98] = s48
-    w[99] = s53
-    w[100] = s25
-    w[101] = s34
-    w[102] = s37
-    w[103] = s46
-    w[104] = s52
-    w[105] = s55/(s54 + 1.0 - s55)
+    w[43] = s2
+    w[44] = s4
+    w[45] = s7
+    w[46] = s9
+    w[47] = s10
+    w[48] = s11
+    w[49] = q7
+    w[50] = q8
+    w[0] = math.sqrt(s61 + q8*q8)
+    w[8] = math.sqrt(s61 + s60*s60)
+    w[102] = s3
+    w[103] = s1
+    w[104] = s3
+    w[105] = s8
+    w[106] = s1
+    w[107] = s6
+    w[108] = s8
+    w[109] = s6
+    w[60] = s62
+    w[61] = s63
+    w[62] = s64
+    w[64] = s65
+    w[5] = 1.0 + 1.0 + s49 + 1.0 + s59 + s55 + 1.0 + s38
+    w[4] = min(min(min(min(1.0, mask_1 + s62), mask_2 + s63), mask_3 + s64), mask_5 + s65)
+    w[10] = min(1.0, gauge_8*row_weight_7)
+    w[110] = s32
+    w[111] = s33
+    w[112] = s32
+    w[113] = s40
+    w[114] = s41
+    w[115] = -s43
+    w[116] = s44
+    w[117] = -s45
+    w[118] = s51
+    w[119] = s52
+    w[120] = s57
+    w[121] = 1.0/gauge_8
+    w[122] = s30
+    w[123] = s39
+    w[124] = s42
+    w[125] = s50
+    w[126] = s56
+    w[127] = s59/(s58 + 1.0 - s59)
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def spread(p, w):
-    """the correction -D^+ times the section `residual`, of v, or of q by N: 75 operations, 1621 before sharing."""
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 79 operations, 1625 before sharing."""
     # inputs
-    lower_0 = w[89]
-    lower_1 = w[90]
-    lower_2 = w[91]
-    lower_3 = w[92]
-    lower_4 = w[93]
-    lower_5 = w[94]
-    lower_6 = w[95]
-    lower_7 = w[96]
-    lower_8 = w[97]
-    lower_9 = w[98]
-    lower_10 = w[99]
-    reciprocal_0 = w[100]
-    reciprocal_1 = w[101]
-    reciprocal_2 = w[102]
-    reciprocal_3 = w[103]
-    reciprocal_4 = w[104]
-    reciprocal_5 = w[105]
-    residual_0 = w[39]
-    residual_1 = w[40]
-    residual_2 = w[41]
-    residual_3 = w[42]
-    residual_4 = w[43]
-    residual_5 = w[44]
-    residual_6 = w[45]
-    residual_7 = w[46]
-    jacobian_0 = w[81]
-    jacobian_1 = w[82]
-    jacobian_2 = w[83]
-    jacobian_3 = w[84]
-    jacobian_4 = w[85]
-    jacobian_5 = w[86]
-    jacobian_6 = w[87]
-    jacobian_7 = w[88]
+    gauge_2 = w[87]
+    gauge_5 = w[90]
+    gauge_8 = w[93]
+    lower_0 = w[110]
+    lower_1 = w[111]
+    lower_2 = w[112]
+    lower_3 = w[113]
+    lower_4 = w[114]
+    lower_5 = w[115]
+    lower_6 = w[116]
+    lower_7 = w[117]
+    lower_8 = w[118]
+    lower_9 = w[119]
+    lower_10 = w[120]
+    reciprocal_0 = w[121]
+    reciprocal_1 = w[122]
+    reciprocal_2 = w[123]
+    reciprocal_3 = w[124]
+    reciprocal_4 = w[125]
+    reciprocal_5 = w[126]
+    reciprocal_6 = w[127]
+    residual_0 = w[43]
+    residual_1 = w[44]
+    residual_2 = w[45]
+    residual_3 = w[46]
+    residual_4 = w[47]
+    residual_5 = w[48]
+    residual_6 = w[49]
+    residual_7 = w[50]
+    jacobian_0 = w[102]
+    jacobian_1 = w[103]
+    jacobian_2 = w[104]
+    jacobian_3 = w[105]
+    jacobian_4 = w[106]
+    jacobian_5 = w[107]
+    jacobian_6 = w[108]
+    jacobian_7 = w[109]
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = residual_6 - residual_5 + lower_5*residual_4
     s2 = lower_1*residual_0 - residual_2 - lower_3*s0 + lower_6*residual_4 - lower_8*s1
     s3 = lower_2*residual_0 - residual_3 - lower_4*s0 + lower_7*residual_4 - lower_9*s1 - lower_10*s2
-    s4 = reciprocal_5*s3
-    s5 = reciprocal_4*s2
+    s4 = reciprocal_6*s3
+    s5 = reciprocal_5*s2
     s6 = lower_10*s4
     s7 = s5 - s6
-    s8 = reciprocal_3*s1 - lower_8*s7
+    s8 = reciprocal_4*s1 - lower_8*s7
     s9 = lower_9*s4
     s10 = s8 - s9
-    s11 = reciprocal_2*residual_4 + lower_5*s10 + lower_6*s7 + lower_7*s4
-    s12 = reciprocal_1*s0 - lower_3*s7 - lower_4*s4
-    s13 = reciprocal_0*residual_0 + lower_0*s12 + lower_1*s7 + lower_2*s4
+    s11 = reciprocal_3*residual_4 + lower_5*s10 + lower_6*s7 + lower_7*s4
+    s12 = reciprocal_2*s0 - lower_3*s7 - lower_4*s4
+    s13 = reciprocal_1*residual_0 + lower_0*s12 + lower_1*s7 + lower_2*s4
     # outputs
-    w[63] = s6 - s5 - s13
-    w[64] = s12 - s4
-    w[65] = s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4
-    w[66] = s7 + s11
-    w[67] = s4 + s9 - s8
-    w[68] = s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7
-    w[69] = -s11
-    w[70] = s10 - (residual_6 + s10)
-    w[71] = -residual_7
+    w[67] = s6 - s5 - s13
+    w[68] = s12 - s4
+    w[69] = gauge_2*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)
+    w[70] = s7 + s11
+    w[71] = s4 + s9 - s8
+    w[72] = gauge_5*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)
+    w[73] = -s11
+    w[74] = s10 - (residual_6 + s10)
+    w[75] = -gauge_8*(reciprocal_0*residual_7)
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def measure(t, y, p, w):
-    """D v - nu with the D and nu that `geometry` left, and the energies: 65 operations, 107 before sharing."""
+    """D v - nu with the D and nu that `geometry` left, and the energies: 69 operations, 165 before sharing."""
     # inputs
     q1 = y[1]  # crank.y [m]
     v0 = y[9]  # crank.vx [m/s]
@@ -281,14 +302,15 @@ def measure(t, y, p, w):
     p8 = p[8]
     p9 = p[9]
     p10 = p[10]
-    jacobian_0 = w[81]
-    jacobian_1 = w[82]
-    jacobian_2 = w[83]
-    jacobian_3 = w[84]
-    jacobian_4 = w[85]
-    jacobian_5 = w[86]
-    jacobian_6 = w[87]
-    jacobian_7 = w[88]
+    status_6 = w[6]
+    jacobian_0 = w[102]
+    jacobian_1 = w[103]
+    jacobian_2 = w[104]
+    jacobian_3 = w[105]
+    jacobian_4 = w[106]
+    jacobian_5 = w[107]
+    jacobian_6 = w[108]
+    jacobian_7 = w[109]
     # intermediate terms
     s0 = v8*v8
     s1 = v7*v7
@@ -299,19 +321,23 @@ def measure(t, y, p, w):
     s6 = v4 + v2*jacobian_4 - v1 + v5*jacobian_5
     s7 = v6 + v5*jacobian_6 - v3
     s8 = v7 + v5*jacobian_7 - v4
+    s9 = v8*status_6
+    s10 = s1 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8
     # outputs
-    w[39] = s3
-    w[40] = s4
-    w[41] = s5
-    w[42] = s6
-    w[43] = s7
-    w[44] = s8
-    w[45] = v7
-    w[46] = v8
-    w[1] = math.sqrt(s0 + s1 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
+    w[43] = s3
+    w[44] = s4
+    w[45] = s5
+    w[46] = s6
+    w[47] = s7
+    w[48] = s8
+    w[49] = v7
+    w[50] = v8
+    w[1] = math.sqrt(s0 + s10)
+    w[9] = math.sqrt(s10 + s9*s9)
     w[2] = s2 + 0.00025*s0
     w[3] = q1*p4 + q4*p7 + q7*p10
     return 0
+
 
 @njit(error_model="numpy", fastmath={"contract"})
 def observe(t, y, p, w, ydot, out):
@@ -368,6 +394,7 @@ def observe(t, y, p, w, ydot, out):
     out[15] = v6
     return 0
 
+
 @njit(error_model="numpy", fastmath={"contract"})
 def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
@@ -378,13 +405,13 @@ def masses(p, w):
     p11 = p[11]
     p12 = p[12]
     # outputs
-    w[72] = p0
-    w[73] = p0
-    w[74] = p11
-    w[75] = p1
-    w[76] = p1
-    w[77] = p12
-    w[78] = p2
-    w[79] = p2
-    w[80] = 0.0005
+    w[76] = p0
+    w[77] = p0
+    w[78] = p11
+    w[79] = p1
+    w[80] = p1
+    w[81] = p12
+    w[82] = p2
+    w[83] = p2
+    w[84] = 0.0005
     return 0

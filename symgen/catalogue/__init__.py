@@ -8,14 +8,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import msgspec
 
 from symgen.errors import InputError
 from symgen.registry import Registry
 
-_FOLDER = Path(__file__).parent
+
+def _folder() -> Path:
+    """Return the folder of the files; in an archive, what stands for one."""
+    here = Path(__file__).parent
+    if here.is_dir():
+        return here
+    from importlib.resources import files
+
+    return cast(Path, files(__name__))
+
+
+_FOLDER = _folder()
 
 
 class Sized(msgspec.Struct, frozen=True):
@@ -48,7 +59,8 @@ SIZED: Registry[Sized] = Registry(__name__, "sized mechanism")
 
 
 def _files() -> dict[str, Path]:
-    return {path.stem: path for path in sorted(_FOLDER.glob("*.toml"))}
+    found = sorted(_FOLDER.iterdir(), key=lambda path: path.name)
+    return {path.name.removesuffix(".toml"): path for path in found if path.name.endswith(".toml")}
 
 
 def names() -> tuple[str, ...]:

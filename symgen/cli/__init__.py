@@ -1,20 +1,24 @@
 """The command line: the group, and what every command shares. Each command is a module, imported when it is used.
 
 Exit codes: 0 done, 1 a simulation or study failed, 2 bad input, 130 interrupted. Results go to standard output, and
-with ``--json`` nothing but JSON does; everything else goes to standard error.
+with ``--json`` nothing but JSON does; everything else goes to standard error. SIGTERM interrupts as Ctrl-C does.
 """
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Sequence
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
 
 from symgen import __version__
-from symgen.errors import SymgenError, nearest
+from symgen.errors import SymgenError, nearest, printable
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
@@ -40,7 +44,7 @@ class LazyGroup(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return all names in the order of the table."""
-        return list(COMMANDS)
+        return [*COMMANDS]  # the built-in `list` is hidden by the command of that name once it is imported
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Import and return a command, None where there is none of that name."""
@@ -81,6 +85,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Words after ``symgen``; by default those of this process.
     """
+    # who ends a run from outside keeps what it has, as with Ctrl-C; only the main thread may say so
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         code = group.main(args=arguments, prog_name="symgen", standalone_mode=False)
         sys.stdout.flush()
@@ -94,16 +101,55 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return complain(str(error), error.exit_code)
     except (click.Abort, KeyboardInterrupt):
         return complain("interrupted", INTERRUPTED)
+    except MemoryError:
+        return complain("there is not enough memory for that", FAILURE)
     except BrokenPipeError:
         # whoever read our output went away: nothing is left to say, and Python must not try at exit
         _forget_stdout()
         return OK
+    except OSError as error:
+        if error.filename is not None:  # no failure of our own output, and of no file that has a sentence of its own
+            raise
+        _forget_stdout()
+        return complain(f"standard output cannot be written ({error.strerror})", FAILURE)
 
 
 def complain(sentence: str, code: int) -> int:
     """Write one sentence to standard error; return `code`."""
-    click.echo(f"symgen: {sentence}", err=True)
+    with suppress(OSError):  # standard error may be closed, or full
+        click.echo(f"symgen: {printable(sentence)}", err=True)
     return code
+
+
+def write_files(
+    code: int, files: Mapping[Path | None, Callable[[Path], object]], say: Callable[[Path], None] | None = None
+) -> int:
+    """Write files at the end of a command, each whatever becomes of the others, and say what could not be.
+
+    Parameters
+    ----------
+    code : int
+        Exit code of the command so far.
+    files : mapping
+        Path -> what writes it; None is a file that nobody asked for.
+    say : callable, optional
+        Called with each file that was written.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    failed = 0
+    for path, write in files.items():
+        if path is not None:
+            try:
+                write(path)
+                if say is not None:
+                    say(path)
+            except SymgenError as error:
+                failed = complain(str(error), error.exit_code)
+    return code or failed
 
 
 def _sentence(error: click.ClickException) -> str:

@@ -1,18 +1,95 @@
-"""Words of the command line turned into values, each refused with a sentence before anything is done."""
+"""Options of commands: made from the table of settings, and words turned into values before anything is done."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any, TypeVar
 
-from symgen.errors import InputError
+import click
+
+from symgen import arguments
+from symgen.errors import InputError, quoted
+from symgen.settings import about, default, flag
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+#: Processes or threads at most.
+MOST_JOBS = 4096
+
+
+def setting_options(
+    *names: str, text: Mapping[str, str] | None = None, otherwise: Mapping[str, Any] | None = None
+) -> Callable[[F], F]:
+    """Return a decorator that gives a command the options of some settings.
+
+    Values arrive under the settings' names, checked.
+
+    Parameters
+    ----------
+    *names : str
+        Names of settings, in the order of the help.
+    text : mapping, optional
+        Help of settings that mean something of their own in this command.
+    otherwise : mapping, optional
+        Defaults that differ in this command: a value, or, in brackets, words about what is done.
+    """
+
+    def decorate(function: F) -> F:
+        for name in reversed(names):
+            function = _option(name, (text or {}).get(name), (otherwise or {}).get(name))(function)
+        return function
+
+    return decorate
+
+
+def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
+    known, usual = about(name), default(name)
+    words = otherwise if isinstance(otherwise, str) and otherwise.startswith("(") else known.otherwise
+    value = usual if otherwise is None or words is otherwise else otherwise
+    extra: dict[str, Any] = {"help": text or known.help, "callback": lambda c, p, v: _checked(name, v)}
+    if known.kind is bool:
+        extra["is_flag"] = True
+    elif known.kind is dict:
+        extra |= {"multiple": True, "metavar": known.metavar}
+    else:
+        extra |= {"type": str if known.kind is tuple else known.kind, "default": value}
+        extra |= {"metavar": known.metavar or None, "show_default": words.strip("()") if words else value is not None}
+    return click.option(flag(name), name, **extra)
+
+
+def _checked(name: str, value: Any) -> Any:
+    known, where = about(name), flag(name)
+    if value is None:
+        return None
+    if name == "parameters":
+        return assignments(where, value)
+    if name == "options":
+        return option_pairs(value)
+    return known.check(where, number_list(where, value) if known.kind is tuple else value)
+
+
+def jobs_option(text: str) -> Callable[[F], F]:
+    """Return the option that says how many processes or threads work."""
+
+    def check(context: click.Context, parameter: click.Parameter, value: int | None) -> int | None:
+        return None if value is None else arguments.whole("--jobs", value, 1, MOST_JOBS)
+
+    return click.option("--jobs", type=int, callback=check, show_default="one for every core", help=text)
+
+
+def json_option(function: F) -> F:
+    """Give a command the option ``--json``."""
+    return click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")(
+        function
+    )
 
 
 def _pair(option: str, text: str) -> tuple[str, str]:
     name, equals, value = text.partition("=")
     if not equals or not name.strip() or not value.strip():
-        raise InputError(option, "NAME=VALUE", f"'{text[:60]}'")
+        raise InputError(option, "NAME=VALUE", quoted(text))
     return name.strip(), value.strip()
 
 
@@ -24,17 +101,8 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
     InputError
         If a word has another form or a value is not a finite number.
     """
-    values = {}
-    for text in texts:
-        name, value = _pair(option, text)
-        try:
-            number = float(value)
-        except ValueError:
-            number = math.nan
-        if not math.isfinite(number):
-            raise InputError(f"{option} {name}", "a finite number", f"'{value[:60]}'")
-        values[name] = number
-    return values
+    pairs = [_pair(option, text) for text in texts]
+    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in pairs}
 
 
 def option_pairs(texts: Sequence[str]) -> dict[str, str | float]:
@@ -42,11 +110,14 @@ def option_pairs(texts: Sequence[str]) -> dict[str, str | float]:
     return dict(_pair("--option", text) for text in texts)
 
 
-def numbers(**values: float | None) -> None:
-    """Refuse numbers that are not finite and above 0; None is none given."""
-    for name, value in values.items():
-        if value is not None and not (math.isfinite(value) and value > 0.0):
-            raise InputError(f"--{name.replace('_', '-')}", "a finite number above 0", f"{value:g}")
+def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > above):
+        raise InputError(where, expected, quoted(text))
+    return value
 
 
 def words(option: str, text: str | None) -> tuple[str, ...]:
@@ -55,22 +126,14 @@ def words(option: str, text: str | None) -> tuple[str, ...]:
         return ()
     found = tuple(part.strip() for part in text.split(","))
     if not all(found):
-        raise InputError(option, "words separated by commas", f"'{text[:60]}'")
+        raise InputError(option, "words separated by commas", quoted(text))
     return found
 
 
 def number_list(option: str, text: str | None) -> tuple[float, ...]:
     """Return the numbers of a comma-separated list, each finite and above 0."""
-    values = []
-    for word in words(option, text):
-        try:
-            value = float(word)
-        except ValueError:
-            value = math.nan
-        if not (math.isfinite(value) and value > 0.0):
-            raise InputError(option, "finite numbers above 0, separated by commas", f"'{word[:60]}'")
-        values.append(value)
-    return tuple(values)
+    expected = "finite numbers above 0, separated by commas"
+    return tuple(_number(option, expected, word, 0.0) for word in words(option, text))
 
 
 def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
@@ -90,7 +153,8 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     """
     if text is None:
         return None
-    from symgen.result.export import PLOTTED, SAVED, check_path, check_writable
+    from symgen.files import check_writable
+    from symgen.result.export import PLOTTED, SAVED, check_path
 
     path = Path(text)
     if kind:

@@ -29,11 +29,13 @@ def command_again() -> str:
         value = context.params.get(parameter.name or "")
         flag = max(parameter.opts, key=len)
         left_out = isinstance(parameter, click.Argument) or flag in _WORKING
-        if left_out or value in (None, (), False, parameter.default):
+        if left_out or value in (None, (), {}, False, parameter.default):
             continue
         if value is True:
             found.append(flag)
             continue
+        if isinstance(value, dict):
+            value = tuple(f"{name}={str(item).removesuffix('.0')}" for name, item in value.items())
         for item in value if isinstance(value, tuple) else (value,):
             # where the file lies is nobody's business
             found += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]

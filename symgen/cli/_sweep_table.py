@@ -35,6 +35,7 @@ def show_sweep(found: Sweep, written: Path | None) -> None:
             table.add_row("status", Text(f"{status}: {count}", style=COLOURS.get(status, "")))
     for reason, count in found.reasons():
         table.add_row("reason", f"{count} x {reason}")
+    table.add_row("error", "not estimated: symgen run --verify does so for a single run")
     if written is not None and not found.interrupted:
         table.add_row("written", Text(str(written)))
     out = console()

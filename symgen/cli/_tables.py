@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rich.console import Console
@@ -23,8 +21,8 @@ def console() -> Console:
     return wide if wide.is_terminal else Console(highlight=False, markup=False, width=200)
 
 
-def show_result(result: Result, written: Sequence[Path]) -> None:
-    """Print what a run gave, and the files that were written."""
+def show_result(result: Result) -> None:
+    """Print what a run gave."""
     from symgen.result.summary import lines
 
     table = Table(show_header=False, box=None, pad_edge=False)
@@ -32,8 +30,6 @@ def show_result(result: Result, written: Sequence[Path]) -> None:
     table.add_column(overflow="fold")
     for label, text in lines(result):
         table.add_row(label, Text(text, style=COLOURS[result.status] if label == "status" else ""))
-    for path in written:
-        table.add_row("written", Text(str(path)))
     out = console()
     out.print(table)
     if len(result.t):

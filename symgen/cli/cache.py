@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
+from symgen.cli._options import json_option
 
 
 @click.group("cache", short_help="Show or empty the cache of generated and compiled code.")
@@ -13,14 +14,14 @@ def command() -> None:
 
 
 @command.command("info")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@json_option
 def info(as_json: bool) -> int:
     """Say where the cache is and what it holds."""
     return _show(as_json, "")
 
 
 @command.command("clear")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@json_option
 def clear(as_json: bool) -> int:
     """Remove everything that symgen wrote into the cache."""
     from symgen.store.entries import Entries

@@ -7,17 +7,15 @@ from typing import Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import assignments
+from symgen.cli._options import json_option, setting_options
 
 
 @click.command("check", short_help="Validate and assemble a mechanism; say its degrees of freedom.")
 @click.argument("model")
-@click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter of the mechanism.")
-@click.option("--strict", is_flag=True, help="Refuse a start that is not consistent.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
-def command(model: str, changed: tuple[str, ...], strict: bool, as_json: bool) -> int:
+@setting_options("parameters", "strict")
+@json_option
+def command(model: str, parameters: dict[str, float], strict: bool, as_json: bool) -> int:
     """Validate MODEL, assemble it, and say its degrees of freedom, rank and redundant rows."""
-    parameters = assignments("--set", changed)
     facts = examine(model, parameters, strict)
     if as_json:
         write_json(facts)

@@ -6,12 +6,12 @@ import math
 import time
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import assignments, number_list, numbers, option_pairs, output_file, words
+from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
+from symgen.cli._options import jobs_option, json_option, number_list, output_file, setting_options, words
 from symgen.cli._report import command_again, report_file
 
 if TYPE_CHECKING:
@@ -24,11 +24,20 @@ if TYPE_CHECKING:
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 unless given.")
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own unless given.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
-@click.option("--until", type=float, help="End time [s].")
-@click.option("--output-step", type=float, help="Time between the outputs that are compared [s].")
-@click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter of the mechanism.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option, such as baumgarte.alpha=10.")
-@click.option("--repeat", type=int, default=3, show_default=True, help="Timed runs a row; the shortest counts.")
+@setting_options(
+    *("until", "output_step", "parameters", "options", "max_violation", "max_energy_error", "max_steps", "repeat"),
+    "shape",
+    text={
+        "output_step": "Time between the outputs that are compared [s].",
+        "options": "Option, such as baumgarte.alpha=10.",
+        "repeat": "Timed runs a row; the shortest counts.",
+    },
+    otherwise={
+        "until": "(of the mechanism, while it is predictable)",
+        "output_step": "(of the mechanism)",
+        "repeat": 3,
+    },
+)
 @click.option(
     "--reference",
     "reference_by",
@@ -40,27 +49,21 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the rows to a CSV file.")
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished row there, and skip those it has.")
-@click.option("--jobs", type=int, help="Processes for what is not timed; as many as there are cores unless given.")
-@click.option("--shape", default="auto", show_default=True, help="Shape of the code: auto, straight or looped.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@jobs_option("Processes for what is not timed.")
+@json_option
 def command(
     models: tuple[str, ...],
     methods: str | None,
     integrators: str | None,
     steps: str | None,
     rtols: str | None,
-    until: float | None,
-    output_step: float | None,
-    changed: tuple[str, ...],
-    options: tuple[str, ...],
-    repeat: int,
     reference_by: str,
     output: str | None,
     csv_file: str | None,
     resume: str | None,
     jobs: int | None,
-    shape: str,
     as_json: bool,
+    **asked: Any,
 ) -> int:
     """Run every MODEL with every method, integrator, step and tolerance; show error against run time.
 
@@ -68,10 +71,8 @@ def command(
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
     --steps. Ctrl-C keeps the rows that are done; with --resume the same command goes on behind them.
     """
-    numbers(until=until, output_step=output_step, jobs=jobs)
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
-    parameters, chosen = assignments("--set", changed), option_pairs(options)
     path, report = output_file("--csv", csv_file), report_file(output)
 
     from symgen.api import load
@@ -98,16 +99,11 @@ def command(
             integrator_list,
             step_list,
             rtol_list,
-            until,
-            repeat,
-            output_step,
-            parameters,
-            chosen,
-            progress,
-            jobs or cores(),
-            journal,
-            reference_by,
-            shape,
+            progress=progress,
+            jobs=jobs or cores(),
+            journal=journal,
+            reference_by=reference_by,
+            **asked,
         )
     if as_json:
         found = [study.to_json() for study in studies]
@@ -117,15 +113,18 @@ def command(
 
         for study in studies:
             show_study(study)
-    if path is not None:
-        save_csv(studies, path)
-    if report is not None and any(study.rows for study in studies):
+    if not any(study.rows for study in studies):
+        report = None
+
+    def write_report(file: Path) -> None:
         from symgen.report.comparison import comparison
         from symgen.report.write import write
 
-        write(comparison(studies, command_again(), _asked(step_list, rtol_list)), report)
-        click.echo(f"symgen: wrote {report}", err=True)
-    return _exit_code(studies, resume)
+        write(comparison(studies, command_again(), _asked(step_list, rtol_list)), file)
+        click.echo(f"symgen: wrote {file}", err=True)
+
+    files = {path: lambda file: save_csv(studies, file), report: write_report}
+    return write_files(_exit_code(studies, resume), files)
 
 
 def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> list[tuple[str, str]]:

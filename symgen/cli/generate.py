@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,15 +10,15 @@ from typing import Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import option_pairs
+from symgen.cli._options import json_option, setting_options
 from symgen.errors import InputError
-from symgen.ir.program import TARGETS
+from symgen.ir.program import PART, TARGETS
 
 
 @click.command("generate", short_help="Write the emitted code of a mechanism.")
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Such as direct-correction.weight=mass.")
+@setting_options("options", text={"options": "Such as direct-correction.weight=mass."})
 @click.option(
     "--shape",
     type=click.Choice(["straight", "looped"]),
@@ -35,11 +34,11 @@ from symgen.ir.program import TARGETS
     help="What the code is for: processors, or device functions for CUDA.",
 )
 @click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@json_option
 def command(
     model: str,
     methods: tuple[str, ...],
-    options: tuple[str, ...],
+    options: dict[str, str],
     shape: str,
     target: str,
     output: str | None,
@@ -56,11 +55,11 @@ def command(
 
     names = tuple(dict.fromkeys(METHODS.canonical(m, "--method") for m in methods)) or METHODS.names
     wanted: dict[str, dict[str, str]] = {name: {} for name in names}
-    for key, value in option_pairs(options).items():
+    for key, value in options.items():
         owner, _, name = key.partition(".")
         if owner not in wanted and not (owner == "method" and len(names) == 1):
             raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(names)}", f"'{key}'")
-        wanted[names[0] if owner == "method" else owner][name] = str(value)
+        wanted[names[0] if owner == "method" else owner][name] = value
     choices: list[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     mechanism = load(model)
     folder = Path(mechanism.name if output is None else output)
@@ -83,26 +82,46 @@ def command(
 
 
 def write_modules(folder: Path, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> list[Path]:
-    """Write modules and metadata, each file whole or not at all; return the files in order.
+    """Write modules and metadata, all of them or none; return the files in order.
+
+    Parts of laws are named by what they hold: those that no law of the folder names any more are removed.
 
     Raises
     ------
     InputError
         If the folder cannot be made or written.
     """
-    written = []
+    from symgen.files import Content, why, write_all
+
+    files: dict[Path, Content] = {}
+    for stem, (source, metadata) in modules.items():
+        files[folder / f"{stem}.py"] = source
+        files[folder / f"{stem}.json"] = json.dumps(metadata, allow_nan=False, indent=1, sort_keys=True) + "\n"
+    made = [f for f in (folder, *folder.parents) if not f.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        for stem, (source, metadata) in modules.items():
-            text = json.dumps(metadata, allow_nan=False, indent=1, sort_keys=True) + "\n"
-            for path, content in ((folder / f"{stem}.py", source), (folder / f"{stem}.json", text)):
-                sibling = path.with_name(f".{path.name}-{os.urandom(6).hex()}")
-                try:
-                    sibling.write_text(content, encoding="utf-8")
-                    os.replace(sibling, path)
-                finally:
-                    sibling.unlink(missing_ok=True)
-                written.append(path)
+        before = _parts(folder)
+        write_all(files)
+        for stem in before - _parts(folder):
+            for extension in (".py", ".json"):
+                (folder / f"{stem}{extension}").unlink(missing_ok=True)
     except OSError as error:
-        raise InputError("-o", "a folder that can be written", f"'{folder}' ({error.strerror})") from error
-    return written
+        raise InputError("-o", "a folder that can be written", f"'{folder}' ({why(error)})") from error
+    finally:
+        for f in made:  # where nothing could be written
+            if f.is_dir() and not any(f.iterdir()):
+                f.rmdir()
+    return list(files)
+
+
+def _parts(folder: Path) -> set[str]:
+    """Return the stems of parts that the metadata of laws in a folder name."""
+    found: set[str] = set()
+    for path in folder.glob("*.json"):
+        try:
+            data = json.loads(path.read_text(encoding="utf-8"))
+        except (ValueError, RecursionError):
+            continue
+        named = data.get("modules") if isinstance(data, dict) else None
+        found |= {n for n in named if isinstance(n, str) and PART.fullmatch(n)} if isinstance(named, list) else set()
+    return found

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import assignments, option_pairs
+from symgen.cli._options import setting_options
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -21,25 +21,25 @@ if TYPE_CHECKING:
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Of the method: weight=mass.")
-@click.option("--shape", default="auto", show_default=True, help="Shape of the code: auto, straight or looped.")
-@click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter, for the start.")
+@setting_options(
+    *("options", "shape", "parameters"),
+    text={"options": "Of the method: weight=mass.", "parameters": "Value of a parameter, for the start."},
+)
 def command(
     model: str,
     form: str,
     as_json: bool,
     method: str | None,
-    options: tuple[str, ...],
+    options: dict[str, str],
     shape: str,
-    changed: tuple[str, ...],
+    parameters: dict[str, float],
 ) -> int:
     """Show what symgen derives for MODEL: exactly what is compiled.
 
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
-    parameters = assignments("--set", changed)
-    given = {key.rpartition(".")[2]: str(value) for key, value in option_pairs(options).items()}
+    given = {key.rpartition(".")[2]: value for key, value in options.items()}
     form = "json" if as_json else form
     facts = describe(model, method, given, parameters, latex=form == "latex", shape=shape)
     if form == "json":
@@ -64,12 +64,13 @@ def describe(
     from symgen.formulate.display import Display
     from symgen.formulate.formulate import formulate
     from symgen.pipeline import choose_method, compile_model
-    from symgen.plan import Settings, make_plan
+    from symgen.plan import make_plan
+    from symgen.settings import Settings
 
     choice = choose_method(method or "direct-correction", options)
     model = load(name)
     asked = Settings(method=choice.method.name, options={f"method.{k}": v for k, v in options.items()}, shape=shape)
-    plan = make_plan(model, asked)
+    plan = make_plan(model.mechanism, asked)
     equations = formulate(model.mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text

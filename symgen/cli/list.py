@@ -5,10 +5,11 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
+from symgen.cli._options import json_option
 
 
 @click.command("list", short_help="Show the mechanisms that come with symgen.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@json_option
 def command(as_json: bool) -> int:
     """Show the mechanisms that come with symgen, with their sources and what a run of them uses by default."""
     from symgen import catalogue

@@ -7,7 +7,6 @@ from pathlib import Path
 import click
 
 from symgen.cli import OK
-from symgen.errors import InputError
 
 
 @click.command("new", short_help="Write a commented mechanism file to start from.")
@@ -22,18 +21,14 @@ from symgen.errors import InputError
 def command(name: str, output: str | None, space: str) -> int:
     """Write a mechanism file that runs as it is and shows every key, with comments. Never overwrites a file."""
     from symgen.describe.template import template
+    from symgen.files import check_writable, write_whole
 
     text = template(name, space)
     if output == "-":
         click.echo(text, nl=False)
         return OK
     path = Path(f"{name}.toml" if output is None else output)
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise InputError("-o", "the name of a file that does not exist yet", f"'{path}'") from None
-    except OSError as error:
-        raise InputError("-o", "a file that can be written", f"'{path}' ({error.strerror})") from None
+    check_writable("-o", path)
+    write_whole(path, text, replace=False)
     click.echo(f"wrote {path}; try: symgen run {path}")
     return OK

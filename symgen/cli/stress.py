@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import numbers, output_file, words
+from symgen import arguments
+from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
+from symgen.cli._options import jobs_option, json_option, output_file, setting_options, words
 from symgen.cli._report import command_again, report_file
 
 if TYPE_CHECKING:
@@ -28,8 +29,9 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
-@click.option("--jobs", type=int, help="Processes; as many as there are cores unless given.")
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@setting_options("max_violation", "max_energy_error", "max_steps")
+@jobs_option("Processes.")
+@json_option
 def command(
     models: tuple[str, ...],
     cases: str | None,
@@ -42,6 +44,7 @@ def command(
     resume: str | None,
     jobs: int | None,
     as_json: bool,
+    **limits: Any,
 ) -> int:
     """Run every method on stiff and extreme cases made of each MODEL (four-bar unless given).
 
@@ -49,7 +52,8 @@ def command(
     the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
     with an error above 1e-3 m.
     """
-    numbers(jobs=jobs, compilation=compilation)
+    if compilation is not None:
+        arguments.number("--compilation", compilation, positive=True)
     case_list, method_list = words("--cases", cases), words("--methods", methods)
     path, report = output_file("--csv", csv_file), report_file(output)
 
@@ -68,23 +72,27 @@ def command(
             lines(what, status.done, status.total, status.share, status.seconds_left)
 
         asked = dict.fromkeys((*models, *(names() if catalogue else ())))
-        limit = math.inf if compilation is None else compilation
-        study = stress(tuple(asked), case_list, method_list, quick, journal, jobs or cores(), progress, limit)
+        seconds = math.inf if compilation is None else compilation
+        work = journal, jobs or cores(), progress, seconds
+        study = stress(tuple(asked), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())
     else:
         from symgen.cli._stress_tables import show_stress
 
         show_stress(study)
-    if path is not None:
-        save_csv(study, path)
-    if report is not None and study.rows:
+    if not study.rows:
+        report = None
+
+    def write_report(file: Path) -> None:
         from symgen.report.stress import stress_report
         from symgen.report.write import write
 
-        write(stress_report(study, command_again()), report)
-        click.echo(f"symgen: wrote {report}", err=True)
-    return _exit_code(study)
+        write(stress_report(study, command_again()), file)
+        click.echo(f"symgen: wrote {file}", err=True)
+
+    files = {path: lambda file: save_csv(study, file), report: write_report}
+    return write_files(_exit_code(study), files)
 
 
 def _exit_code(study: Stress) -> int:

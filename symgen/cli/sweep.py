@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import assignments, number_list, numbers, option_pairs
-from symgen.errors import InputError
+from symgen.cli._options import jobs_option, json_option, setting_options
+from symgen.errors import InputError, quoted
 from symgen.ir.program import TARGETS
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.ensemble.study import Sweep
@@ -27,21 +28,19 @@ if TYPE_CHECKING:
     help="What varies: lin(a,b,n), log(a,b,n), values(a,b,...) or uniform(a,b,n,seed).",
 )
 @click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
-@click.option("--method", default="direct-correction", show_default=True, help="Constraint stabilisation method.")
-@click.option("--integrator", default=None, help="Integrator; by default the method's own.")
-@click.option("--step", type=float, help="Step [s]: constant, or the first one of an adaptive integrator.")
-@click.option("--rtol", type=float, help="Relative tolerance of an adaptive integrator.")
-@click.option("--atol", type=float, help="Absolute tolerance of an adaptive integrator.")
-@click.option("--until", type=float, help="End time [s].")
+@setting_options(
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "options"),
+    *("strict", "max_violation", "max_energy_error", "max_steps"),
+    text={
+        "parameters": "Value of a parameter that does not vary.",
+        "strict": "Let runs fail whose start is not consistent.",
+    },
+    otherwise={"output_step": "(only the end is kept)"},
+)
 @click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to keep, such as crank.theta or q.")
-@click.option("--output-step", type=float, help="Time between outputs [s]; by default only the end is kept.")
-@click.option("--times", metavar="T,T,...", help="Output times [s].")
-@click.option("--set", "changed", multiple=True, metavar="NAME=VALUE", help="Value of a parameter that does not vary.")
-@click.option("--option", "options", multiple=True, metavar="KEY=VALUE", help="Option, such as method.alpha=5.")
-@click.option("--strict", is_flag=True, help="Let runs fail whose start is not consistent.")
 @click.option("-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc) or a folder.")
 @click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
-@click.option("--jobs", type=int, help="Threads; by default one for every core.")
+@jobs_option("Threads.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
 @click.option(
     "--target",
@@ -50,29 +49,19 @@ if TYPE_CHECKING:
     show_default=True,
     help="What runs them: all cores, eight runs at once on each, or a CUDA device.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")
+@json_option
 def command(
     model: str,
     varied: tuple[str, ...],
     together: bool,
-    method: str,
-    integrator: str | None,
-    step: float | None,
-    rtol: float | None,
-    atol: float | None,
-    until: float | None,
     quantities: tuple[str, ...],
-    output_step: float | None,
-    times: str | None,
-    changed: tuple[str, ...],
-    options: tuple[str, ...],
-    strict: bool,
     output: str | None,
     resume: bool,
     jobs: int | None,
     scheduler: str | None,
     target: str,
     as_json: bool,
+    **asked: Any,
 ) -> int:
     """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
@@ -82,14 +71,9 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
-    parameters = assignments("--set", changed)
-    chosen = option_pairs(options)
-    numbers(step=step, rtol=rtol, atol=atol, until=until, output_step=output_step)
-    if times is not None and output_step is not None:
+    settings = Settings(**asked)
+    if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
-    moments = None if times is None else number_list("--times", times)
-    if jobs is not None and not 1 <= jobs <= 4096:
-        raise InputError("--jobs", "a whole number from 1 to 4096", f"{jobs}")
     if resume and output is None:
         raise InputError("--resume", "the output that was begun", "no --output")
     if jobs is not None and scheduler is not None:
@@ -107,22 +91,8 @@ def command(
     from symgen.api import load
     from symgen.cli._progress import Bar
     from symgen.ensemble.sweep import sweep
-    from symgen.plan import Settings
 
     loaded = load(model)
-    settings = Settings(
-        method=method,
-        integrator=integrator,
-        step=step,
-        rtol=rtol,
-        atol=atol,
-        until=until,
-        output_step=output_step,
-        times=moments,
-        parameters=parameters,
-        options=chosen,
-        strict=strict,
-    )
     with Bar(f"{loaded.name}, {', '.join(axes)}", 1.0) as bar:
 
         def progress(done: float, total: int) -> None:
@@ -159,7 +129,7 @@ def _axes(words: tuple[str, ...]) -> dict[str, str]:
         name, equals, text = word.partition("=")
         name = name.strip().removesuffix("(0)")
         if not equals or not name or not text.strip():
-            raise InputError("--vary", "NAME=VALUES, such as crank_mass=lin(1,3,21)", f"'{word[:60]}'")
+            raise InputError("--vary", "NAME=VALUES, such as crank_mass=lin(1,3,21)", quoted(word))
         if name in axes:
             raise InputError(f"--vary {name}", "each name once", "it twice")
         axes[name] = text.strip()

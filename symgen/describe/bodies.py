@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.fields import found, read
 from symgen.describe.mechanism import Body, SpatialBody, Vec
-from symgen.describe.names import check_identifier, quoted
+from symgen.describe.names import check_identifier
+from symgen.describe.numbers import Scalars
 from symgen.describe.orientation import CONVENTIONS, IDENTITY, Matrix, Orientation, euler_parameters, matrix
 from symgen.describe.scope import CENTRE
 from symgen.describe.sections import BodySection, OrientationSection, SpatialBodySection
-from symgen.errors import nearest
+from symgen.errors import nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, call, number
 
 if TYPE_CHECKING:
@@ -125,7 +126,7 @@ def _orientation(scope: Scope, key: str, section: OrientationSection | None) -> 
     kind = {"x_axis": "axes", "start": "line"}.get(way, way.replace("_", "-"))
     orientation = Orientation(kind, values, convention)
     # says at once, and not at the first run, if it stands for nothing
-    euler_parameters(orientation, lambda e: scope.value(e, key), scope.where(key))
+    euler_parameters(orientation, Scalars(lambda e, _: scope.value(e, key)), scope.where(key))
     return orientation
 
 
@@ -136,7 +137,8 @@ def _inertia(scope: Scope, section: SpatialBodySection, mass: Expr, centre: Vec,
         axes = _orientation(scope, "inertia_axes", section.inertia_axes)
         if not axes.is_numeric:
             raise scope.error("inertia_axes", "numbers, no expressions of parameters", "an expression")
-        e = euler_parameters(axes, lambda x: scope.value(x, "inertia_axes"), scope.where("inertia_axes"))
+        numbers = Scalars(lambda x, _: scope.value(x, "inertia_axes"))
+        e = euler_parameters(axes, numbers, scope.where("inertia_axes"))
         tensor = _turned(tensor, matrix(e))
     if section.inertia_at is not None:
         tensor = _shifted(tensor, mass, _difference(_point(scope, section.inertia_at, points, centre), centre))

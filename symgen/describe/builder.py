@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Self
 
+from symgen.arguments import text
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
@@ -51,7 +52,7 @@ class MechanismBuilder:
 
     def table(self, name: str, x: Any, y: Any) -> Self:
         """Add a function of one argument by linear interpolation."""
-        return self._add("tables", name, {"x": list(x), "y": list(y)})
+        return self._add("tables", name, {"x": x, "y": y})
 
     def body(self, name: str, **keys: Any) -> Self:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""
@@ -84,6 +85,7 @@ class MechanismBuilder:
         return to_toml(self.raw())
 
     def _add(self, section: str, name: str, content: dict[str, Any]) -> Self:
+        text(f"{self.source}: {section}", name)
         entries = self._raw.setdefault(section, {})
         if name in entries:
             raise InputError(f"{self.source}: {section}.{name}", "a name used once", f"'{name}' twice")

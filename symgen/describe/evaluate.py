@@ -6,8 +6,9 @@ import bisect
 import math
 from collections.abc import Mapping
 
-from symgen.describe.mechanism import SpatialBody, Table
-from symgen.describe.orientation import EulerParameters, euler_parameters
+from symgen import arguments
+from symgen.describe.mechanism import Mechanism, Table
+from symgen.describe.numbers import Scalars
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number
@@ -45,39 +46,40 @@ def evaluate(
         # Only the chosen branch: the other one may be undefined here, which is why a choice was written.
         condition, yes, no = expression.arguments
         return evaluate(yes if evaluate(condition, values, where, tables) else no, values, where, tables)
-    arguments = [evaluate(argument, values, where, tables) for argument in expression.arguments]
+    operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
-        value = _apply(expression, arguments, tables or {})
+        value = _apply(expression, operands, tables or {})
     except ZeroDivisionError:
-        raise _undefined(expression, arguments, where, "divides by zero") from None
+        raise _undefined(expression, operands, where, "divides by zero") from None
     except OverflowError:
-        raise _undefined(expression, arguments, where, "is too large") from None
+        raise _undefined(expression, operands, where, "is too large") from None
     except ValueError:
-        raise _undefined(expression, arguments, where, "is not defined") from None
+        raise _undefined(expression, operands, where, "is not defined") from None
     if isinstance(value, complex) or not math.isfinite(value):
-        raise _undefined(expression, arguments, where, "is not a finite real number")
+        raise _undefined(expression, operands, where, "is not a finite real number")
     return float(value)
 
 
-def orientation(body: SpatialBody, values: Mapping[str, float], source: str) -> EulerParameters:
-    """Return the Euler parameters that a body starts with.
+def scalars(values: Mapping[str, float]) -> Scalars:
+    """Return the numbers of one run with these values of the parameters."""
+    return Scalars(lambda expression, where: evaluate(expression, values, where))
 
-    Parameters
-    ----------
-    body : SpatialBody
-        The body.
-    values : mapping of str to float
-        Values of the parameters.
-    source : str
-        File or mechanism, for the message.
+
+def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
+    """Return all parameter values of a mechanism, `changed` ones replaced.
 
     Raises
     ------
     InputError
-        If its description stands for no orientation.
+        If a name is not a parameter or a value is not finite.
     """
-    where = f"{source}: bodies.{body.name}.orientation"
-    return euler_parameters(body.orientation, lambda e: evaluate(e, values, where), where)
+    values = {p.name: p.value for p in mechanism.parameters}
+    for name, value in arguments.mapping("parameters", changed, "numbers by the names of parameters").items():
+        if name not in values:
+            expected = f"a parameter of {mechanism.name}"
+            raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, values))
+        values[name] = arguments.number(f"parameter '{name}'", value)
+    return values
 
 
 def interpolate(table: Table, x: float) -> float:
@@ -91,14 +93,14 @@ def interpolate(table: Table, x: float) -> float:
     return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
 
 
-def _apply(expression: Call, arguments: list[float], tables: Mapping[str, Table]) -> float:
+def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
     if expression.function.startswith("table:"):
-        return interpolate(tables[expression.function.removeprefix("table:")], arguments[0])
-    return FUNCTIONS[expression.function][1](*arguments)
+        return interpolate(tables[expression.function.removeprefix("table:")], operands[0])
+    return FUNCTIONS[expression.function][1](*operands)
 
 
-def _undefined(expression: Call, arguments: list[float], where: str, why: str) -> InputError:
-    at = Call(expression.function, tuple(Number(a) for a in arguments))
+def _undefined(expression: Call, operands: list[float], where: str, why: str) -> InputError:
+    at = Call(expression.function, tuple(Number(a) for a in operands))
     text, shown = to_text(expression), to_text(at)
     got = f"'{text}', which {why}" if text == shown else f"'{text}' = {shown}, which {why}"
     return InputError(where, "a finite number", got)

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import cache
 from typing import Annotated, Any, Literal, TypeVar, cast, get_args, get_origin
 
 import msgspec
 from msgspec import Meta
 
-from symgen.describe.names import quoted
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 
 Text = Annotated[str, Meta(description="a text")]
 PlainScalar = Annotated[float | str, Meta(description="a number or an expression of numbers")]
@@ -116,7 +116,7 @@ def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) 
     """
     if not isinstance(raw, Mapping):
         raise InputError(where, "a table", found(raw))
-    fields = {field.name: field for field in msgspec.structs.fields(cast(type[msgspec.Struct], kind))}
+    fields = _fields(cast(type[msgspec.Struct], kind))
     for key in raw:
         if key not in fields:
             known = [*further, *fields]
@@ -127,6 +127,11 @@ def read(kind: type[T], raw: object, where: str, further: tuple[str, ...] = ()) 
         if field.required and key not in raw:
             raise InputError(f"{where}.{key}", describe_type(field.type), "no such key")
     return kind(**{key: read_value(fields[key].type, value, f"{where}.{key}") for key, value in raw.items()})
+
+
+@cache  # one entry a section and kind; asking msgspec evaluates every annotation
+def _fields(kind: type[msgspec.Struct]) -> dict[str, msgspec.structs.FieldInfo]:
+    return {field.name: field for field in msgspec.structs.fields(kind)}
 
 
 def read_value(type_: Any, value: object, where: str) -> Any:

@@ -8,13 +8,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from symgen import arguments
+from symgen.describe.bounds import LARGEST_FILE, check_text, check_values, too_deep
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.names import quoted
 from symgen.describe.validate import validate
-from symgen.errors import InputError, nearest
-
-LARGEST_FILE = 1_000_000
-DEEPEST = 20
+from symgen.errors import InputError, nearest, quoted
 
 _CATALOGUE = re.compile(r"(?P<name>[a-z][a-z0-9-]*)(:(?P<size>[0-9]{1,9}))?")
 
@@ -66,6 +64,7 @@ def read_raw(model: str | os.PathLike[str]) -> tuple[dict[str, Any], str]:
     """Return the nested dictionary of `model`, not yet validated, and the name messages give to its origin."""
     from symgen import catalogue
 
+    arguments.path("model", model)
     text = os.fspath(model)
     match = _CATALOGUE.fullmatch(text)
     if match and match.group("name") in catalogue.names():
@@ -110,22 +109,13 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
     """Return the tables of TOML text, not yet validated."""
     import tomllib
 
+    check_text(text, source)
     try:
         raw = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, ValueError) as error:
         slip = str(error)
         raise InputError(source, "a TOML file", f"a slip: {slip[:1].lower() + slip[1:]}") from None
     except (RecursionError, MemoryError):
-        raise InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting") from None
-    _check_depth(raw, source)
+        raise too_deep(source) from None
+    check_values(raw, source)
     return raw
-
-
-def _check_depth(raw: dict[str, Any], source: str) -> None:
-    stack: list[tuple[object, int]] = [(raw, 0)]
-    while stack:
-        value, depth = stack.pop()
-        if depth > DEEPEST:
-            raise InputError(source, f"tables nested at most {DEEPEST} levels deep", "deeper nesting")
-        inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
-        stack.extend((item, depth + 1) for item in inner)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import msgspec
 
+from symgen.arguments import shown
 from symgen.describe.orientation import IDENTITY, Orientation
+from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import Effort, Measure, Row
 
@@ -165,5 +167,14 @@ class Mechanism(msgspec.Struct, frozen=True):
     defaults: Defaults = Defaults()
 
     def body(self, name: str) -> AnyBody:
-        """Return the body called `name`."""
-        return next(b for b in self.bodies if b.name == name)
+        """Return the body called `name`.
+
+        Raises
+        ------
+        InputError
+            If there is none; says the nearest name.
+        """
+        known = {body.name: body for body in self.bodies}
+        if name not in known:
+            raise InputError("body", f"a body of {self.name}", shown(name), nearest(str(name), known))
+        return known[name]

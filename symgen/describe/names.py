@@ -5,7 +5,7 @@ from __future__ import annotations
 import keyword
 import re
 
-from symgen.errors import InputError
+from symgen.errors import InputError, printable, quoted
 from symgen.vocabulary.expressions import FUNCTIONS
 
 #: Tree functions that are written as operators, not by name.
@@ -15,15 +15,15 @@ CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
 #: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
 RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE
 LONGEST = 64
+LONGEST_UNIT = 40
 
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _KEBAB = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
 
-def quoted(text: object, longest: int = 60) -> str:
-    """Return `text` in quotes, shortened and without control characters, fit for a one-line message."""
-    shown = repr(text) if isinstance(text, str) else "'" + str(text) + "'"
-    return shown if len(shown) <= longest else shown[: longest - 4] + "...'"
+def line(text: str) -> str:
+    """Return a text for people on one line and printable: it is shown on terminals and in pages."""
+    return printable(" ".join(text.split()))
 
 
 def check_identifier(name: str, where: str, what: str) -> str:
@@ -39,6 +39,13 @@ def check_identifier(name: str, where: str, what: str) -> str:
     if name in RESERVED or keyword.iskeyword(name):
         raise InputError(where, f"a {what} name that has no meaning of its own", quoted(name), f"'{name}_' is free")
     return name
+
+
+def check_unit(unit: str, where: str) -> str:
+    """Return `unit` if it is a unit as people write it, on one line; else raise `InputError`."""
+    if len(unit) > LONGEST_UNIT or not unit.isprintable():
+        raise InputError(where, f"a unit such as 'kg m^2', at most {LONGEST_UNIT} characters on one line", quoted(unit))
+    return unit
 
 
 def check_mechanism_name(name: str, where: str) -> str:

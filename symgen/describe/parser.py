@@ -10,12 +10,12 @@ import ast
 import keyword
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 import msgspec
 
-from symgen.describe.names import CALLABLE, quoted
-from symgen.errors import InputError, nearest
+from symgen.describe.names import CALLABLE
+from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, call, number
 
 LONGEST_TEXT = 10_000
@@ -57,7 +57,7 @@ class Names(msgspec.Struct, frozen=True):
         Name as written -> name in the tree (they differ for an element's own words, ``length`` -> ``s``).
     coordinates : mapping of str to tuple of str
         Body -> its coordinates and velocities that may be written ``body.coordinate``.
-    tables : tuple of str
+    tables : collection of str
         Tables that may be called.
     elsewhere : frozenset of str
         Names that exist, though not in this formula; only the message differs.
@@ -66,7 +66,7 @@ class Names(msgspec.Struct, frozen=True):
     what: str
     plain: Mapping[str, str] = {}
     coordinates: Mapping[str, tuple[str, ...]] = {}
-    tables: tuple[str, ...] = ()
+    tables: Collection[str] = ()
     elsewhere: frozenset[str] = frozenset()
 
 
@@ -113,6 +113,9 @@ class _Reader:
             raise self.too_deep()
         return result
 
+    def too_long(self) -> InputError:
+        return self.fail("more", expected=f"a formula of at most {MOST_NODES} terms")
+
     def too_deep(self) -> InputError:
         expected = f"a formula nested at most {DEEPEST} levels deep"
         return self.fail("deeper nesting", "long sums nest as well: group their terms in brackets", expected)
@@ -146,7 +149,7 @@ class _Reader:
         if depth > DEEPEST:
             raise self.too_deep()
         if self.nodes > MOST_NODES:
-            raise self.fail("more", expected=f"a formula of at most {MOST_NODES} terms")
+            raise self.too_long()
         match node:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
                 return Number(float(value))
@@ -168,7 +171,12 @@ class _Reader:
             case ast.Compare(left=left, ops=operators, comparators=others) if all(
                 type(o) in _COMPARE for o in operators
             ):
-                sides = [self.quantity(side, depth) for side in (left, *others)]
+                sides = [self.quantity(left, depth)]
+                for other in others:
+                    before = self.nodes
+                    sides.append(self.quantity(other, depth))
+                    if other is not others[-1]:
+                        self.nodes += self.nodes - before  # stands in two comparisons
                 pairs = zip(operators, sides, sides[1:], strict=False)
                 return self.chain("and", [self.apply(_COMPARE[type(o)], a, b) for o, a, b in pairs])
             case ast.IfExp(test=test, body=yes, orelse=no):

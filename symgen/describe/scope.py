@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+from collections import ChainMap
 from collections.abc import Callable, Mapping
+from functools import cached_property
 
 import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
 from symgen.describe.mechanism import AnyBody, Joint, Vec
-from symgen.describe.names import quoted
 from symgen.describe.parser import Names, parse
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 
@@ -22,8 +23,11 @@ from symgen.vocabulary.measures import GROUND, Direction, Marker, Measure
 CENTRE = "centre"
 
 
-class Model(msgspec.Struct, frozen=True):
-    """What is known of the mechanism when joints and forces are resolved."""
+class Model(msgspec.Struct, frozen=True, dict=True):
+    """What is known of the mechanism when joints and forces are resolved.
+
+    What every formula asks for is worked out once: a file may have thousands of parameters, bodies and formulas.
+    """
 
     source: str
     values: Mapping[str, float]  # parameters with their defaults
@@ -32,10 +36,28 @@ class Model(msgspec.Struct, frozen=True):
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
     space: str = "planar"
 
-    @property
+    @cached_property
     def coordinates(self) -> dict[str, tuple[str, ...]]:
         """Body -> coordinates and velocities that formulas may use."""
         return {name: body.coordinates + body.speeds for name, body in self.bodies.items()}
+
+    @cached_property
+    def points(self) -> dict[str, dict[str, Vec]]:
+        """Body -> its points by name."""
+        return {name: dict(body.points) for name, body in self.bodies.items()}
+
+    @cached_property
+    def constants(self) -> Names:
+        """Names of a formula of parameters."""
+        plain = {name: name for name in self.values}
+        elsewhere = frozenset({"t", *self.tables})
+        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere)
+
+    @cached_property
+    def times(self) -> Names:
+        """Names of a formula of t and parameters."""
+        plain = {name: name for name in (*self.values, "t")}
+        return Names("a number or an expression of t and parameters", plain, elsewhere=frozenset(self.tables))
 
 
 class Scope:
@@ -124,7 +146,7 @@ class Scope:
         if body == GROUND:
             listed = "[x, y, z]" if self.spatial else "[x, y]"
             raise self.error(key, f"coordinates {listed} of a point of the ground", quoted(point))
-        known = dict(self.model.bodies[body].points)
+        known = self.model.points[body]
         if point == CENTRE:
             return Marker(body, self.model.bodies[body].centre_of_mass)
         if point not in known:
@@ -228,12 +250,7 @@ class Scope:
 
         With `positive` it must be above 0; with `or_zero` besides it may be the number 0 itself, no expression.
         """
-        names = Names(
-            "a number or an expression of parameters",
-            _same(self.model.values),
-            elsewhere=frozenset({"t", *self.model.tables}),
-        )
-        expression = self._expression(key, value, names)
+        expression = self._expression(key, value, self.model.constants)
         size = self.value(expression, key)
         if positive and not size > 0 and not (or_zero and expression == ZERO):
             raise self.error(key, "a value above 0", repr(size))
@@ -254,9 +271,7 @@ class Scope:
 
     def of_time(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t and parameters, without tables: it must have two derivatives."""
-        what = "a number or an expression of t and parameters"
-        names = Names(what, _same(self.model.values, "t"), elsewhere=frozenset(self.model.tables))
-        return self._expression(key, value, names)
+        return self._expression(key, value, self.model.times)
 
     def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
         """Return a number or an expression of t, parameters, body coordinates and the element's own words.
@@ -266,15 +281,15 @@ class Scope:
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"
-        plain = _same(self.model.values, "t") | own
-        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.tables))
+        plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
+        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.times.elsewhere))
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""
         own = self._own(key, value, words)
         what = f"an expression of parameters and {', '.join(own)}"
-        plain = _same(self.model.values) | own
-        return self._expression(key, value, Names(what, plain, elsewhere=frozenset({"t", *self.model.tables})))
+        plain = ChainMap(own, self.model.constants.plain)  # type: ignore[arg-type]  # the second one is only read
+        return self._expression(key, value, Names(what, plain, elsewhere=self.model.constants.elsewhere))
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""
@@ -295,10 +310,6 @@ class Scope:
         if not math.isfinite(value):
             raise self.error(key, "a finite number", str(value))
         return Number(float(value))
-
-
-def _same(values: Mapping[str, float], *more: str) -> dict[str, str]:
-    return {name: name for name in (*values, *more)}
 
 
 def _mentions(text: str, word: str) -> bool:

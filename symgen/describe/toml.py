@@ -7,7 +7,9 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from symgen.arguments import shown
 from symgen.describe.sections import NAMED, SECTIONS
+from symgen.errors import InputError
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
@@ -57,4 +59,4 @@ def _value(value: Any) -> str:
         return f"{{ {inner} }}" if inner else "{}"
     if isinstance(value, list | tuple):
         return "[" + ", ".join(_value(item) for item in value) + "]"
-    raise TypeError(f"a mechanism file cannot hold a {type(value).__name__}")
+    raise InputError("mechanism file", "texts, numbers, lists and tables", shown(value))

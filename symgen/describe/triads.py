@@ -10,10 +10,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.describe.evaluate import orientation
+from symgen.describe.evaluate import scalars
 from symgen.describe.fields import found
 from symgen.describe.mechanism import SpatialBody
-from symgen.describe.orientation import matrix, rotate, rotate_back
+from symgen.describe.orientation import euler_parameters, matrix, rotate, rotate_back
 from symgen.vocabulary.expressions import Number, number
 from symgen.vocabulary.measures import GROUND, Direction
 
@@ -156,7 +156,9 @@ def _carried(scope: Scope, key: str, a: str, b: str, vector: _Triple) -> _Triple
     for body, turn in ((a, rotate), (b, rotate_back)):
         described = scope.model.bodies.get(body)
         if isinstance(described, SpatialBody):
-            vector = turn(matrix(orientation(described, scope.model.values, scope.model.source)), vector)
+            where = f"{scope.model.source}: bodies.{body}.orientation"
+            turned = euler_parameters(described.orientation, scalars(scope.model.values), where)
+            vector = turn(matrix(turned), vector)
     return _tidy(vector)
 
 

@@ -9,10 +9,11 @@ from typing import Any
 import msgspec
 
 from symgen.describe.bodies import planar_body, spatial_body
+from symgen.describe.bounds import DEEPEST
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import PlainScalar, found, read, read_value
 from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
-from symgen.describe.names import check_identifier, check_mechanism_name, quoted
+from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
 from symgen.describe.scope import Model, Scope
 from symgen.describe.sections import (
@@ -23,7 +24,7 @@ from symgen.describe.sections import (
     RunSection,
     TableSection,
 )
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 
 Raw = Mapping[str, Any]
 
@@ -52,6 +53,7 @@ class _Validator:
     def __init__(self, raw: Raw, source: str) -> None:
         self.raw, self.source = raw, source
         self._joints: dict[str, Joint | None] = {}
+        self._open = 0  # joints being resolved, each because the one before refers to it
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -85,7 +87,7 @@ class _Validator:
         self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
         return Mechanism(
             name=head.name,
-            title=head.title,
+            title=line(head.title),
             space=head.space,
             gravity=gravity,
             parameters=parameters,
@@ -93,7 +95,7 @@ class _Validator:
             bodies=bodies,  # type: ignore[arg-type]  # all of one space
             joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
             forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
-            defaults=self.defaults(head.source),
+            defaults=self.defaults(line(head.source)),
         )
 
     # Names ---------------------------------------------------------------------------------------------------------
@@ -141,7 +143,7 @@ class _Validator:
             value = evaluate(parse(value, Names("a number or an expression of numbers"), where), {}, where)
         if not math.isfinite(value):
             raise InputError(where, "a finite number", str(value))
-        return Parameter(name, float(value), section.unit, section.note)
+        return Parameter(name, float(value), check_unit(section.unit, f"{where}.unit"), line(section.note))
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")
@@ -185,6 +187,9 @@ class _Validator:
                 raise InputError(where, "a joint that stands by itself", f"'{name}', which leads back to this one")
             return known
         self._joints[name] = None
+        self._open += 1
+        if self._open > DEEPEST:
+            raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
         kind, table = self.split(path, self.raw["joints"][name], "joint type")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
@@ -192,6 +197,7 @@ class _Validator:
         scope.check_space(struct.SPACES)
         joint = read(struct, table, self.where(path), ("type",)).build(scope)
         self._joints[name] = joint
+        self._open -= 1
         return joint
 
     def force(self, name: str, raw: object) -> Force:

@@ -1,104 +1,24 @@
-"""From programs to source text: the only stage that knows Jinja2."""
+"""Programs of one mechanism as source text: straight lines, and loops for what is no formula."""
 
 from __future__ import annotations
 
-import hashlib
-import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from functools import lru_cache
-from pathlib import Path
+from collections.abc import Sequence
 from typing import Any
 
-import jinja2
-from jinja2 import meta
-
-from symgen.emit.printer import ElementAccess, Lines, print_block
+from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, module, render, templates_digest
+from symgen.emit.parts import Parts, accept_kind
+from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
-from symgen.ir.program import COUNTERS, FORMAT, STATUS, SUFFIXES, Block, LawProgram, Layout, ModelProgram
-from symgen.lower.algebra import SKIP, WARN
+from symgen.ir.numerics import NUMBERS
+from symgen.ir.program import FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
 
-#: What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0 give
-#: infinity, multiply-add may be contracted, nothing else is fast or inexact.
-_DECORATORS = {"cpu": '@njit(error_model="numpy", fastmath={"contract"})', "cuda": "@cuda.jit(device=True)"}
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000
-
-
-def templates_folder() -> Path:
-    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
-
-    Raises
-    ------
-    FileNotFoundError
-        If neither exists.
-    """
-    package = Path(__file__).resolve().parent.parent
-    inside, beside = package / "templates", package.parent / "templates"
-    for folder in (inside, beside):
-        if (folder / "numba").is_dir():
-            return folder
-    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")
-
-
-@dataclass(frozen=True)
-class Function:
-    """A printed block: what the function template needs."""
-
-    name: str
-    purpose: str
-    arguments: tuple[str, ...]
-    lines: Lines
-    operations: int
-    tree_operations: int
-
-
-@lru_cache(maxsize=1)
-def _environment() -> jinja2.Environment:
-    return jinja2.Environment(
-        loader=jinja2.FileSystemLoader(templates_folder()),
-        undefined=jinja2.StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,
-    )
-
-
-def render(template: str, values: Mapping[str, Any], parts: Sequence[str] = ()) -> str:
-    """Render a template; the keys given must be exactly those that it and its parts ask for.
-
-    Raises
-    ------
-    KeyError
-        Naming the keys that are missing or superfluous.
-    """
-    environment = _environment()
-    wanted: set[str] = set()
-    for name in (template, *parts):
-        source = (templates_folder() / name).read_text(encoding="utf-8")
-        wanted |= meta.find_undeclared_variables(environment.parse(source))
-    wanted -= {"nq", "nv", "m"} if parts else set()  # set by the parent for its parts
-    if parts:
-        # what a part could ask for belongs to the interface even if the parts at hand do not
-        wanted |= {
-            *("skip", "warn", "spatial", "counters", "status"),
-            *("tolerance", "iteration_tolerance", "penalty", "decorator"),
-        }
-    if wanted != set(values):
-        missing, extra = sorted(wanted - set(values)), sorted(set(values) - wanted)
-        raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
-    return environment.get_template(template).render(values)
-
-
-@lru_cache(maxsize=1)
-def templates_digest() -> str:
-    """Return the digest of all templates, for the emitted header and the cache key."""
-    digest = hashlib.sha256()
-    for path in sorted(path for folder in ("numba", "lanes") for path in (templates_folder() / folder).glob("*.j2")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()[:16]
+#: What is imported from Numba, and what docstrings say of a target.
+_NUMBA = {"cpu": "njit", "cuda": "cuda"}
+_FOR = {"cpu": "", "cuda": ", for CUDA"}
 
 
 def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu") -> str:
@@ -113,121 +33,170 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
     numbers = sum(len(x) + len(y) for _, x, y in program.tables)
     if target == "cuda" and numbers > MOST_CONSTANTS:
         raise InputError("tables", f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)", f"{numbers // 2}")
-    return render(
-        "numba/model.py.j2",
-        {
-            "name": program.name,
-            "digest": program.digest,
-            "format": FORMAT,
-            "templates_digest": templates_digest(),
-            "layout": layout,
-            "symbols": _symbols(equations),
-            "omissions": equations.omissions,
-            "dropped_rows": equations.dropped_rows,
-            "fill": program.fill,
-            "tables": program.tables,
-            **_target(target),
-            "functions": _functions(program.blocks, layout, equations),
-        },
-    )
+    header = [
+        versions(program.digest),
+        f"{layout.nq} coordinates, {layout.nv} velocities, {layout.m} constraint rows, {layout.parameters} parameters,",
+        f"{program.fill} fill-ins in the factor of D D^T",
+        "",
+        "Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.",
+        "",
+        *(f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in _symbols(equations)),
+        "",
+        "Left out:",
+        *(f"- {omission.what}: {omission.why}" for omission in equations.omissions),
+        *(f"- repeated row: {row}" for row in equations.dropped_rows),
+    ]
+    codes = [*table_codes(program.tables, target), *straight(program.blocks, layout, equations, target)]
+    title = f"Model `{program.name}`: what every method of it shares{_FOR[target]}."
+    return module(title, header, codes, {}, {}, _NUMBA[target])
 
 
 def emit_law(
-    program: LawProgram,
-    model: ModelProgram,
-    equations: Equations,
-    summary: str,
-    reference: str,
-    target: str = "cpu",
-) -> str:
-    """Return the source of the module that one method adds beside the shared one, for a target of `TARGETS`."""
-    layout, correction = program.layout, program.correction
-    own = {b.name for b in program.blocks}
-    shared = {"geometry", "measure"} | {f"table_{name}" for name, _, _ in model.tables}
-    if program.unknowns:  # exact Jacobians need the slopes of tables
-        shared |= {f"table_{name}_slope" for name, _, _ in model.tables}
-    spatial = bool(equations.spins)
-    if spatial:
-        shared |= {"normalise", "move"} if correction.any else {"normalise"}
-    if correction.any:
-        shared.add("spread")
-    parts = _parts(program)
-    text = "".join((templates_folder() / part).read_text(encoding="utf-8") for part in (*parts, _CLOSING))
-    place = {name: f"p[{program.parameter_offset + i}]" for i, (name, _) in enumerate(program.parameters)}
-    return render(
-        "numba/law.py.j2",
-        {
-            "name": model.name,
-            "digest": model.digest,
-            "format": FORMAT,
-            "templates_digest": templates_digest(),
-            "layout": layout,
-            "program": program,
-            "spatial": spatial,
-            "summary": summary,
-            "reference": reference,
-            "shared": sorted(shared - own),
-            "used_sections": [s for s in layout.sections if re.search(rf"\b{s.upper()}\b", text)],
-            "parts": parts,
-            "model": f"model{SUFFIXES[target]}",
-            **_target(target),
-            "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
-            "counters": {name: i for i, name in enumerate(COUNTERS)},
-            "tolerance": place.get("tolerance", "1e-13"),
-            "iteration_tolerance": place.get("iteration_tolerance", "1e-13"),
-            "penalty": place.get("penalty", "0.0"),
-            "skip": SKIP,
-            "warn": WARN,
-            "functions": _functions(program.blocks, layout, equations),
-        },
-        (*parts, _CLOSING),
+    program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str, target: str = "cpu"
+) -> dict[str, str]:
+    """Return the source of the modules that one method adds beside the shared one, for a target of `TARGETS`.
+
+    The last one is the method's own, see `law_modules`.
+    """
+    blocks = program.blocks
+    printed = straight(blocks, program.layout, equations, target)
+    pieces = [*zip((b.role for b in blocks), printed, strict=True), *_loops(program, equations, target)]
+    metric = program.correction.metric if program.correction.any else "measured"
+    model_stem = f"model{SUFFIXES[target]}"
+    return law_modules(
+        pieces,
+        {"acceleration": program.form, "metric": metric, "correction": metric, "form": program.level},
+        f"for model `{model.name}`{_FOR[target]}",
+        versions(model.digest),
+        {name: (model_stem, name) for name in model_names(model)},
+        f"Method `{program.method}` for model `{model.name}`{_FOR[target]}.",
+        law_header(program, model, summary, reference),
+        program.key,
+        offsets={name: offset for name, (offset, _) in program.layout.sections.items()},
+        numba=_NUMBA[target],
+        suffix=SUFFIXES[target],
     )
 
 
-def _target(target: str) -> dict[str, Any]:
-    """Return what distinguishes a target in the templates."""
-    return {"cuda": target == "cuda", "decorator": _DECORATORS[target]}
+def versions(digest: str) -> str:
+    """Return the line that says what a module was made of."""
+    return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
 
-#: Macros that some parts of a law import.
-_CLOSING = "numba/closing.j2"
+def law_header(program: LawProgram, model: ModelProgram, summary: str, reference: str) -> list[str]:
+    """Return the lines of a law's docstring."""
+    parameters = enumerate(program.parameters, program.parameter_offset)
+    return [
+        *(summary, reference, versions(model.digest)),
+        *(f"option {option} = {value}" for option, value in sorted(program.options.items())),
+        *(f"p[{i}] {name} (default {default})" for i, (name, default) in parameters),
+    ]
 
 
-def _parts(program: LawProgram) -> list[str]:
-    """Return the templates of the functions of a law that are not straight-line code, in the order of their text."""
-    correction, parts = program.correction, list[str]()
-    if program.form == "iterated":
-        parts.append("rhs_iterated")
-    if program.form == "dense":
-        parts.append("rhs_dense")
+def model_names(model: ModelProgram) -> list[str]:
+    """Return what the module of a model defines."""
+    tables = [table_name(name, what) for name, _, _ in model.tables for what in ("value", "slope")]
+    return [*(block.name for block in model.blocks), *tables]
+
+
+class LiteralLayout:
+    """Sizes and places as numbers of one mechanism; sections are constants of the module.
+
+    Parameters
+    ----------
+    program : LawProgram
+        The law.
+    turning : str
+        Arguments of ``normalise``, empty in the plane.
+    decorator : str
+        What precedes each function.
+    """
+
+    def __init__(self, program: LawProgram, turning: str, decorator: str = DECORATORS["cpu"]) -> None:
+        self.program, self.turning, self.decorator = program, turning, decorator
+        self.sections: set[str] = set()
+
+    def size(self, name: str) -> int:
+        """Return a size."""
+        return self.program.degrees if name == "degrees" else int(getattr(self.program.layout, name))
+
+    def at(self, name: str) -> str:
+        """Return the constant that says where a section begins."""
+        self.sections.add(name)
+        return name.upper()
+
+    def element(self, index: int) -> str:
+        """Return an element of p."""
+        return f"p[{index}]"
+
+    def parameter(self, name: str) -> str:
+        """Return a parameter of the method as an element of p, or what is taken where it has none."""
+        names = [parameter for parameter, _ in self.program.parameters]
+        if name in names:
+            return self.element(self.program.parameter_offset + names.index(name))
+        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+
+    def finished(self) -> tuple[list[str], set[str], set[str]]:
+        """Return nothing before a function's own lines, and the sections that were asked for."""
+        found, self.sections = self.sections, set()
+        return [], set(), found
+
+
+def _loops(program: LawProgram, equations: Equations, target: str) -> list[tuple[str, Code]]:
+    """Return the functions of a law that are not straight-line code, with their roles, in the order of their text."""
+    correction = program.correction
+    parts = Parts(LiteralLayout(program, "y" if equations.spins else "", DECORATORS[target]), correction)
+    if program.form in ("iterated", "dense"):
+        parts.add(program.form, "acceleration")
+    if program.form == "tangent":
+        parts.add("choose", "acceleration")
+        parts.add("tangent", "acceleration")
     if program.closed:
-        parts += ["choose", "rhs_closed"]
-    if program.form == "tangent":
-        parts += ["choose", "rhs_tangent"]
+        parts.add("choose", "correction")
+        parts.add("closed", "closed", close="correction")
     if any(b.flag is not None for b in program.blocks):
-        parts.append("confirm")
+        parts.add("confirm", "confirmation")
     if program.form == "tangent":
-        parts.append("accept_tangent")
-    elif not correction.any:
-        parts.append("accept_measured")
-    elif correction.metric == "augmented":
-        parts.append("accept_augmented")
+        parts.add("accept_tangent", "correction")
     elif correction.metric == "independent":
-        parts.append("accept_partition")
+        parts.add("accept_partition", "correction")
     else:
-        parts.append("accept_corrected")
-    return [f"numba/{part}.j2" for part in parts]
+        parts.add(f"accept_{accept_kind(correction)}", "correction")
+    return parts.pieces
 
 
-def _functions(blocks: Sequence[Block], layout: Layout, equations: Equations) -> list[Function]:
+def table_codes(
+    found: Sequence[tuple[str, tuple[float, ...], tuple[float, ...]]], target: str = "cpu", slopes: bool = True
+) -> list[Code]:
+    """Return tables: their arrays with the functions that interpolate, and their slopes."""
+    codes = []
+    for name, x, y in found:
+        table: dict[str, Any] = {"name": name, "abscissae": list(x), "ordinates": list(y)}
+        table |= {what: table_name(name, what) for what in ("value", "slope", "x", "y")}
+        values = {"table": table, "cuda": target == "cuda", "slope": slopes, "decorator": DECORATORS[target]}
+        text = render("parts/table.j2", values).strip("\n")
+        also = tuple(table_name(name, what) for what in ("slope", "x", "y"))
+        codes.append(Code(table["value"], text, libraries=frozenset(("numpy",)), also=also))
+    return codes
+
+
+def straight(blocks: Sequence[Block], layout: Layout, equations: Equations, target: str = "cpu") -> list[Code]:
+    """Return blocks as functions of straight lines."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
     access = ElementAccess(layout, names)
-    return [
-        Function(b.name, b.purpose, b.arguments, print_block(b, access), b.operations, b.tree_operations)
-        for b in blocks
-    ]
+    codes = []
+    for block in blocks:
+        lines = print_block(block, access)
+        body: list[str] = []
+        for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
+            body += [f"# {title}", *part] if part else []
+        body.append(f"return int({lines.flag})" if lines.flag else "return 0")
+        purpose = f"{block.purpose}: {block.operations} operations, {block.tree_operations} before sharing."
+        arguments = ", ".join(block.arguments)
+        codes.append(function(block.name, arguments, purpose, body, DECORATORS[target], calls=lines.functions))
+    return codes
 
 
 def _symbols(equations: Equations) -> list[tuple[str, str, str]]:

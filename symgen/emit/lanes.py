@@ -2,20 +2,69 @@
 
 from __future__ import annotations
 
-import re
-
-from symgen.emit.emit import Function, render, templates_digest
+from symgen.emit.emit import LiteralLayout, law_header, table_codes, versions
+from symgen.emit.module import DECORATORS, Code, function, module
+from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import LaneAccess, print_block
+from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
-from symgen.ir.program import FORMAT, LANES, STATUS, SUFFIXES, LawProgram, ModelProgram, lane_bases
+from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
+from symgen.ir.program import lane_bases as bases_of
 
 _BLOCKS = ("normalise", "move", "geometry", "spread", "measure", "rhs")
+#: What a law's docstring says of its one array.
+_ABOUT = """
+All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
+arrays that they do not overlap: element i of a lane is z[{lanes}*i + lane], with y from i = 0 on, y' from {ydot}, p
+from {p}, w from {w}, and counters of the lanes from {spare}. How many lanes there are is computed, since a loop of
+known length would be unrolled before it could become vector instructions."""
+
+
+class LaneLayout(LiteralLayout):
+    """Places of lane ``lane`` in the one array of all lanes, as numbers."""
+
+    def __init__(self, program: LawProgram, turning: str, access: LaneAccess) -> None:
+        super().__init__(program, turning)
+        self.access = access
+
+    def at(self, name: str) -> str:
+        """Return where a section, or a number of the status, of the first lane begins."""
+        layout, first = self.program.layout, self.access.bases["w"]
+        if name == "velocities":
+            return str(layout.nq * self.access.lanes)
+        place = layout.offset("status") + STATUS.index(name) if name in STATUS else layout.offset(name)
+        return str((first + place) * self.access.lanes)
+
+    def element(self, index: int) -> str:
+        """Return an element of p."""
+        return self.access.element("p", index)
+
+
+class Inlined:
+    """Functions that are no calls, and know no mechanism."""
+
+    turning = ""
+    decorator = DECORATORS["cpu"].replace(")", ', inline="always")')
+
+    def size(self, name: str) -> str:
+        """Refuse: there is no mechanism."""
+        raise KeyError(name)
+
+    at = parameter = size
+
+    def finished(self) -> tuple[list[str], set[str], set[str]]:
+        """Return nothing."""
+        return [], set(), set()
 
 
 def emit_lanes_model(program: ModelProgram) -> str:
     """Return the source of the module that all methods of a model share: sines that are no calls, and tables."""
-    return render("lanes/model.py.j2", {**_common(program), "tables": program.tables})
+    parts = Parts(Inlined(), Correction())
+    parts.add("sine")
+    title = f"Model `{program.name}` in lanes, for {LANES} runs at once: functions that are no calls."
+    codes = [*parts.codes, *table_codes(program.tables, slopes=False)]
+    return module(title, [versions(program.digest)], codes, {}, {})
 
 
 def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equations, summary: str, reference: str) -> str:
@@ -27,47 +76,32 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
         If the method is more than a formula with one correction.
     """
     layout, correction = program.layout, program.correction
-    if program.form != "direct" or program.closed or correction.metric not in ("identity", "mass"):
+    if program.form != "direct" or program.closed or correction.metric not in ("identity", "scaled", "mass"):
         expected = "a method that is a formula with at most one correction (--target lanes)"
         raise InputError(f"method '{program.method}'", expected, "one that iterates, or chooses coordinates")
     n_p = program.parameter_offset + len(program.parameters) + program.hoisted
-    bases = lane_bases(layout.nq + layout.nv + 1, n_p, layout.nw)
+    bases = bases_of(layout.nq + layout.nv + 1, n_p, layout.nw)
     access = LaneAccess(layout, {}, bases, LANES)
     blocks = {b.name: b for b in (*model.blocks, *program.blocks)}  # a law's own take the place of the model's
     wanted = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
-    functions = [
-        Function(b.name, b.purpose, b.arguments, print_block(b, access), b.operations, b.tree_operations)
-        for b in (blocks[name] for name in wanted)
-    ]
-    text = " ".join(line for f in functions for line in (*f.lines.terms, *f.lines.outputs))
-    known = ("cosine", "sine", *(f"table_{name}" for name, _, _ in model.tables))
-    place = {
-        name: access.of_lane(f"p[{program.parameter_offset + i}]") for i, (name, _) in enumerate(program.parameters)
-    }
-    return render(
-        "lanes/law.py.j2",
-        {
-            **_common(model),
-            "layout": layout,
-            "program": program,
-            "functions": functions,
-            "summary": summary,
-            "reference": reference,
-            "model": f"model{SUFFIXES['lanes']}",
-            "called": [name for name in known if re.search(rf"\b{name}\(", text)],
-            "status": {name: layout.offset("status") + i for i, name in enumerate(STATUS)},
-            "spatial": bool(equations.spins),
-            "tolerance": place.get("tolerance", "1e-13"),
-            **{name: bases[name] for name in ("ydot", "p", "w", "spare", "numbers")},
-        },
-    )
+    parts = Parts(LaneLayout(program, "t, z, lanes" if equations.spins else "", access), correction)
+    parts.add(f"lanes_{accept_kind(correction)}")
+    codes = [*(_over_lanes(blocks[name], access) for name in wanted), *parts.codes]
+    constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}
+    title = f"Method `{program.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
+    header = [*law_header(program, model, summary, reference), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
+    shared = ("sine", "cosine", *(table_name(name) for name, _, _ in model.tables))
+    known = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
+    return module(title, header, codes, known, {"numbers": bases["numbers"], **constants}, note="places in z")
 
 
-def _common(model: ModelProgram) -> dict[str, object]:
-    return {
-        "name": model.name,
-        "digest": model.digest,
-        "format": FORMAT,
-        "templates_digest": templates_digest(),
-        "lanes": LANES,
-    }
+def _over_lanes(block: Block, access: LaneAccess) -> Code:
+    """Return a block as a loop over lanes."""
+    lines, alone = print_block(block, access), block.name == "rhs"
+    counted = [f"z[SUSPECTS + lane] += 1.0*{lines.flag}"] if lines.flag and alone else []
+    loop = [f"    {line}" for line in (*lines.inputs, *lines.terms, *lines.outputs, *counted)]
+    body = [*(["lanes = len(z) // NUMBERS"] if alone else []), "for lane in range(lanes):", *loop, "return 0"]
+    purpose = f"{block.purpose}: {block.operations} operations a lane."
+    sections = [*(["numbers"] if alone else []), *(["suspects"] if counted else [])]
+    arguments = "t, z" if alone else "t, z, lanes"
+    return function(block.name, arguments, purpose, body, calls=lines.functions, sections=sections)

@@ -1,26 +1,34 @@
-"""The looped shape as source text: generic code, kernels, and laws that are the same for all mechanisms."""
+"""The looped shape as source text: generic code, and laws that are the same for all mechanisms."""
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping, Sequence
 
-from symgen.emit.emit import render
+from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, render
+from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import Printer
-from symgen.ir.program import COUNTERS, FORMAT, STATUS, Block, Target
-from symgen.lower.algebra import SKIP, SUSPICIOUS
-from symgen.lower.looped.forms import FormProgram, form_stride
-from symgen.lower.looped.kernels import KernelInfo, KernelProgram
-from symgen.lower.looped.law import LoopedFunction, LoopedLaw
+from symgen.emit.text import harmless
+from symgen.ir.graph import Graph
+from symgen.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
+from symgen.ir.program import FORMAT, STATUS, Block, Target
+from symgen.lower.looped.law import LoopedLaw
 from symgen.lower.looped.layout import GENERIC, HEAD
+from symgen.lower.looped.loops import (
+    LOCAL,
+    PARAMETER,
+    RATES,
+    STATE,
+    VELOCITIES,
+    WORK,
+    Call,
+    LoopedFunction,
+    Number,
+    Total,
+)
 
-#: Room for one frame's record in the numbering of inputs; as in `symgen.formulate.elements`.
-RECORD = 64
 _STATUS = {name: i for i, name in enumerate(STATUS)}
-_COUNTERS = {name: i for i, name in enumerate(COUNTERS)}
-_WINDING = len(STATUS)
-_SUMS = ("kinetic", "potential", "power")
+#: How a factorisation treats pivots; see ``templates/looped/machine.py.j2``.
+_MODES = ("RANK_FACTOR", "MASKED_FACTOR", "KEPT_FACTOR", "PLAIN_FACTOR")
 
 
 def emit_machine(generator: str) -> str:
@@ -37,7 +45,8 @@ _GENERIC = (
     ("mass_times", "T, p, w, x, result", ("blocks_times", "0", "x", "result", "0.0"), "`result` = M times `x`."),
     ("inverse_mass_times", "T, p, w, x, result", ("blocks_times", "1", "x", "result", "0.0"), "`result` = M^-1 `x`."),
     ("weigh", "T, p, w", ("weigh", "0", "0", "0", "0.0"), "Section `left` = D M^-1."),
-    ("gram", "T, p, w, mass, result", ("gram", "mass", "result", "0", "0.0"), "`result` = D M^-1 D^T, or D D^T."),
+    ("gauge", "T, p, w", ("gauge", "0", "0", "0", "0.0"), "Section `left` = D G."),
+    ("gram", "T, p, w, weight, result", ("gram", "weight", "result", "0", "0.0"), "`result` = D W D^T."),
     (
         "augment",
         "T, p, w, penalties, result",
@@ -61,282 +70,206 @@ _GENERIC = (
 )
 
 
+#: Names that the modules ``machine`` and ``model`` define.
+_MACHINE = (*(name for name, *_ in _GENERIC), "run", "tables", *_MODES)
+_SHARED = ("constrain", "decide_rank", "geometry", "spread", "measure", "observe", "move", "turn", "normalise")
+
+
 def emit_shared_model(generator: str) -> str:
     """Return the source of the functions that all methods share."""
     return render("looped/model.py.j2", {"format": FORMAT, "generator": generator, "status": _STATUS})
 
 
-def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> str:
-    """Return the source of a law."""
-    parameters = [name for name, _ in law.parameters]
-
-    def place(name: str, otherwise: str) -> str:
-        return f"p[method_parameters + {parameters.index(name)}]" if name in parameters else otherwise
-
-    own = {name for name, _ in law.sections}
-    functions = [_function(f, law, own) for f in law.functions]
-    flagged = any(f.flagged for f in law.functions)
-    text = " ".join(line for f in functions for part in ("bases", "begin", "iterate", "finish") for line in f[part])
-    correction = law.correction
-    machine = {"tables", "M", "MASK", "SAVED", "PIVOT"} if flagged else {"tables"}
-    if correction.any:
-        machine |= {"NQ", "NV", "CHANGE", "METHOD_PARAMETERS"}
-    if correction.metric == "augmented":
-        machine |= {"M", "RESIDUAL", "MASK"}
-    machine |= {h for h in law.helpers if re.search(rf"\b{h}\b", text)}
-    machine |= {name for name in _upper(text) if name.lower() in HEAD or name.endswith("_FACTOR")} - {
-        name.upper() for name in own
-    }
-    shared = {"measure", "normalise"} | ({"geometry"} - {f.name for f in law.functions})
-    if correction.any:
-        shared |= {"move"} | ({"spread"} - {f.name for f in law.functions})
-    if any(f.name == "geometry" for f in law.functions):
-        shared |= {"constrain", "decide_rank"}
-    return render(
-        "looped/law.py.j2",
-        {
-            "law": law,
-            "summary": summary,
-            "reference": reference,
-            "format": FORMAT,
-            "generator": generator,
-            "machine": sorted(machine),
-            "shared": sorted(shared),
-            "own": len(HEAD),
-            "functions": functions,
-            "flagged": flagged,
-            "status": _STATUS,
-            "counters": _COUNTERS,
-            "skip": SKIP,
-            "tolerance": place("tolerance", "1e-13"),
-            "iteration_tolerance": place("iteration_tolerance", "1e-13"),
-            "penalty": place("penalty", "0.0"),
-        },
-    )
-
-
-_ARGUMENTS = {"rhs": "t, y, p, w, iw, ydot", "geometry": "t, y, p, w", "spread": "p, w"}
-
-
-def _upper(text: str) -> set[str]:
-    return set(re.findall(r"\b[A-Z][A-Z_0-9]+\b|\bM\b", text))
-
-
-def _function(f: LoopedFunction, law: LoopedLaw, own: set[str]) -> dict[str, Any]:
-    lines = [*f.begin, *f.iterate, *f.finish]
-    if f.iterate and any(name == "iteration_tolerance" for name, _ in law.parameters):
-        lines.append("method_parameters")
-    text = " ".join(lines)
-    bases = [
-        f"{name} = np.int64(T[{name.upper()}])"
-        for name in (*HEAD, *sorted(own))
-        if name in (*law.names, "nq", "nv", "m", "method_parameters") and re.search(rf"(?<!\w){name}\b(?!\()", text)
+def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
+    """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
+    parts = Parts(TableLayout([name for name, _ in law.parameters]), law.correction)
+    if law.form == "iterated":
+        parts.add("iterated", "acceleration")
+    if any(f.flagged for f in law.functions):
+        parts.add("confirm", "confirmation")
+    parts.add(f"accept_{accept_kind(law.correction)}", "correction")
+    nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
+    made = f"format {FORMAT}, generator {generator}"
+    header = [
+        *(summary, reference, made),
+        *(f"option {option} = {value}" for option, value in sorted(law.options.items())),
+        *(f"parameter {i}: {name} (default {default})" for i, (name, default) in enumerate(law.parameters)),
     ]
-    numbered = sorted({int(n) for n in re.findall(r"\bx(\d+)\b", text)})
-    if numbered:
-        bases.append("vectors, vector_size = np.int64(T[VECTORS]), np.int64(T[VECTOR_SIZE])")
-        bases += [f"x{n} = vectors + {n} * vector_size" for n in numbered]
-    return {
-        "name": f.name,
-        "arguments": _ARGUMENTS[f.name],
-        "purpose": f.purpose,
-        "bases": bases,
-        "begin": f.begin,
-        "iterate": f.iterate,
-        "finish": f.finish,
-        "flagged": f.flagged,
-    }
-
-
-# -- kernels -----------------------------------------------------------------------------------------------------------
-
-
-def emit_kernel(kernel: KernelProgram, generator: str) -> str:
-    """Return the source of a kernel."""
-    info = kernel.info
-    frames = f"{len(info.frames)} frame" + ("" if len(info.frames) == 1 else "s")
-    numbers = f"{info.constants} constants, {info.hoisted} numbers computed once a run"
-    about = f"A {info.kind} of kind {kernel.label} over {frames}, {numbers}."
-    return _kernel_module(kernel, InstanceAccess(info), about, info.stride, generator)
-
-
-def emit_form(form: FormProgram, kernel: KernelInfo, generator: str) -> str:
-    """Return the source of the kernel of an element's part of a descriptor form."""
-    about = f"What a {kernel.kind} of kind {form.label} adds to a descriptor form at {form.info.level} level."
-    return _kernel_module(form, FormAccess(kernel), about, form_stride(kernel), generator, slopes=True)
-
-
-def _kernel_module(
-    kernel: KernelProgram | FormProgram,
-    access: InstanceAccess,
-    about: str,
-    stride: int,
-    generator: str,
-    slopes: bool = False,
-) -> str:
-    functions = [_kernel_function(block, access) for block in kernel.blocks]
-    text = " ".join(line for f in functions for line in f["bases"])
-    text += " VECTORS" if any(f["changed"] for f in functions) else ""
-    return render(
-        "looped/kernel.py.j2",
-        {
-            "kernel": kernel,
-            "about": about,
-            "stride": stride,
-            "slopes": slopes,
-            "format": FORMAT,
-            "generator": generator,
-            "names": sorted(_upper(text) - {"T"}),
-            "tables": kernel.tables,
-            "functions": functions,
-            "status": _STATUS,
-        },
+    known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
+    places = {name: len(HEAD) + i for i, (name, _) in enumerate(law.sections)}
+    metric = law.correction.metric if law.correction.any else "measured"
+    return law_modules(
+        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *parts.pieces],
+        {"acceleration": law.form, "metric": metric, "correction": metric},
+        "for any mechanism, in the looped shape",
+        made,
+        known | {name: ("model", name) for name in _SHARED},
+        f"Method `{law.method}`, for any mechanism, in the looped shape.",
+        header,
+        f"law_{law.key}",
+        offsets={**_STATUS, **places},
+        note="places in w and T",
     )
 
 
-@dataclass(frozen=True)
-class InstanceAccess:
-    """How an instance's elements are written: by numbers of its table, which are read into locals first."""
+_ARGUMENTS = {"rhs": "t, y, p, w, iw, ydot", "begin": "t, y, p, w", "iterate": "p, w", "finish": "t, y, p, w, ydot"}
+_ARGUMENTS |= {"geometry": "t, y, p, w", "spread": "p, w"}
 
-    info: KernelInfo
+
+class Bases:
+    """Sizes, and places where sections and scratch vectors begin, read from the head of the tables into locals."""
+
+    def __init__(self) -> None:
+        self.names: set[str] = set()
+
+    def base(self, name: str) -> str:
+        """Return the name of a size or of where a section begins, noted where it is one."""
+        if name.islower() and name not in ("t", "y", "p", "w", "ydot"):
+            self.names.add(name)
+        return name
+
+    def lines(self) -> tuple[list[str], set[str]]:
+        """Return the lines that read what has been noted, and what they name."""
+        scratch = sorted((n for n in self.names if n[0] == "x" and n[1:].isdigit()), key=lambda name: int(name[1:]))
+        named = sorted(self.names.difference(scratch), key=lambda n: (HEAD.index(n) if n in HEAD else len(HEAD), n))
+        lines = [f"{name} = np.int64(T[{name.upper()}])" for name in named]
+        calls = {"tables", *map(str.upper, named)}
+        if scratch:
+            lines.append("vectors, vector_size = np.int64(T[VECTORS]), np.int64(T[VECTOR_SIZE])")
+            lines += [f"{name} = vectors + {name[1:]} * vector_size" for name in scratch]
+            calls |= {"VECTORS", "VECTOR_SIZE"}
+        self.names.clear()
+        return ["T = tables(w)", *lines], calls | ({"numpy"} if lines else set())
+
+
+class _Size(str):
+    """The name of a size, which can be added to another one."""
+
+    def __add__(self, other: str) -> _Size:
+        return _Size(f"{self} + {other}")
+
+
+class TableLayout:
+    """Sizes and places are read from the tables; see `symgen.emit.parts.PartsLayout`."""
+
+    turning, decorator = "y, w", DECORATORS["cpu"]
+
+    def __init__(self, parameters: Sequence[str]) -> None:
+        self.parameters, self.bases = parameters, Bases()
+
+    def size(self, name: str) -> _Size:
+        """Return the local that holds a size."""
+        return _Size(self.bases.base(name))
+
+    def at(self, name: str) -> str:
+        """Return the local that says where a section begins."""
+        return self.bases.base(name)
+
+    def parameter(self, name: str) -> str:
+        """Return a parameter of the method, or what is taken where it has none."""
+        if name in self.parameters:
+            return f"p[{self.bases.base('method_parameters')} + {self.parameters.index(name)}]"
+        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+
+    def finished(self) -> tuple[list[str], set[str], set[str]]:
+        """Return the lines that read the tables, where anything is read."""
+        if not self.bases.names:
+            return [], set(), set()
+        names = set(self.bases.names)
+        lines, calls = self.bases.lines()
+        return lines, {c for c in calls if c.lower() not in names or c.lower() in HEAD}, names.difference(HEAD)
+
+
+def print_function(f: LoopedFunction) -> Code:
+    """Print statements: loops over elements j, sums, numbers and calls."""
+    access, lines = LoopAccess(), list[str]()
+    called: set[str] = set()
+    for statement in f.statements:
+        if isinstance(statement, Call):
+            result = f"{statement.result} = " if statement.result else ""
+            lines.append(f"{result}{statement.function}({', '.join(statement.arguments)})")
+            called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}
+            for name in statement.arguments:
+                access.bases.base(name)
+        elif isinstance(statement, Number):
+            (left,), (right,) = _printed(f.graph, ((*statement.place, statement.node),), access)
+            lines += [*right[:-1], f"{left} = {right[-1]}"]
+        elif isinstance(statement, Total):
+            (left,), (right,) = _printed(f.graph, ((LOCAL, statement.local, statement.node),), access)
+            loop = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in right[:-1])]
+            loop.append(f"    {left} += {right[-1]}")
+            if statement.driven:
+                called.add("DRIVEN")
+                loop = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in loop)]
+            lines += [f"{left} = 0.0", *loop]
+        else:
+            lines.append(f"for j in range({access.bases.base(statement.size)}):")
+            outputs = [(target, 0, node) for target, node in statement.outputs]
+            for left, right in zip(*_printed(f.graph, outputs, access), strict=True):
+                lines += [*(f"    {line}" for line in right[:-1]), f"    {left} = {right[-1]}"]
+    flagged = f.flagged and f.part.flag is not None
+    lines.append("return int(suspicious)" if flagged else "return 0")
+    own = access.bases.names.difference(HEAD, (f"x{i}" for i in range(f.vectors)))
+    before, names = access.bases.lines()
+    called |= (names - {name.upper() for name in own}) | access.functions
+    purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
+    sections = own | access.status
+    return function(f.part.name, _ARGUMENTS[f.part.name], purpose, [*before, *lines], calls=called, sections=sections)
+
+
+def _printed(
+    graph: Graph, outputs: Sequence[tuple[str, int, int]], access: LoopAccess
+) -> tuple[list[str], list[list[str]]]:
+    """Return left-hand sides, and for each the lines of its terms with its expression as the last one."""
+    block = Block("", "", graph, tuple((Target(space, index), node) for space, index, node in outputs), ())
+    printer = Printer(block, access)
+    terms = list(printer.lines().terms)
+    rights = [[printer.text[node][0]] for _, _, node in outputs]
+    rights[0] = terms + rights[0]
+    return [access.write(target) for target, _ in block.outputs], rights
+
+
+class LoopAccess:
+    """How the general element of a section, and numbers, are written; notes which names that takes."""
+
+    def __init__(self) -> None:
+        self.bases = Bases()
+        self.status: set[str] = set()
+        self.functions: set[str] = set()
 
     def read(self, space: str, index: int) -> tuple[str, str]:
-        """Return (local name, expression) of an input."""
-        if space == "record":
-            frame, place = divmod(index, RECORD)
-            return f"r{frame}_{place}", f"w[f{frame} + {place}]"
-        if space == "p":
-            constants = self.info.constants
-            if index < constants:
-                return f"k{index}", f"p[c{index}]"
-            return f"h{index - constants}", f"p[computed + {index - constants}]"
-        if space == "t":
-            return "t", "t"
-        if space == "winding":
-            return f"winding_{index}", f"w[{_WINDING} + u{index}]"
-        forms = {"q": "y[q + {}]", "v": "y[nq + v + {}]", "change": "w[change + v + {}]"}
-        return f"{space}_{index}", forms[space].format(index)
-
-    def note(self, space: str, index: int) -> str:
-        """Return nothing: an instance's numbers have no names."""
-        return ""
+        """Return (local name, expression) of an input: the expression twice, as it is written where it is used."""
+        text = self.write(Target(space, index))
+        return text, text
 
     def write(self, target: Target) -> str:
-        """Return the left-hand side of an output, with its operator."""
-        space, i = target.space, target.index
-        if space in _SUMS:
-            return f"{space} +="
-        if space == "force+":
-            frame, place = self.velocity(i)
-            return f"w[force + v{frame} + {place}] +="
-        if space == "p":
-            return f"p[computed + {i - self.info.constants}] ="
-        forms = {
-            "record": "w[f0 + {}] =",
-            "ydot": "out[q + {}] =",
-            "y": "y[q + {}] =",
-            "winding": f"w[{_WINDING} + u{{}}] =",
-            "force=": "w[force + v + {}] =",
-            "jacobian": "w[jacobian + entry + {}] =",
-            "report": "out[m + coordinate + {}] =",
-            "mass_diagonal": "p[mass_diagonal + v + {}] =",
-            "inverse_mass": "p[inverse_mass + v + {}] =",
-        }
-        return forms.get(space, f"w[{space} + row + {{}}] =").format(i)
+        """Return an element or a number."""
+        space, index = target.space, target.index
+        if space == LOCAL:
+            return f"a{index}"
+        if space == PARAMETER:
+            return f"p[{self.bases.base('method_parameters')} + {index}]"
+        if space == STATE:
+            self.status.add(STATUS[index])
+            return f"w[{STATUS[index].upper()}]"
+        if space == WORK:
+            return f"ydot[{self.bases.base('nq')} + {self.bases.base('nv')}]"
+        if space in (VELOCITIES, RATES):
+            return f"{'y' if space == VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
+        return f"w[{self.bases.base(space)} + j]"
+
+    def note(self, space: str, index: int) -> str:
+        """Return nothing: sections say what they are."""
+        return ""
 
     def function(self, name: str) -> str:
         """Return what a mathematical function is called."""
+        self.functions.add("math")
         return f"math.{name}"
 
-    def velocity(self, index: int) -> tuple[int, int]:
-        """Return frame and place in the frame of a velocity of the element."""
-        for frame, (_, nv, _) in enumerate(self.info.frames):
-            if index < nv:
-                return frame, index
-            index -= nv
-        raise AssertionError("every velocity belongs to a frame")
 
-    def places(self) -> list[tuple[str, str]]:
-        """Return (local name, expression) of all numbers of an instance's table that are not constants."""
-        frames = len(self.info.frames)
-        names = [f"f{i}" for i in range(frames)]
-        names += {"body": ["q", "v"], "joint": ["row", "entry", "coordinate"]}.get(
-            self.info.kind, [f"v{i}" for i in range(frames)]
-        )
-        names += [*(f"u{i}" for i in range(self.info.windings)), "computed"]
-        names += [f"c{i}" for i in range(self.info.constants)]
-        result = []
-        for i, name in enumerate(names):
-            number = f"T[here + {i}]" if i else "T[here]"
-            if name == "coordinate":
-                number = f"2 * {number}"
-            result.append((name, f"records + {number}" if name.startswith("f") else number))
-        return result
-
-
-@dataclass(frozen=True)
-class FormAccess(InstanceAccess):
-    """How the elements of a part of a descriptor form are written."""
-
-    def read(self, space: str, index: int) -> tuple[str, str]:
-        """Return (local name, expression) of an input."""
-        if space == "p" and index >= self.info.constants:
-            return f"option{index - self.info.constants}", f"p[method_parameters + {index - self.info.constants}]"
-        if space == "status":
-            return f"status_{index}", f"w[{index}]"
-        if space.startswith("k_"):
-            return f"{space}{index}", f"w[stage + {self.unknown(space.removeprefix('k_'), index)}]"
-        return super().read(space, index)
-
-    def write(self, target: Target) -> str:
-        """Return the left-hand side of an output, with its operator."""
-        if target.space == "power":
-            return "power +="
-        if target.space == "entry":
-            return f"out[entry + {target.index}] ="
-        return f"out[{self.unknown(target.space, target.index)}] +="
-
-    def unknown(self, group: str, index: int) -> str:
-        """Return the index of an equation or unknown among those of a stage."""
-        if group in ("q", "v"):
-            sizes = [frame[group == "v"] for frame in self.info.frames]
-            frame = 0
-            while index >= sizes[frame]:
-                index -= sizes[frame]
-                frame += 1
-            return f"q{frame} + {index}" if group == "q" else f"nq + v{frame} + {index}"
-        behind = {"first": "", "second": " + m", "third": " + 2 * m"}[group]
-        return f"nq + nv{behind} + row + {index}"
-
-    def places(self) -> list[tuple[str, str]]:
-        """Return (local name, expression) of all numbers of an instance's table."""
-        frames = range(len(self.info.frames))
-        names = [f"{letter}{i}" for letter in "fqv" for i in frames] + ["row", "entry"]
-        names += [f"u{i}" for i in range(self.info.windings)] + [f"c{i}" for i in range(self.info.constants)]
-        numbers = [(name, f"T[here + {i}]" if i else "T[here]") for i, name in enumerate(names)]
-        return [(name, f"records + {number}" if name.startswith("f") else number) for name, number in numbers]
-
-
-def _kernel_function(block: Block, access: InstanceAccess) -> dict[str, Any]:
-    printer = Printer(block, access)
-    lines = printer.lines()
-    outputs = [f"{access.write(target)} {printer.text[n][0]}" for target, n in block.outputs]
-    if lines.flag is not None:
-        outputs.append(f"changed += {lines.flag}")
-    body = " ".join([*lines.inputs, *lines.terms, *outputs])
-
-    def used(name: str, text: str) -> bool:
-        return re.search(rf"\b{name}\b", text) is not None
-
-    places = [f"{name} = {number}" for name, number in access.places() if used(name, body)]
-    bases = [f"{name} = np.int64(T[{name.upper()}])" for name in HEAD if used(name, " ".join([body, *places]))]
-    sums = [name for name in _SUMS if any(t.space == name for t, _ in block.outputs)]
-    return {
-        "name": block.name,
-        "purpose": block.purpose,
-        "operations": block.operations,
-        "bases": bases,
-        "lines": [*places, *lines.inputs, *lines.terms, *outputs],
-        "sums": sums,
-        "changed": lines.flag is not None,
-    }
+def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:
+    """Return the source of a module without code: how often a mechanism uses each kernel."""
+    lines = "\n".join(f"{stem}: {count}" for stem, count in counts.items())
+    text = f"Kernels of mechanism `{harmless(name)}`, and how many instances each has; tables stand in the metadata."
+    return f'"""{text}\n\n{lines}\n"""\n'

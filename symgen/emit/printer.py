@@ -2,32 +2,33 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
+from symgen.emit.text import harmless, table_name
 from symgen.ir.graph import Graph
-from symgen.ir.program import Block, Layout, Target
+from symgen.ir.program import Block, Layout, Target, of_table
+from symgen.vocabulary.functions import ELEMENTARY
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
-_MATH = frozenset("sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh floor".split())
+_MATH = frozenset((*ELEMENTARY, "atan2", "floor"))
 #: Arrays that functions get as arguments of their own; every other space is a section of ``w``.
 _ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
 #: A term used once is written where it is used, up to this many characters.
 _INLINE = 90
-_ELEMENT = re.compile(r"(\w+)\[(\d+)\]")
 
 
 @dataclass(frozen=True)
 class Lines:
-    """The three parts of a straight-line function's body."""
+    """The three parts of a straight-line function's body, and the functions that it calls."""
 
     inputs: tuple[str, ...]
     terms: tuple[str, ...]
     outputs: tuple[str, ...]
     flag: str | None
+    functions: frozenset[str]
 
 
 class Access(Protocol):
@@ -53,23 +54,25 @@ class ElementAccess:
     layout: Layout
     names: Mapping[tuple[str, int], str]
 
+    def element(self, array: str, index: int) -> str:
+        """Return an element of an array."""
+        return f"{array}[{index}]"
+
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input."""
         if space == "t":
             return "t", "t"
         if space == "q":
-            return f"q{index}", f"y[{index}]"
+            return f"q{index}", self.element("y", index)
         if space == "v":
-            return f"v{index}", f"y[{self.layout.nq + index}]"
-        if space in _ARRAYS:
-            return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", f"{space}[{index}]"
-        return f"{space}_{index}", f"w[{self.layout.offset(space) + index}]"
+            return f"v{index}", self.element("y", self.layout.nq + index)
+        return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", self.write(Target(space, index))
 
     def write(self, target: Target) -> str:
         """Return the left-hand side of an output."""
         if target.space in _ARRAYS:
-            return f"{target.space}[{target.index}]"
-        return f"w[{self.layout.offset(target.space) + target.index}]"
+            return self.element(target.space, target.index)
+        return self.element("w", self.layout.offset(target.space) + target.index)
 
     def note(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
@@ -95,19 +98,9 @@ class LaneAccess(ElementAccess):
     bases: Mapping[str, int]
     lanes: int
 
-    def read(self, space: str, index: int) -> tuple[str, str]:
-        """Return (local name, expression) of an input."""
-        name, expression = super().read(space, index)
-        return name, self.of_lane(expression)
-
-    def write(self, target: Target) -> str:
-        """Return the left-hand side of an output."""
-        return self.of_lane(super().write(target))
-
-    def of_lane(self, expression: str) -> str:
+    def element(self, array: str, index: int) -> str:
         """Return an element of an array of one run as that of lane ``lane``."""
-        found = _ELEMENT.fullmatch(expression)
-        return expression if found is None else f"z[{(self.bases[found[1]] + int(found[2])) * self.lanes} + lane]"
+        return f"z[{(self.bases[array] + index) * self.lanes} + lane]"
 
     def function(self, name: str) -> str:
         """Return what a mathematical function is called: sines of lanes are no calls."""
@@ -135,6 +128,7 @@ class Printer:
         self.needed = self.graph.needed(block.nodes)
         self.uses = _count_uses(self.graph, self.needed, block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
+        self.functions: set[str] = set()  # what is called: math's, and others that are emitted
 
     def lines(self) -> Lines:
         """Return the lines of the block."""
@@ -150,7 +144,7 @@ class Printer:
                 space, index = payload
                 name, expression = self.access.read(space, index)
                 if name != expression:
-                    note = self.access.note(space, index)
+                    note = harmless(self.access.note(space, index))
                     inputs.append(f"{name} = {expression}" + (f"  # {note}" if note else ""))
                 self.text[node] = (name, 5)
             else:
@@ -162,7 +156,7 @@ class Printer:
                 self.text[node] = (text, level)
         outputs = tuple(f"{self.access.write(target)} = {self.text[n][0]}" for target, n in self.block.outputs)
         flag = None if self.block.flag is None else self.text[self.block.flag][0]
-        return Lines(tuple(inputs), tuple(terms), outputs, flag)
+        return Lines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
 
     def operation(self, op: str, args: tuple[int, ...], payload: object) -> tuple[str, int]:
         """Return text and precedence of one operation."""
@@ -177,19 +171,24 @@ class Printer:
         if op in _COMPARE:
             return f"({self.wrapped(args[0], 1)} {_COMPARE[op]} {self.wrapped(args[1], 1)})", 5
         if op in _MATH:
-            return f"{self.access.function(op)}({', '.join(texts)})", 5
+            name = self.access.function(op)
+            self.functions.add(name)
+            return f"{name}({', '.join(texts)})", 5
         if op in ("abs", "min", "max"):
             return f"{op}({', '.join(texts)})", 5
         special = {
             "step": "1.0*({0} > {1})",
             "not": "(not {0})",
+            "defined": "({0} == {0})",
             "where": "({1} if {0} else {2})",
             "sign": "1.0*(({0} > 0.0) - 1*({0} < 0.0))",
         }
         if op in special:
             return special[op].format(*texts), 2 if op in ("step", "sign") else 5
         if op == "table":
-            return f"table_{str(payload).replace(chr(39), '_slope')}({texts[0]})", 5
+            name = table_name(*of_table(payload))
+            self.functions.add(name)
+            return f"{name}({texts[0]})", 5
         raise AssertionError(f"no syntax for operation {op}")
 
     def wrapped(self, node: int, level: int) -> str:

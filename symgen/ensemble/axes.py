@@ -13,12 +13,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
+from symgen.memory import require
 
 Array = NDArray[np.float64]
 
 #: An ensemble has at most so many runs.
 MOST_RUNS = 1_000_000_000
+#: What a run takes at least [bytes]: its summary, status and reason.
+RUN_SIZE = 400.0
 _SHAPE = re.compile(r"\s*([A-Za-z]+)\s*\(([^()]*)\)\s*")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 
@@ -105,6 +108,7 @@ def uniform(lowest: float, highest: float, count: int, seed: int) -> Array:
 def _count(where: str, count: float) -> int:
     if not (float(count).is_integer() and 1 <= count <= MOST_RUNS):
         raise InputError(where, f"a whole number of values from 1 to {MOST_RUNS:g}", f"{count:g}")
+    require(where, f"{count:g} values", 24.0 * count)  # as they are made
     return int(count)
 
 
@@ -135,10 +139,10 @@ def parse(text: str, where: str) -> Array:
     expected = "lin(a, b, n), log(a, b, n), values(a, b, ...) or uniform(a, b, n, seed)"
     found = _SHAPE.fullmatch(text) if len(text) <= 1_000_000 else None
     if found is None:
-        raise InputError(where, expected, f"'{text.strip()[:60]}'")
+        raise InputError(where, expected, quoted(text.strip()))
     word = found[1]
     if word not in _WORDS:
-        raise InputError(where, expected, f"'{word}'", nearest(word, _WORDS))
+        raise InputError(where, expected, quoted(word), nearest(word, _WORDS))
     build, arity, form = _WORDS[word]
     numbers = [_number(part, where) for part in found[2].split(",")]
     if arity is not None and len(numbers) != arity:
@@ -151,7 +155,7 @@ def parse(text: str, where: str) -> Array:
 
 def _number(text: str, where: str) -> float:
     if _NUMBER.fullmatch(text.strip()) is None or not math.isfinite(number := float(text)):
-        raise InputError(where, "finite numbers between the brackets", f"'{text.strip()[:60]}'")
+        raise InputError(where, "finite numbers between the brackets", quoted(text.strip()))
     return number
 
 
@@ -191,6 +195,7 @@ def make_grid(
     grid = Grid(tuple(axes))
     if len(grid) > MOST_RUNS:
         raise InputError("sweep", f"at most {MOST_RUNS:g} runs", f"{len(grid):g}")
+    require("sweep", f"{len(grid):g} runs", RUN_SIZE * len(grid))
     return grid
 
 

@@ -13,15 +13,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError, SimulationError, nearest
+from symgen.arguments import one_of
+from symgen.errors import InputError, SimulationError
 from symgen.ir.program import TARGETS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime.blocks import padded
+from symgen.runtime.run import metric_of, share_of, sizes_of
 
 if TYPE_CHECKING:
-    from symgen.integrators._base import BatchCall
     from symgen.model import CompiledModel
     from symgen.runtime.device import Need
+    from symgen.runtime.integrator import Setup
+    from symgen.runtime.records import Span, Tableau
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -44,8 +48,7 @@ def check_target(target: str, scheduler: object = None) -> None:
     InputError
         If there is no such target, no device, or it is asked for on a cluster.
     """
-    if target not in TARGETS:
-        raise InputError("target", "one of " + ", ".join(TARGETS), f"'{target}'", nearest(target, TARGETS))
+    one_of("target", target, TARGETS)
     if target != "cuda":
         return
     if scheduler is not None:
@@ -81,17 +84,15 @@ def usable() -> bool:
     return bool(cuda.is_available())
 
 
-def need_of(compiled: CompiledModel, n_p: int, call: BatchCall, adaptive: bool, wants: set[int]) -> Need:
+def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[int]) -> Need:
     """Return what shapes the kernel of a law.
 
     Parameters
     ----------
     compiled : CompiledModel
         The law.
-    n_p : int
-        Length of ``p``.
-    call : BatchCall
-        The loop of the integrator.
+    setup : Setup
+        What the integrator's loop is entered with.
     adaptive : bool
         Whether its steps are.
     wants : set of int
@@ -100,21 +101,20 @@ def need_of(compiled: CompiledModel, n_p: int, call: BatchCall, adaptive: bool, 
     Raises
     ------
     InputError
-        If a run needs more memory than a thread of a device can have, or the integrator brings a loop of its own.
+        If a run needs more memory than a thread of a device can have, or the integrator is of another family.
     """
-    from symgen.runtime.batch import adaptive_runs, fixed_runs
     from symgen.runtime.device import Need
+    from symgen.runtime.records import Tableau
 
-    if call.loop not in (fixed_runs, adaptive_runs):
+    if not isinstance(setup.scheme, Tableau):
         raise InputError("target 'cuda'", "an explicit Runge-Kutta scheme", "an integrator with a loop of its own")
-    info = compiled.info
+    info, law = compiled.info, compiled.law
     found = Need(
-        ny=info.ny,
-        n_p=n_p,
-        nw=max(1, compiled.law.nw),
-        nv=info.nv,
-        m=info.m,
-        room=call.room,
+        width=padded(info.ny),
+        n_p=max(1, law.parameter_offset + len(law.parameters) + law.hoisted),
+        nw=max(1, law.nw),
+        memory=setup.memory,
+        room=setup.room,
         rows=info.m + 2 * len(info.joint_coordinates) if e.JOINT in wants else 0,
         adaptive=adaptive,
         rates=bool(wants & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}),
@@ -135,10 +135,10 @@ class DeviceRuns:
         Modules emitted for CUDA.
     need : Need
         From `need_of`.
-    call : BatchCall
-        The loop of the integrator, with its arguments.
-    sizes, limits : Array
-        As for the loops over many runs on a processor.
+    scheme, span : record
+        As for the loops on a processor.
+    limits : Array
+        As in `symgen.runtime.records.Chunk`.
     times : Array
         Output times [s].
     picks : Array of int
@@ -149,14 +149,15 @@ class DeviceRuns:
         self,
         compiled: CompiledModel,
         need: Need,
-        call: BatchCall,
-        sizes: Integers,
+        scheme: Tableau,
+        span: Span,
         limits: Array,
         times: Array,
         picks: Integers,
     ) -> None:
-        self.compiled, self.need = compiled, need
-        self.constants = (*_scheme(call, need.adaptive), sizes, limits, times, picks)
+        self.compiled, self.need, self.scheme, self.span = compiled, need, scheme, span
+        self.sizes = sizes_of(compiled)
+        self.constants = limits, share_of(self.sizes), metric_of(compiled.info, self.sizes), picks, times
         self.times, self.quantities = len(times), len(picks) // 2
 
     @cached_property
@@ -173,9 +174,15 @@ class DeviceRuns:
 
     @cached_property
     def _on_device(self) -> tuple[Any, ...]:
+        """The scheme, and what all runs share."""
         from numba import cuda
 
-        return tuple(cuda.to_device(np.ascontiguousarray(array)) for array in self.constants)
+        def there(array: Any) -> Any:
+            # empty arrays on a device have strides of their own
+            return cuda.to_device(np.ascontiguousarray(array if len(array) else np.zeros(1, dtype=array.dtype)))
+
+        scheme = type(self.scheme)(*(there(x) if isinstance(x, np.ndarray) else x for x in self.scheme))
+        return scheme, *(there(array) for array in self.constants)
 
     @cached_property
     def shapes(self) -> Mapping[str, tuple[int, ...]]:
@@ -184,7 +191,7 @@ class DeviceRuns:
         rates, joints = k if need.rates else 1, k if need.joints else 1
         shapes = {
             "states": (k, info.ny),
-            "status": (k, abi.RANK + 1 + info.windings),
+            "status": (k, abi.N_STATUS + info.windings),
             "accelerations": (rates, info.nv if need.rates else 1),
             "multipliers": (rates, info.m if need.rates else 1),
             "observed": (joints, need.rows),
@@ -197,7 +204,7 @@ class DeviceRuns:
     @property
     def run_bytes(self) -> int:
         """Global memory of a run."""
-        numbers = self.need.ny + self.need.n_p + self.need.nw + sum(int(np.prod(s)) for s in self.shapes.values())
+        numbers = self.sizes.ny + self.need.n_p + self.need.nw + sum(int(np.prod(s)) for s in self.shapes.values())
         return 8 * numbers
 
     def _most(self) -> int:
@@ -275,7 +282,7 @@ class DeviceRuns:
         """Run rows that fit into the device's memory; return their quantities and numbers."""
         from numba import cuda
 
-        from symgen.runtime.device import simulated
+        from symgen.runtime.device import Results, Starts, simulated
 
         k = len(ys)
         inputs = [cuda.to_device(np.ascontiguousarray(array.T)) for array in (ys, ps, ws)]
@@ -288,7 +295,9 @@ class DeviceRuns:
                 warnings.simplefilter("ignore", RuntimeWarning)
             else:  # few runs leave the device idle, which is no fault
                 warnings.filterwarnings("ignore", message=".*Grid size.*")
-            self._kernel[-(-k // block), block](*inputs, *self._on_device, *outputs)
+            scheme, *shared = self._on_device
+            arguments = scheme, self.sizes, self.span, Starts(*inputs, *shared), Results(*outputs)
+            self._kernel[-(-k // block), block](*arguments)
             values, numbers = outputs[-2].copy_to_host(), outputs[-1].copy_to_host()
         asked = self.quantities * self.times
         return values.T[:, :asked].reshape(k, self.quantities, self.times), numbers.T
@@ -304,14 +313,3 @@ def _reported() -> Iterator[None]:
             raise
         said = " ".join(str(error).split())[:300]
         raise SimulationError(f"the CUDA device reports {type(error).__name__}: {said}") from error
-
-
-def _scheme(call: BatchCall, adaptive: bool) -> tuple[Any, ...]:
-    """Return a scheme as a kernel takes it: packed tableau, error weights, dense output, integers and numbers."""
-    if adaptive:
-        start, column, value, nodes, stages, weights, errors, order, dense, h, h_max, until, rtol, atol = call.arguments
-    else:
-        start, column, value, nodes, stages, h, until = call.arguments
-        weights, dense, errors, order, h_max, rtol, atol = np.zeros(1), np.zeros(1), 0, 0, np.inf, 0.0, 0.0
-    integers = np.array([stages, errors, order], dtype=np.int64)
-    return start, column, value, nodes, weights, dense, integers, np.array([h, h_max, until, rtol, atol])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,19 +16,23 @@ from symgen.integrators import INTEGRATORS
 from symgen.model import CompiledModel
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.run import RunSpec
+from symgen.runtime.assembly import Assembly, entries_of
+from symgen.runtime.integrator import Integrator, Setup
+from symgen.runtime.run import RunSpec, new_state, sizes_of
+from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
     from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.starts import Rows
-    from symgen.integrators._base import BatchCall
+    from symgen.model import ModelInfo
+    from symgen.runtime.records import Kept, Span
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 _LIGHT, _START = e.SUMMARY.index("light"), e.SUMMARY.index("start")
-_REDUNDANT = e.SUMMARY.index("redundant_rows")
+_REDUNDANT, _CODE = e.SUMMARY.index("redundant_rows"), e.SUMMARY.index("code")
 
 
 @dataclass(frozen=True)
@@ -55,12 +59,9 @@ class _Prepared:
     """A compiled model with the arrays that describe it to the loops."""
 
     compiled: CompiledModel
-    sizes: Integers
-    table: Integers
-    constants: Array
-    joints: Integers
-    massless: Integers
+    assembly: Assembly
     p: Array
+    setup: Setup
     device: DeviceRuns | None = None
     lanes: LaneRuns | None = None
 
@@ -75,15 +76,23 @@ class Kernel:
     _warm: bool = False
 
     @cached_property
-    def call(self) -> BatchCall:
-        """The loop over many runs.
+    def integrator(self) -> Integrator:
+        """The scheme.
 
         Raises
         ------
         InputError
-            If the integrator has none.
+            If there is no loop over many runs for it.
         """
-        return batch_call(self.recipe.integrator, self.first.compiled.info.ny, self.recipe.spec)
+        return integrator_of_rows(self.recipe.integrator, self.recipe.spec)
+
+    def span(self, setup: Setup) -> Span:
+        """Return how far runs go, and by which steps."""
+        from symgen.runtime.records import Span
+
+        spec = self.recipe.spec
+        numbers = setup.step, spec.largest_step, spec.until, spec.until, spec.rtol, spec.atol, spec.relative
+        return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, np.inf)))
 
     @cached_property
     def first(self) -> _Prepared:
@@ -142,31 +151,17 @@ class Kernel:
         self, model: _Prepared, rows: Rows, selected: Integers, values: Array, summary: Array, control: Integers
     ) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
-        from symgen.runtime.batch import observe_nothing
-        from symgen.runtime.closing import correct
-        from symgen.runtime.manifold import stay
-        from symgen.runtime.starting import close_runs, follow_nothing
+        from symgen.runtime.records import Chunk as ChunkRecord
+        from symgen.runtime.redundancy import LARGEST
+        from symgen.runtime.rows import observe_nothing
 
-        info, law, recipe, call = model.compiled.info, model.compiled.law_module, self.recipe, self.call
+        info, law, recipe = model.compiled.info, model.compiled.law_module, self.recipe
         k, ny, nw = len(rows), info.ny, max(1, model.compiled.law.nw)
-        ps = np.tile(model.p, (max(k, 1), 1))
-        ps[:k, : len(info.parameters)] = rows.parameters
-        ys, ws = np.zeros(max(k, 1) * ny), np.zeros(max(k, 1) * nw)
-        iw, order = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(max(1, info.m), dtype=np.int64)
-        m, n = info.m, info.nv
-        room = np.zeros(3 * n + 2 * m + info.nq + 2 * ny + nw + m * n + m * min(m, n) + m + n)
-        done = close_runs(
-            *(model.compiled.model.prepare, law.prepare, model.compiled.model.masses, model.compiled.model.geometry),
-            *(
-                model.compiled.model.measure if info.windings else follow_nothing,
-                getattr(model.compiled.model, "move", stay),
-            ),
-            *(correct, law.rhs),
-            *(model.sizes, model.table, model.constants, model.joints, model.massless),
-            *(np.array(recipe.held, dtype=np.int64).ravel(), selected),
-            *(_flat(rows.targets), _flat(rows.q), _flat(rows.v), ps.ravel(), ys, ws, summary.reshape(-1)),
-            *(iw, order, control, room),
-        )
+        ps, ws = np.tile(model.p, (max(k, 1), 1)), np.empty((max(k, 1), nw))
+        ys = np.zeros((max(k, 1), ny))
+        ps[:k, : len(info.parameters)], ys[:k, : info.nq] = rows.parameters, rows.q
+        now, asked = Instant(ys, ps, ws), Asked(rows.v, rows.targets, summary)
+        done = model.assembly.close_all(now, asked, selected, control)
         if done < len(selected):
             return False
         ready = summary[selected, _START] == e.ASSEMBLED
@@ -174,133 +169,93 @@ class Kernel:
             ready &= summary[selected, _LIGHT] == 0.0
         selected = selected[ready]
         if model.device is not None:
-            starts = (ys.reshape(-1, ny), ps, ws.reshape(-1, nw))
-            return model.device.run(*starts, selected, values, summary, control) == len(selected)
-        times = recipe.times
-        k_times, windings = len(times), info.windings
+            return model.device.run(ys, ps, ws, selected, values, summary, control) == len(selected)
         observes = e.JOINT in recipe.sources
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        ends = (law.accept, model.compiled.model.observe if observes else observe_nothing)
         confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
-        outputs = (
-            *(np.empty((k_times, ny)), np.empty((k_times, abi.RANK + 1 + windings))),
-            *(np.zeros((k_times, info.nv)), np.zeros((k_times, info.m))),
-            *(np.zeros((k_times, info.m + 2 * len(info.joint_coordinates))), np.zeros((k_times, windings))),
-            recipe.picks,
-            *(values.reshape(-1), summary.reshape(-1), recipe.limits, np.zeros(abi.N_GAUGES), control),
-            *(np.zeros(abi.MAX_EVENTS * abi.N_EVENT), iw),
-        )
-        flat = ps.ravel()
+        seen = rates, confirms[1], model.compiled.model.observe if observes else observe_nothing
+        sizes, span, kept = sizes_of(model.compiled), self.span(model.setup), self._kept(info)
+        wants = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT})), int(observes)
+        picks = recipe.picks, values.reshape(-1), summary.reshape(-1)
+        redundant = np.any(summary[selected, _REDUNDANT] > 0.0) and info.m * info.nv <= LARGEST
+        places = *entries_of(info), np.zeros(info.m * (info.nv + 1) if redundant else 0)
+        chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
+        room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
+        state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            left = np.zeros(max(k, 1), dtype=np.int64)
-            functions = (rates, confirms[1], *ends)
-            done = model.lanes.run(functions, call, (model.sizes, selected, ys, flat, ws, times, *outputs), left)
-            if done < len(selected):
+            ends = rates, confirms[1], law.accept, seen[2]
+            if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):
                 return False
-            selected = np.flatnonzero(left).astype(np.int64)
-        done = call.loop(
-            *(law.rhs, confirms[0], law.accept, rates, confirms[1], ends[1], *call.arguments),
-            *(model.sizes, selected, ys, flat, ws, times, *outputs, np.zeros(nw + call.room)),
-        )
-        return bool(done == len(selected))
+            chunk = chunk._replace(selected=selected[summary[selected, _CODE] == abi.LEFT])
+        loop = self.integrator.rows(recipe.spec.adaptive)
+        functions = law.rhs, confirms[0], law.accept, *seen
+        done = loop(*functions, model.setup.scheme, sizes, span, chunk, state, kept)
+        return bool(done == len(chunk.selected))
+
+    def _kept(self, info: ModelInfo) -> Kept:
+        """Return room for the outputs of one run, and for what is observed at them."""
+        from symgen.runtime.records import Kept, Observed, Outputs
+
+        times = self.recipe.times
+        k, rows = len(times), info.m + 2 * len(info.joint_coordinates)
+        outputs = Outputs(times, np.empty((k, info.ny)), np.empty((k, abi.N_STATUS + info.windings)))
+        return Kept(outputs, Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows))))
 
     def _prepare(self, compiled: CompiledModel, other: Module | None) -> _Prepared:
         info, recipe = compiled.info, self.recipe
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
-        sizes = np.zeros(e.N_SIZES, dtype=np.int64)
-        for index, value in (
-            (e.NQ, info.nq),
-            (e.NV, info.nv),
-            (e.M, info.m),
-            (e.NP, len(p)),
-            (e.NW, max(1, compiled.law.nw)),
-            (e.N_PARAMETERS, len(info.parameters)),
-            (e.SPATIAL, int(bool(info.spins))),
-            (e.LIGHT_CHECK, int(recipe.spare is not None and hasattr(compiled.law_module, "confirm"))),
-            (e.STRICT, int(recipe.strict)),
-            (e.WINDINGS, info.windings),
-        ):
-            sizes[index] = value
-        for index, name in (
-            (e.MASS, "mass"),
-            (e.RESIDUAL, "residual"),
-            (e.NU, "nu"),
-            (e.JACOBIAN, "jacobian"),
-            (e.PIVOTS, "pivot"),
-            (e.MASK, "mask"),
-            (e.CHANGE, "change"),
-            (e.MULTIPLIERS, "multipliers"),
-        ):
-            sizes[index] = info.sections.get(name, (0, 0))[0]
-        sizes[e.WANTS_JOINTS] = int(e.JOINT in recipe.sources)
-        sizes[e.WANTS_RATES] = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}))
-        names = list(dict.fromkeys(row.joint for row in info.rows))
-        massless = np.zeros(info.nv, dtype=np.int64)
-        massless[list(info.massless)] = 1
+        setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
         return _Prepared(
             compiled=compiled,
-            sizes=sizes,
-            table=np.array(
-                [(r, c, -1 if slot is None else slot) for r, c, _, slot in info.jacobian], dtype=np.int64
-            ).ravel(),
-            constants=np.array([constant or 0.0 for _, _, constant, _ in info.jacobian], dtype=np.float64),
-            joints=np.array([names.index(row.joint) for row in info.rows], dtype=np.int64),
-            massless=massless,
+            assembly=Assembly.of(
+                compiled,
+                held=[coordinate for coordinate, _ in recipe.held],
+                strict=recipe.strict,
+                ask_light=recipe.spare is not None,
+            ),
             p=p,
-            device=self._device_runs(other.load(), len(p), sizes)
-            if other is not None and recipe.target == "cuda"
-            else None,
-            lanes=self._lane_runs(other.load(), len(p)) if other is not None and recipe.target == "lanes" else None,
+            setup=setup,
+            device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
+            lanes=self._lane_runs(other.load(), setup) if other is not None and recipe.target == "lanes" else None,
         )
 
-    def _lane_runs(self, compiled: CompiledModel, n_p: int) -> LaneRuns:
+    def _lane_runs(self, compiled: CompiledModel, setup: Setup) -> LaneRuns:
         from symgen.ensemble.lanes import LaneRuns
 
-        return LaneRuns(compiled, n_p, len(self.recipe.spec.times))
+        return LaneRuns(compiled, setup.scheme, len(self.recipe.spec.times))
 
-    def _device_runs(self, compiled: CompiledModel, n_p: int, sizes: Integers) -> DeviceRuns:
+    def _device_runs(self, compiled: CompiledModel, setup: Setup) -> DeviceRuns:
         from symgen.ensemble.device import DeviceRuns, need_of
 
         recipe = self.recipe
-        call = batch_call(recipe.integrator, compiled.info.ny, recipe.spec)
-        need = need_of(compiled, n_p, call, recipe.spec.adaptive, recipe.sources)
-        return DeviceRuns(compiled, need, call, sizes, recipe.limits, recipe.times, recipe.picks)
+        need = need_of(compiled, setup, recipe.spec.adaptive, recipe.sources)
+        return DeviceRuns(compiled, need, setup.scheme, self.span(setup), recipe.limits, recipe.times, recipe.picks)
 
 
-def batch_call(integrator: str, ny: int, spec: RunSpec) -> BatchCall:
-    """Return an integrator's loop over many runs.
+def integrator_of_rows(name: str, spec: RunSpec) -> Integrator:
+    """Return an integrator that has a loop over many runs.
 
     Raises
     ------
     InputError
         If it has none; says which have one.
     """
-    chosen = INTEGRATORS.get(integrator, "--integrator")
-    batch = getattr(chosen, "batch", None)
-    call: BatchCall | None = None if batch is None else batch(ny, spec)
-    if call is None:
-        with_loop = [
-            name
-            for name, kind in INTEGRATORS.items()
-            if (found := getattr(kind, "batch", None)) and found(ny, replace(spec, adaptive=False, step=1.0))
-        ]
+    chosen: Integrator = INTEGRATORS.get(name, "--integrator")
+    if chosen.rows(spec.adaptive) is None:
+        with_loop = [other for other, kind in INTEGRATORS.items() if kind.rows(False) is not None]
         raise InputError(
-            f"integrator '{integrator}'",
+            f"integrator '{name}'",
             "one with a loop over many runs",
             "one without",
             f"{', '.join(with_loop)} have one",
         )
-    return call
+    return chosen
 
 
 def new_control() -> Integers:
     """Return the integers that a chunk shares with whoever watches it."""
     return np.zeros(e.N_CONTROL, dtype=np.int64)
-
-
-def _flat(values: Array) -> Array:
-    return np.ascontiguousarray(values, dtype=np.float64).reshape(-1)
 
 
 _kernels: dict[str, Kernel] = {}

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.integrators._base import BatchCall
     from symgen.model import CompiledModel
+    from symgen.runtime.records import Chunk, Kept, Sizes, Span, State, Tableau
     from symgen.runtime.run import RunSpec
 
 
@@ -37,31 +37,25 @@ class LaneRuns:
     ----------
     compiled : CompiledModel
         Modules emitted for lanes.
-    n_p : int
-        Length of ``p``.
+    scheme : Tableau
+        The record of the scheme.
     n_times : int
         Output times.
     """
 
     compiled: CompiledModel
-    n_p: int
+    scheme: Tableau
     n_times: int
 
-    def run(
-        self, functions: tuple[Any, ...], call: BatchCall, arguments: tuple[Any, ...], left: NDArray[np.int64]
-    ) -> int:
-        """Run the selected rows.
+    def run(self, functions: tuple[Any, ...], sizes: Sizes, span: Span, chunk: Chunk, state: State, kept: Kept) -> int:
+        """Run the selected rows; in the summary, those that single runs have to do get the code `LEFT`.
 
         Parameters
         ----------
         functions : tuple
             Those of single runs for what is observed: rates and their confirmation, ``accept``, ``observe``.
-        call : BatchCall
-            The loop of the integrator, of which the tableau, the step and the end are taken.
-        arguments : tuple
-            From ``sizes`` to the counters, as for `symgen.runtime.lanes.lane_runs`.
-        left : Array of int
-            Receives 1 for rows that single runs have to do.
+        sizes, span, chunk, state, kept
+            As for `symgen.runtime.rows.run_rows`.
 
         Returns
         -------
@@ -71,11 +65,9 @@ class LaneRuns:
         from symgen.runtime.lanes import lane_runs, room_of_lanes
 
         info, law = self.compiled.info, self.compiled.law_module
-        stages = call.arguments[4]
-        room = room_of_lanes(info.ny, stages, self.n_p, max(1, self.compiled.law.nw), info.windings, self.n_times)
-        everything: list[Any] = [law.rhs, law.accept, *functions, *call.arguments, *arguments, aligned(room), left]
-        done = lane_runs(*everything)
-        return int(done)
+        lengths = len(state.p), len(state.w), info.windings, self.n_times
+        lanes = state._replace(room=aligned(room_of_lanes(info.ny, self.scheme.stages, *lengths)))
+        return int(lane_runs(law.rhs, law.accept, *functions, self.scheme, sizes, span, chunk, lanes, kept))
 
 
 def aligned(size: int) -> NDArray[np.float64]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from symgen.ensemble.axes import Grid, make_grid
-from symgen.ensemble.kernel import batch_call, kernel_of
+from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Module, Recipe, code_identity
@@ -20,7 +20,8 @@ from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.pipeline import compile_model
-from symgen.plan import Plan, Settings, make_plan
+from symgen.plan import Plan, make_plan
+from symgen.settings import Settings
 from symgen.shapes import LARGEST_STRAIGHT
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ class Ensemble:
     def chunk(self) -> int:
         """Runs in a chunk; it depends on nothing but the ensemble, so that another process can continue it."""
         spec, info, law = self.recipe.spec, self.compiled.info, self.compiled.law
-        stages = getattr(self.plan.tableau, "stages", 4)
+        stages = self.plan.tableau.stages
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
@@ -164,21 +165,21 @@ def make_ensemble(
     if len(coordinates) > LARGEST_STRAIGHT:
         found = f"{len(coordinates)} coordinates"
         raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
-    chosen, notes = resolve(model, replace(settings, shape="straight"))
+    chosen, notes = resolve(model.mechanism, replace(settings, shape="straight"))
     if chosen.times is None and chosen.output_step is None:
         end = model.mechanism.defaults.until if chosen.until is None else chosen.until
         chosen = replace(chosen, times=(end,))
     if chosen.shape == "looped":
         raise InputError("shape", "straight code for an ensemble", "'looped'")
     chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
-    plan = make_plan(model, chosen)
+    plan = make_plan(model.mechanism, chosen)
     # before anything is derived
     parameters = model.parameters(chosen.parameters)
     for name in (*vary, *runs):
         _check_name(name, model.name, parameters, coordinates, velocities)
     grid = make_grid(vary, runs, (*coordinates, *velocities))
     compiled = compile_model(model.mechanism, plan.choice)
-    batch_call(plan.tableau.name, compiled.info.ny, plan.spec)
+    integrator_of_rows(plan.tableau.name, plan.spec)
     held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
     given = {name: velocities.index(name) for name in grid.names if name in velocities}
     if target == "lanes":

@@ -27,12 +27,19 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Module:
-    """An emitted law with its model, as source and metadata, under the stems that they have in the cache."""
+    """An emitted law with its model, as source and metadata, under the stems that they have in the cache.
+
+    Attributes
+    ----------
+    parts : mapping of str to str
+        Source of the modules that hold the law's functions, beside its own.
+    """
 
     folder: str
     stem: str
     model: tuple[str, Mapping[str, Any]]
     law: tuple[str, Mapping[str, Any]]
+    parts: Mapping[str, str]
     shared: str = "model"
 
     @classmethod
@@ -44,6 +51,7 @@ class Module:
             stem=law.stem,
             model=(model.read_text(encoding="utf-8"), compiled.info.to_dict()),
             law=(law.read_text(encoding="utf-8"), compiled.law.to_dict()),
+            parts={stem: law.with_name(f"{stem}.py").read_text(encoding="utf-8") for stem in compiled.law.modules},
             shared=model.stem,
         )
 
@@ -53,7 +61,8 @@ class Module:
 
         entries = Entries()
         with entries.building(self.folder):
-            for stem, (source, metadata) in ((self.shared, self.model), (self.stem, self.law)):
+            parts = ((stem, (source, dict[str, Any]())) for stem, source in self.parts.items())
+            for stem, (source, metadata) in (*parts, (self.shared, self.model), (self.stem, self.law)):
                 path = entries.path(self.folder, stem)
                 if entries.get(self.folder, stem) is None or path.read_text(encoding="utf-8") != source:
                     entries.put(self.folder, stem, source, metadata)
@@ -112,7 +121,7 @@ class Recipe:
 
     @property
     def limits(self) -> Array:
-        """What runs are judged by: see `symgen.runtime.batch.fixed_runs`."""
+        """What runs are judged by: see `symgen.runtime.records.Chunk`."""
         return np.array([self.spec.max_violation, self.spec.velocity_limit, self.spec.max_energy_error, WARN])
 
     @property
@@ -130,7 +139,7 @@ class Recipe:
         """Digest of all this, the same in every process."""
         spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
         modules = [
-            m if m is None else (m.folder, m.stem, m.model[0], m.law[0])
+            m if m is None else (m.folder, m.stem, m.model[0], m.law[0], dict(m.parts))
             for m in (self.module, self.spare, self.other, self.spare_other)
         ]
         text = json.dumps(
@@ -149,6 +158,6 @@ def code_identity() -> str:
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(__version__.encode())
     for folder in ("ensemble", "integrators", "runtime"):
-        for path in sorted((package / folder).glob("*.py")):
-            found.update(path.name.encode() + b"\0" + path.read_bytes())
+        for path in sorted((package / folder).rglob("*.py")):
+            found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
     return found.hexdigest()

@@ -15,8 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import __version__
+from symgen.arguments import path as argument_path
+from symgen.arguments import shown, whole
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
-from symgen.result.export import check_path, need, write_whole
+from symgen.errors import InputError, nearest
+from symgen.files import write_whole
+from symgen.result.export import check_path, need, netcdf
 from symgen.result.result import FAILED, OK, UNVERIFIED, finite
 
 if TYPE_CHECKING:
@@ -100,6 +104,7 @@ class Sweep:
     def reasons(self, most: int = 10) -> list[tuple[str, int]]:
         """Return the commonest reasons without their figures, each with the number of runs it is said of."""
         found = Counter(_kind(reason) for reason in self.reason if reason)
+        most = whole("most", most, 0, 10**9)
         return found.most_common(most)
 
     def __getitem__(self, name: str) -> Array:
@@ -107,8 +112,8 @@ class Sweep:
 
         Raises
         ------
-        KeyError
-            If it was not kept.
+        InputError
+            If it was not kept; says the nearest name.
         """
         shape = self.ensemble.grid.shape
         for i, q in enumerate(self.ensemble.recipe.quantities):
@@ -116,7 +121,10 @@ class Sweep:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
             return column(self.summary, name).reshape(shape)
-        raise KeyError(name)
+        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS]
+        raise InputError(
+            "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
+        )
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -184,11 +192,11 @@ class Sweep:
         }
         variables["status"] = (dimensions, self.status.reshape(shape))
         variables["reason"] = (dimensions, self.reason.reshape(shape))
-        for name, (unit, whole) in NUMBERS.items():
+        for name, (unit, counts) in NUMBERS.items():
             numbers = self[name]
             # a quantity of the same name is over time
             label = f"{name}_min" if name == "smallest_pivot" else name
-            variables[label] = (dimensions, numbers.astype(np.int64) if whole else numbers, {"units": unit})
+            variables[label] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
         units = {q.name: q.unit for q in (*ensemble.compiled.info.coordinates, *ensemble.compiled.info.velocities)}
         units.update({p.name: p.unit for p in ensemble.compiled.info.parameters})
         coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
@@ -209,9 +217,9 @@ class Sweep:
         InputError
             If the ending is another, a library is missing, or the file cannot be written.
         """
-        check_path("save", Path(path), {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
-        dataset = self.to_xarray()
-        return write_whole(Path(path), lambda file: dataset.to_netcdf(file, engine="h5netcdf"))
+        file = argument_path("save", path)
+        check_path("save", file, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+        return write_whole(file, netcdf(self.to_xarray()))
 
 
 def _kind(reason: str) -> str:

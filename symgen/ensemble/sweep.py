@@ -10,13 +10,17 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
+from symgen import arguments
+from symgen.ensemble.axes import RUN_SIZE
 from symgen.ensemble.local import run_here
 from symgen.ensemble.plan import Ensemble, make_ensemble
 from symgen.ensemble.study import Sweep
 from symgen.ensemble.table import FolderTable, Table, check_folder
 from symgen.errors import InputError
-from symgen.plan import Settings, changed
+from symgen.memory import require, require_disk
 from symgen.result.export import check_path
+from symgen.runtime.ensemble_abi import N_SUMMARY
+from symgen.settings import Settings, changed
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -26,6 +30,8 @@ if TYPE_CHECKING:
 
 #: The folder beside a file in which its runs are collected until it is written.
 PARTS = ".parts"
+#: Threads at most.
+MOST_JOBS = 4096
 
 
 def sweep(
@@ -91,20 +97,27 @@ def sweep(
     SimulationError
         If results cannot be written, or the cluster gives up.
     """
-    from symgen.api import Model, load
+    from symgen.api import load
     from symgen.ensemble.device import check_target
 
     check_target(target, scheduler)
-    if jobs is not None and not 1 <= jobs <= 4096:
-        raise InputError("jobs", "a whole number from 1 to 4096", f"{jobs}")
-    path = None if output is None else Path(output)
+    jobs = None if jobs is None else arguments.whole("jobs", jobs, 1, MOST_JOBS)
+    resume = arguments.switch("resume", resume)
+    arguments.function("progress", progress)
+    if scheduler is not None and not isinstance(scheduler, str) and not hasattr(scheduler, "submit"):
+        expected = "the address of a Dask scheduler, or a client"
+        raise InputError("scheduler", expected, arguments.shown(scheduler))
+    varied = {
+        what: arguments.mapping(what, given, "values by the names of what varies")
+        for what, given in (("vary", vary), ("runs", runs))
+    }
+    kept = None if quantities is None else arguments.words("quantities", quantities)
+    path = None if output is None else arguments.path("output", output)
     folder = None if path is None else folder_of(path, resume)
     if resume and path is None:
         raise InputError("resume", "an output that was begun", "none")
-    loaded = model if isinstance(model, Model) else load(model)
-    ensemble = make_ensemble(
-        loaded, changed(settings or Settings(), changes), dict(vary or {}), dict(runs or {}), quantities, target
-    )
+    ensemble = make_ensemble(load(model), changed(settings, changes), varied["vary"], varied["runs"], kept, target)
+    _check_room(ensemble, path, folder)
     table = (
         Table(*ensemble.sizes) if folder is None else FolderTable(folder, ensemble.description, ensemble.sizes, resume)
     )
@@ -116,6 +129,19 @@ def sweep(
             assert isinstance(table, FolderTable), "an output has a folder"
             table.remove()
     return found
+
+
+def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> None:
+    """Refuse an ensemble whose rows do not fit where they are collected."""
+    runs, quantities, times, _ = ensemble.sizes
+    what = f"{runs:g} runs, each with {quantities} quantities at {times} times"
+    rows = 8.0 * runs * (quantities * times + N_SUMMARY)
+    if folder is None:
+        require("sweep", what, rows + RUN_SIZE * runs)
+    else:
+        require_disk(f"folder '{folder}'", folder.parent, what, rows)
+    if path is not None and path != folder:  # a file is made in memory, from the rows and what is told of them
+        require(f"output '{path}'", what, 2.0 * (rows + RUN_SIZE * runs))
 
 
 def _run(

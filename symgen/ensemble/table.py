@@ -1,14 +1,16 @@
 """Where the runs of an ensemble are collected: in memory, or in a folder that survives a kill at any moment.
 
 A folder holds ``sweep.json`` (what is computed), ``values.npy`` and ``summary.npy`` (a row for every run) and
-``done.txt`` (finished chunks, one number a line). A chunk's rows are written before its line is, so a chunk that is
-listed is whole; one that is not is computed again, over whatever a kill left of it.
+``done.txt`` (finished chunks, a number and the digest of its rows on each line). A chunk's rows are written before its
+line is; one that is not listed, or whose rows have another digest, is computed again over whatever is there.
 """
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
@@ -19,6 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.ensemble.kernel import Chunk
 from symgen.errors import InputError, SimulationError
+from symgen.files import why, write_whole
 from symgen.runtime.ensemble_abi import N_SUMMARY
 
 if TYPE_CHECKING:
@@ -27,8 +30,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 #: Changes when the files of a folder do.
-FORM = 1
+FORM = 2
 DESCRIPTION, VALUES, SUMMARY, DONE, LOCK = "sweep.json", "values.npy", "summary.npy", "done.txt", "lock"
+_LINE = re.compile(rb"(0|[1-9][0-9]{0,9}) [0-9a-f]{32}")
 
 
 class Table:
@@ -175,7 +179,7 @@ class FolderTable(Table):
             self._read_log()
         except OSError as error:
             self.close()
-            raise InputError(where, "a folder that can be written", error.strerror or "an error") from None
+            raise InputError(where, "a folder that can be written", why(error)) from None
         except BaseException:
             self.close()
             raise
@@ -189,51 +193,59 @@ class FolderTable(Table):
             )
 
     def _begin(self, quantities: int, times: int) -> None:
-        shapes = {VALUES: (self.runs, quantities, times), SUMMARY: (self.runs, N_SUMMARY)}
-        for name, shape in shapes.items():
-            path = self.folder / name
-            if not (self.folder / DESCRIPTION).exists() and all(shape):
-                np.lib.format.open_memmap(path, mode="w+", dtype=np.float64, shape=shape).flush()
-            if all(shape):
-                mapped = np.load(path, mmap_mode="r")
-                if mapped.shape != shape:
-                    raise InputError(f"file '{path}'", f"an array of shape {shape}", f"{mapped.shape}")
-                row = 8 * int(np.prod(shape[1:]))
-                self._files[name] = (os.open(path, os.O_WRONLY), int(mapped.offset), row)
-            else:
-                mapped = np.zeros(shape)
-            if name == VALUES:
-                self.values = mapped
-            else:
-                self.summary = mapped
+        self.values = self._file(VALUES, (self.runs, quantities, times))
+        self.summary = self._file(SUMMARY, (self.runs, N_SUMMARY))
         if not (self.folder / DESCRIPTION).exists():  # last, so that a folder with a description is whole
-            temporary = self.folder / f".{DESCRIPTION}"
-            temporary.write_text(json.dumps(self._description, indent=1) + "\n", encoding="utf-8")
-            temporary.replace(self.folder / DESCRIPTION)
+            write_whole(self.folder / DESCRIPTION, json.dumps(self._description, indent=1) + "\n")
+
+    def _file(self, name: str, shape: tuple[int, ...]) -> Array:
+        """Return the array of a file, which is made anew where it is missing or damaged."""
+        if not all(shape):
+            return np.zeros(shape)
+        path = self.folder / name
+        mapped = _array(path, shape)
+        if mapped is None:
+            path.unlink(missing_ok=True)
+            np.lib.format.open_memmap(path, mode="w+", dtype=np.float64, shape=shape).flush()
+            mapped = _array(path, shape)
+            if mapped is None:
+                raise OSError(f"'{name}' cannot be read back")
+        self._files[name] = (os.open(path, os.O_WRONLY), int(mapped.offset), 8 * int(np.prod(shape[1:])))
+        return mapped
 
     def _read_log(self) -> None:
         path = self.folder / DONE
-        content = path.read_bytes() if path.exists() else b""
-        whole = content.rpartition(b"\n")[0] + b"\n" if b"\n" in content else b""
-        for line in whole.split():
-            if not line.isdigit() or int(line) >= self.chunks:
-                raise InputError(f"file '{path}'", "numbers of chunks", f"'{line[:40]!r}'")
-            self.finished.add(int(line))
-        self._log = os.open(path, os.O_WRONLY | os.O_CREAT, 0o666)
-        os.ftruncate(self._log, len(whole))  # a line that a kill tore
-        os.lseek(self._log, 0, os.SEEK_END)
+        content, kept = path.read_bytes() if path.exists() else b"", b""
+        for line in content.split(b"\n")[:-1]:  # behind the last line end is a line that a kill tore, or nothing
+            found = _LINE.fullmatch(line)
+            index = int(found[1]) if found else self.chunks
+            if index < self.chunks and index not in self.finished and self._line(index) == line + b"\n":
+                self.finished.add(index)
+                kept += line + b"\n"
+        if kept != content:
+            write_whole(path, kept)
+        self._log = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
+
+    def _line(self, index: int) -> bytes:
+        """Return the line of a chunk whose rows are those in the files."""
+        first, last = self.bounds(index)
+        digest = hashlib.sha256(self.values[first:last].tobytes())
+        digest.update(self.summary[first:last].tobytes())
+        return f"{index} {digest.hexdigest()[:32]}\n".encode()
 
     def _write(self, index: int, chunk: Chunk) -> None:
         first, _ = self.bounds(index)
+        digest = hashlib.sha256()
         try:
             for name, rows in ((VALUES, chunk.values), (SUMMARY, chunk.summary)):
+                data = np.ascontiguousarray(rows).tobytes()
+                digest.update(data)
                 if name in self._files:
                     file, offset, size = self._files[name]
-                    _write_all(file, np.ascontiguousarray(rows).tobytes(), offset + first * size)
-            os.write(self._log, f"{index}\n".encode())
+                    _write_all(file, data, offset + first * size)
+            os.write(self._log, f"{index} {digest.hexdigest()[:32]}\n".encode())
         except OSError as error:
-            why = error.strerror or str(error)
-            raise SimulationError(f"the folder '{self.folder}' cannot be written: {why}") from None
+            raise SimulationError(f"the folder '{self.folder}' cannot be written: {why(error)}") from None
 
     def close(self) -> None:
         """Let go of the files; another process may use the folder then."""
@@ -256,6 +268,18 @@ class FolderTable(Table):
             self.folder.rmdir()
 
 
+def _array(path: Path, shape: tuple[int, ...]) -> np.memmap[Any, np.dtype[np.float64]] | None:
+    """Return the array in a file, None where there is none of this shape."""
+    try:
+        found = np.load(path, mmap_mode="r") if path.is_file() else None
+    except Exception:  # whatever NumPy makes of a damaged head
+        return None
+    fits = (
+        isinstance(found, np.memmap) and found.shape == shape and found.dtype == np.float64 and found.flags.c_contiguous
+    )
+    return found if fits else None
+
+
 def check_folder(folder: Path, resume: bool) -> bool:
     """Return whether a sweep has been begun in a folder; refuse one that may not be used.
 
@@ -271,8 +295,8 @@ def check_folder(folder: Path, resume: bool) -> bool:
         return False
     if not folder.is_dir():
         raise InputError(where, "a folder", "a file")
-    ours = {DESCRIPTION, f".{DESCRIPTION}", DONE, VALUES, SUMMARY, LOCK}
-    others = sorted(path.name for path in folder.iterdir() if path.name not in ours)
+    ours = {DESCRIPTION, DONE, VALUES, SUMMARY, LOCK}
+    others = sorted(path.name for path in folder.iterdir() if path.name not in ours or not path.is_file())
     if others:
         raise InputError(where, "an empty one or one of a sweep", f"one with '{others[0]}' in it")
     if not (folder / DESCRIPTION).exists():

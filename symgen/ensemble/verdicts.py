@@ -9,12 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError
 from symgen.result.judge import JUMP_FAILURE, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembly import no_velocities, stays_open
+from symgen.runtime.assembly import refusal
 from symgen.runtime.run import WARN, RankEvent, end_reason
 
 if TYPE_CHECKING:
@@ -77,9 +76,8 @@ def judge_all(
     doubtful |= passed if not law.position_correction else _jumped(summary)
     for i in np.flatnonzero(done & doubtful):
         row = summary[i]
-        start = int(column(row, "start"))
-        if start != e.ASSEMBLED:
-            status[i], reason[i] = FAILED, _no_start(start, row, info)
+        if column(row, "start") != e.ASSEMBLED:
+            status[i], reason[i] = FAILED, str(refusal(row, info))
             continue
         verdict = judge_alone(_seen(row, spec), law.position_correction)
         status[i], reason[i] = verdict.status, verdict.reason or ""
@@ -94,12 +92,13 @@ def _seen(row: Array, spec: RunSpec) -> Row:
     numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
     code, scale = int(numbers["code"]), numbers["energy_scale"]
     names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")
+    attempts = int(numbers["steps"] + numbers["rejected"])
     events: tuple[RankEvent, ...] = ()
     if numbers["rank_event_count"] > 0.0:
         events = (RankEvent(numbers["narrowest_time"], np.nan, 0, numbers["narrowest_pivot"]),)
     return Row(
         code=code,
-        reason=end_reason(code, numbers["end"], tuple(numbers[name] for name in names), scale, spec),
+        reason=end_reason(code, numbers["end"], tuple(numbers[name] for name in names), scale, attempts, spec),
         smallest_pivot=numbers["smallest_pivot"],
         rank_events=events,
         rank_event_count=int(numbers["rank_event_count"]),
@@ -107,22 +106,3 @@ def _seen(row: Array, spec: RunSpec) -> Row:
         energy_scale=scale,
         counters={"light": int(numbers["light_evaluations"])},
     )
-
-
-def _no_start(code: int, row: Array, info: ModelInfo) -> str:
-    """Return why a run has no start, in the words of a single run."""
-    where, size = int(column(row, "start_where")), float(column(row, "start_size"))
-    if code == e.UNDEFINED:
-        return "parameters or start: expected values for which every formula is finite, got others"
-    if code == e.NO_MASS:
-        body = info.velocities[where].name.split(".")[0]
-        return str(InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}"))
-    if code == e.OPEN:
-        return stays_open(info.name, list(dict.fromkeys(r.joint for r in info.rows))[where], size)
-    if code == e.CONTRADICTION:
-        return no_velocities(info.name)
-    moved = float(column(row, "start_moved"))
-    found = (
-        f"positions that closing moves by up to {moved:.3g}" if code == e.MOVED else "velocities that contradict them"
-    )
-    return str(InputError("initial state", "a consistent start (--strict)", found))

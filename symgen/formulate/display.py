@@ -12,6 +12,7 @@ from typing import Any
 import sympy as sp
 
 from symgen.formulate.equations import Equations
+from symgen.vocabulary.functions import ELEMENTARY
 
 #: Expressions with more operations, written out without sharing, are named by that number instead.
 LONGEST = 1500
@@ -19,7 +20,7 @@ LONGEST = 1500
 _GREEK = {"theta": r"\theta", "omega": r"\omega"}
 _RELATIONS = {"lt": sp.StrictLessThan, "le": sp.LessThan, "gt": sp.StrictGreaterThan, "ge": sp.GreaterThan}
 _FUNCTIONS: dict[str, Any] = {
-    **{n: getattr(sp, n) for n in "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh sign".split()},
+    **{name: getattr(sp, name) for name in (*ELEMENTARY, "atan2", "sign")},
     "abs": sp.Abs,
     "floor": sp.floor,
     "min": sp.Min,
@@ -71,10 +72,6 @@ class Display:
         if count > LONGEST:
             return rf"\langle {count}\ \mathrm{{operations}} \rangle"
         return str(sp.latex(self.expression(node), symbol_names=self._latex, order="none", full_prec=False))
-
-    def latex_symbol(self, name: str) -> str:
-        """Return the LaTeX of a coordinate, velocity or parameter."""
-        return latex_name(name)
 
     def operations(self, nodes: Iterable[int]) -> dict[str, int]:
         """Return the operations of nodes before and after sharing of common subexpressions."""

@@ -6,11 +6,15 @@ system.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import sympy as sp
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
+from symgen.describe.repeats import without_repeats
+from symgen.errors import InputError
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
 from symgen.formulate.measures import Model
 from symgen.formulate.translate import Translator, to_sympy
@@ -35,21 +39,19 @@ def formulate(mechanism: Mechanism) -> Equations:
     -------
     Equations
         Phi, D, nu, gamma, M, f, energies and power as nodes of one graph.
+
+    Raises
+    ------
+    InputError
+        If products or sums of a mechanism's numbers overflow; says of which body, joint or force.
     """
-    model = Model(mechanism)
-    rows, dropped, omissions = _constraints(model)
+    mechanism, repeats = without_repeats(mechanism)
+    with _finite("mechanism"):
+        model = Model(mechanism)
+    rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
     mass, kinetic, gravity_potential = _inertia(model, forces)
-    joint_coordinates = tuple(
-        JointCoordinate(
-            f"{joint.name}.{label}",
-            joint.unit(label),
-            (derived := model.measure(measure)).value,
-            derived.rate(model.graph, model.velocities),
-        )
-        for joint in mechanism.joints
-        for label, measure in joint.coordinates
-    )
+    joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = _quantities(mechanism)
     return Equations(
         name=mechanism.name,
@@ -64,7 +66,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         power=power,
         kinetic=kinetic,
         potential=model.graph.add(potential, gravity_potential),
-        joint_coordinates=joint_coordinates,
+        joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
         spins=tuple(
             (model.first_q[b.name] + 3, model.first[b.name] + 3)
@@ -72,9 +74,33 @@ def formulate(mechanism: Mechanism) -> Equations:
             if isinstance(b, SpatialBody) and not b.is_point
         ),
         tables=tuple((t.name, t.x, t.y) for t in mechanism.tables),
-        omissions=tuple(omissions + _omissions(mechanism)),
-        dropped_rows=tuple(dropped),
+        omissions=(
+            *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
+            *_omissions(mechanism),
+        ),
+        dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
     )
+
+
+@contextmanager
+def _finite(where: str, hint: str = "") -> Iterator[None]:
+    """Refuse numbers that overflow, naming their section."""
+    try:
+        yield
+    except OverflowError:
+        expected = "numbers whose products, sums and quotients are finite"
+        raise InputError(where, expected, "some that overflow", hint) from None
+
+
+def _joint_coordinates(model: Model) -> list[JointCoordinate]:
+    found = list[JointCoordinate]()
+    for joint in model.mechanism.joints:
+        with _finite(f"joints.{joint.name}"):
+            for label, measure in joint.coordinates:
+                derived = model.measure(measure)
+                rate = derived.rate(model.graph, model.velocities)
+                found.append(JointCoordinate(f"{joint.name}.{label}", joint.unit(label), derived.value, rate))
+    return found
 
 
 def _quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
@@ -86,20 +112,9 @@ def _quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quant
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
-def _constraints(model: Model) -> tuple[tuple[ConstraintRow, ...], list[str], list[Omission]]:
-    kept: dict[object, ConstraintRow] = {}
-    dropped: list[str] = []
-    omissions: list[Omission] = []
-    for joint in model.mechanism.joints:
-        for row in joint.rows:
-            derived = _row(model, joint.name, row)
-            key = (derived.phi, derived.entries, derived.nu, derived.gamma)
-            if key in kept:
-                dropped.append(f"{derived.name} = {kept[key].name}")
-                omissions.append(Omission(f"row {derived.name}", f"it repeats row {kept[key].name} for all q"))
-            else:
-                kept[key] = derived
-    return tuple(kept.values()), dropped, omissions
+def _derived(model: Model, joint: str, row: Row) -> ConstraintRow:
+    with _finite(f"joints.{joint}"):
+        return _row(model, joint, row)
 
 
 def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
@@ -145,16 +160,17 @@ def _forces(model: Model) -> tuple[list[int], int, int]:
     g = model.graph
     forces, power, potential = [g.zero] * model.size, g.zero, g.zero
     for force in model.mechanism.forces:
-        for effort in force.efforts:
-            measure = model.motion(effort.measure)
-            rate = measure.rate(g, model.velocities)
-            conservative, energy = _conservative(model, effort, measure.value)
-            magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-            total = g.add(conservative, magnitude)
-            for i, entry in sorted(measure.row.items()):
-                forces[i] = g.add(forces[i], g.mul(entry, total))
-            power = g.add(power, g.mul(magnitude, rate))
-            potential = g.add(potential, energy)
+        with _finite(f"forces.{force.name}"):
+            for effort in force.efforts:
+                measure = model.motion(effort.measure)
+                rate = measure.rate(g, model.velocities)
+                conservative, energy = _conservative(model, effort, measure.value)
+                magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
+                total = g.add(conservative, magnitude)
+                for i, entry in sorted(measure.row.items()):
+                    forces[i] = g.add(forces[i], g.mul(entry, total))
+                power = g.add(power, g.mul(magnitude, rate))
+                potential = g.add(potential, energy)
     return forces, power, potential
 
 
@@ -176,24 +192,25 @@ def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], in
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
-        first, first_q = model.first[body.name], model.first_q[body.name]
-        mass = model.expression(body.mass)
-        masses = [mass] * len(gravity)
-        if isinstance(body, SpatialBody):
-            if body.inertia is not None:
-                tensor = tuple(model.expression(e) for e in body.inertia)
-                kinetic = g.add(kinetic, _turning(model, first + 3, tensor, blocks, forces))
-        elif body.inertia is not None:
-            masses.append(model.expression(body.inertia))
-        for offset, entry in enumerate(masses):
-            i = first + offset
-            blocks.append(MassBlock((i,), ((entry,),)))
-            v = model.velocities[i]
-            kinetic = g.add(kinetic, g.mul(g.mul(half, entry), g.mul(v, v)))
-            if offset < len(gravity):
-                weight = g.mul(mass, gravity[offset])
-                forces[i] = g.add(forces[i], weight)
-                potential = g.sub(potential, g.mul(weight, g.input("q", first_q + offset)))
+        with _finite(f"bodies.{body.name}", "its weight is its mass times gravity"):
+            first, first_q = model.first[body.name], model.first_q[body.name]
+            mass = model.expression(body.mass)
+            masses = [mass] * len(gravity)
+            if isinstance(body, SpatialBody):
+                if body.inertia is not None:
+                    tensor = tuple(model.expression(e) for e in body.inertia)
+                    kinetic = g.add(kinetic, _turning(model, first + 3, tensor, blocks, forces))
+            elif body.inertia is not None:
+                masses.append(model.expression(body.inertia))
+            for offset, entry in enumerate(masses):
+                i = first + offset
+                blocks.append(MassBlock((i,), ((entry,),)))
+                v = model.velocities[i]
+                kinetic = g.add(kinetic, g.mul(g.mul(half, entry), g.mul(v, v)))
+                if offset < len(gravity):
+                    weight = g.mul(mass, gravity[offset])
+                    forces[i] = g.add(forces[i], weight)
+                    potential = g.sub(potential, g.mul(weight, g.input("q", first_q + offset)))
     return tuple(sorted(blocks, key=lambda block: block.columns)), kinetic, potential
 
 

@@ -4,26 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.formulas import Formulas
 from symgen.formulate.frames import FRAME_SLOTS
 from symgen.formulate.kernels import derive
 from symgen.formulate.spatial import SPATIAL_SLOTS
-from symgen.ir.expression import build
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Expr, call
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
     Bearing,
     BladeSpeed,
     Component,
-    Direction,
     Distance,
     Dot,
     LinkStretch,
-    Marker,
     Measure,
     PointSpeed,
     RimHeight,
@@ -49,58 +45,23 @@ class Derived:
 
 
 @dataclass
-class Model:
+class Model(Formulas):
     """The mechanism's names resolved to nodes: what every instantiation needs."""
 
-    mechanism: Mechanism
-    graph: Graph = field(default_factory=Graph)
-
     def __post_init__(self) -> None:
-        g, mechanism = self.graph, self.mechanism
-        self.time = g.input("t", 0)
-        self.names: dict[str, int] = {"t": self.time}
-        self.coordinate_index: dict[str, int] = {}
-        for i, parameter in enumerate(mechanism.parameters):
-            self.names[parameter.name] = g.input("p", i)
-        self.spatial = mechanism.space == "spatial"
-        self.first_q: dict[str, int] = {}
-        self.first: dict[str, int] = {}  # of the velocities
-        coordinates = index = 0
-        for body in mechanism.bodies:
-            self.first_q[body.name], self.first[body.name] = coordinates, index
-            for coordinate in body.coordinates:
-                self.names[f"{body.name}.{coordinate}"] = g.input("q", coordinates)
-                coordinates += 1
-            for speed in body.speeds:
-                self.names[f"{body.name}.{speed}"] = g.input("v", index)
-                index += 1
-        self.size = index
-        self.velocities = tuple(g.input("v", i) for i in range(index))
+        super().__post_init__()
+        self.time = self.names["t"]
+        self.spatial = self.mechanism.space == "spatial"
+        self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
         self._memo: dict[object, Derived] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
         self.windings: list[int] = []
 
-    def expression(self, e: Expr, **placeholders: int) -> int:
-        """Return the node of a formula of the file."""
-        return build(self.graph, e, {**self.names, **placeholders} if placeholders else self.names)
-
     def kind(self, body: str) -> str:
         """Return the frame kind of a body."""
         kind = "ground" if body == GROUND else "point" if self.mechanism.body(body).is_point else "rigid"
         return f"{kind}3" if self.spatial else kind
-
-    def local(self, marker: Marker) -> list[int]:
-        """Return the marker relative to the centre of mass (ground: to the origin)."""
-        point = marker.point
-        if marker.body != GROUND:
-            com = self.mechanism.body(marker.body).centre_of_mass
-            point = tuple(call("sub", p, c) for p, c in zip(marker.point, com, strict=True))
-        return [self.expression(e) for e in point]
-
-    def direction(self, along: Direction) -> list[int]:
-        """Return the components of a direction in its body's frame."""
-        return [self.expression(e) for e in along.vector]
 
     def frame_inputs(self, body: str) -> list[int]:
         """Return the nodes of a frame's slots."""

@@ -7,24 +7,13 @@ from typing import Any
 
 import sympy as sp
 
+from symgen.errors import InputError
+from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
 from symgen.vocabulary.expressions import Call, Expr, Name, Number
+from symgen.vocabulary.functions import ELEMENTARY
 
-_UNARY = {
-    sp.sin: "sin",
-    sp.cos: "cos",
-    sp.tan: "tan",
-    sp.asin: "asin",
-    sp.acos: "acos",
-    sp.atan: "atan",
-    sp.sinh: "sinh",
-    sp.cosh: "cosh",
-    sp.tanh: "tanh",
-    sp.exp: "exp",
-    sp.log: "log",
-    sp.Abs: "abs",
-    sp.sign: "sign",
-}
+_UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign"}
 _RELATIONS = {
     sp.StrictLessThan: "lt",
     sp.LessThan: "le",
@@ -41,7 +30,7 @@ class Translator:
     """
 
     def __init__(self, graph: Graph, symbols: Mapping[Any, int]) -> None:
-        self.graph = graph
+        self.graph, self.functions = graph, Functions(graph)
         self.known: dict[Any, int] = dict(symbols)
 
     def all(self, expressions: Sequence[Any]) -> list[int]:
@@ -61,8 +50,12 @@ class Translator:
 
     def _build(self, e: Any) -> int:
         g = self.graph
+        if e in (sp.zoo, sp.nan, sp.oo, -sp.oo):
+            raise InputError("a formula", "one that is defined somewhere", f"one that is {e} after simplification")
         if e.is_Number or e in (sp.pi, sp.E):
             return g.constant(float(e))
+        if e is sp.zoo:
+            raise OverflowError("a division by zero")
         if e.is_Add:
             return g.total(self.node(a) for a in e.args)
         if e.is_Mul:
@@ -70,27 +63,27 @@ class Translator:
         if e.is_Pow:
             return g.power(self.node(e.base), self.node(e.exp))
         if isinstance(e, sp.Heaviside):  # slope of min and max; which side the kink itself counts to is a convention
-            return g.call("step", self.node(e.args[0]), g.zero)
+            return self.functions.call("step", self.node(e.args[0]), g.zero)
         if isinstance(e, sp.DiracDelta):  # slope of a jump: zero everywhere else
             return g.zero
         if e.func in _UNARY:
-            return g.call(_UNARY[e.func], self.node(e.args[0]))
+            return self.functions.call(_UNARY[e.func], self.node(e.args[0]))
         if e.func in _RELATIONS:
-            return g.call(_RELATIONS[e.func], self.node(e.lhs), self.node(e.rhs))
+            return self.functions.call(_RELATIONS[e.func], self.node(e.lhs), self.node(e.rhs))
         if isinstance(e, sp.atan2):
-            return g.call("atan2", *(self.node(a) for a in e.args))
+            return self.functions.call("atan2", *(self.node(a) for a in e.args))
         if isinstance(e, sp.Max | sp.Min):
             return self._fold("max" if isinstance(e, sp.Max) else "min", e.args)
         if isinstance(e, sp.And | sp.Or):
             return self._fold("and" if isinstance(e, sp.And) else "or", e.args)
         if isinstance(e, sp.Not):
-            return g.call("not", self.node(e.args[0]))
+            return self.functions.call("not", self.node(e.args[0]))
         if isinstance(e, sp.Piecewise):
             return self._piecewise(e)
         if isinstance(e, _Table):
-            return g.call(f"table:{e.table}", self.node(e.args[0]))
+            return self.functions.call(f"table:{e.table}", self.node(e.args[0]))
         if isinstance(e, _TableSlope):
-            return g.call(f"table:{e.table}'", self.node(e.args[0]))
+            return self.functions.call(f"table:{e.table}'", self.node(e.args[0]))
         if e in (sp.true, sp.false):
             return g.one if e == sp.true else g.zero
         raise TypeError(f"no graph operation for {type(e).__name__}: {e}")
@@ -108,14 +101,14 @@ class Translator:
     def _fold(self, function: str, args: Sequence[Any]) -> int:
         result = self.node(args[0])
         for a in args[1:]:
-            result = self.graph.call(function, result, self.node(a))
+            result = self.functions.call(function, result, self.node(a))
         return result
 
     def _piecewise(self, e: Any) -> int:
         *pieces, (last, _) = e.args
         result = self.node(last)
         for value, condition in reversed(pieces):
-            result = self.graph.call("where", self.node(condition), self.node(value), result)
+            result = self.functions.call("where", self.node(condition), self.node(value), result)
         return result
 
 
@@ -151,9 +144,6 @@ _TO_SYMPY: dict[str, Any] = {
     "div": lambda a, b: a / b,
     "pow": lambda a, b: a**b,
     "neg": lambda a: -a,
-    "sqrt": sp.sqrt,
-    "exp": sp.exp,
-    "log": sp.log,
     "atan2": sp.atan2,
     "abs": sp.Abs,
     "sign": sp.sign,
@@ -167,7 +157,7 @@ _TO_SYMPY: dict[str, Any] = {
     "or": sp.Or,
     "not": sp.Not,
     "where": lambda c, a, b: sp.Piecewise((a, c), (b, True)),
-    **{n: getattr(sp, n) for n in ("sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")},
+    **{name: getattr(sp, name) for name in ELEMENTARY},
 }
 
 

@@ -7,6 +7,6 @@ from typing import TYPE_CHECKING
 from symgen.registry import Registry
 
 if TYPE_CHECKING:
-    from symgen.integrators._base import Integrator
+    from symgen.runtime.integrator import Integrator
 
 INTEGRATORS: Registry[Integrator] = Registry("symgen.integrators", "integrator")

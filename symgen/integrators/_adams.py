@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.integrators._base import IntegratorParameter, LoopCall, State
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -38,23 +39,28 @@ class Adams:
     forms: tuple[str, ...] = ("ode",)
     parameters: tuple[IntegratorParameter, ...] = ()
 
-    def loop(self, spec: RunSpec) -> Any:
+    @property
+    def stages(self) -> int:
+        """Evaluations of a step: at the predicted and at the corrected state."""
+        return 2
+
+    def loop(self, adaptive: bool) -> Any:
         """Return the loop of all orders."""
-        from symgen.runtime.adams import adams_steps
+        from symgen.runtime.schemes import adams
 
-        return adams_steps
+        return adams.adaptive if adaptive else adams.constant
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
-        from symgen.runtime.adams import DEPTH
+    def rows(self, adaptive: bool) -> Any:
+        """Return None: there is no loop over many runs."""
+        return None
 
-        law, ny = compiled.law_module, compiled.info.ny
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
+        from symgen.runtime.records import Multistep
+        from symgen.runtime.schemes import adams
+
         nodes, factors = np.polynomial.legendre.leggauss(5)  # exact for polynomials up to degree 9
-        step = spec.step if spec.step is not None else 1e-6 * spec.until
-        before = (
-            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, self.order, int(spec.adaptive), compiled.info.nq),
-            *(nodes, factors, state.y, state.p, state.w, state.iw),
-            *(0.0, step, spec.largest_step, spec.until, spec.rtol, spec.atol),
-        )
-        room = np.zeros((3 + DEPTH) * ny + 2 * (DEPTH + 1))
-        return LoopCall(self.loop(spec), before, (room,))
+        scheme = Multistep(nodes, factors, np.arange(adams.DEPTH, dtype=np.int64), self.order)
+        width, step = padded(compiled.info.ny), spec.step if spec.step is not None else 1e-6 * spec.until
+        loop, functions = self.loop(spec.adaptive), law_functions(compiled)
+        return Setup(loop, functions, scheme, step, adams.memory(width), adams.room(width), 0.8)

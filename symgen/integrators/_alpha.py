@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.integrators._base import IntegratorParameter, LoopCall, State
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -42,30 +43,34 @@ class AlphaFamily:
     adaptive: bool = False
     real_boundary: float = np.inf
 
-    def loop(self, spec: RunSpec) -> Any:
+    @property
+    def stages(self) -> int:
+        """Evaluations that a step takes at least."""
+        return 1
+
+    def loop(self, adaptive: bool) -> Any:
         """Return the loop of the family."""
-        from symgen.runtime.alpha import alpha_steps
+        from symgen.runtime.schemes import alpha
 
-        return alpha_steps
+        return alpha.constant
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
-        from symgen.runtime.manifold import stay
+    def rows(self, adaptive: bool) -> Any:
+        """Return None: there is no loop over many runs."""
+        return None
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
         from symgen.runtime.newton import Pattern, alpha_plan
+        from symgen.runtime.records import Alpha
+        from symgen.runtime.schemes import alpha
 
-        law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
         values = {q.name: spec.integrator_parameters.get(q.name, q.default) for q in self.parameters}
         assert spec.step is not None, "a constant step is given"
-        before = (
-            *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
-            getattr(compiled.model, "turn", stay),
-            *self.coefficients(values),
-            *(info.nq, info.nv, info.m, n),
-            *(info.sections["multipliers"][0], info.sections["mask"][0], info.sections["change"][0]),
-            *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
-        )
-        plan, numbers, sources = alpha_plan(Pattern.of(compiled, state.w))
+        plan, numbers, sources = alpha_plan(Pattern.of(compiled, w))
         slopes = np.zeros(sources)
         slopes[-1] = 1.0
-        room = np.zeros(3 * info.ny + 3 * n + 2 * info.nv + 4)
-        return LoopCall(self.loop(spec), before, (room, slopes, numbers, plan))
+        scheme = Alpha(*self.coefficients(values), slopes, numbers, plan)
+        functions = law_functions(compiled, "turn", "residual", "tangent")
+        width, nv, n = padded(compiled.info.ny), compiled.info.nv, compiled.law.unknowns
+        memory, room = alpha.memory(width, nv, n), alpha.room(width, nv, n)
+        return Setup(alpha.constant, functions, scheme, spec.step, memory, room)

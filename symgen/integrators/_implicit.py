@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.integrators._base import Array, IntegratorParameter, LoopCall, State
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -76,35 +77,35 @@ class ImplicitTableau:
         """Whether all stages have to be solved together."""
         return bool(np.any(np.triu(self.a, 1) != 0.0))
 
-    def loop(self, spec: RunSpec) -> Any:
+    def loop(self, adaptive: bool) -> Any:
         """Return the loop of implicit stages."""
-        from symgen.runtime.implicit import implicit_steps
+        from symgen.runtime.schemes import implicit
 
-        return implicit_steps
+        return implicit.adaptive if adaptive else implicit.constant
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
+    def rows(self, adaptive: bool) -> Any:
+        """Return None: there is no loop over many runs."""
+        return None
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
         from symgen.runtime.newton import Pattern, stage_plan
+        from symgen.runtime.records import Stages
+        from symgen.runtime.schemes import implicit
 
-        law, info, s = compiled.law_module, compiled.info, self.stages
-        n, ny, pattern = compiled.law.unknowns, info.ny, Pattern.of(compiled, state.w)
-        size = s * n if self.together else n
-        room = np.zeros(2 * ny + n + s * n + 2 * size + s + s * s + 1)
+        info, s, pattern = compiled.info, self.stages, Pattern.of(compiled, w)
         slopes = np.zeros((s if self.together else 1) * pattern.size + 1)
         slopes[-1] = 1.0
-        single, single_numbers = stage_plan(pattern, np.ones((1, 1)), len(slopes) - 1)
-        plan, numbers = stage_plan(pattern, self.a, len(slopes) - 1) if self.together else (single, single_numbers)
+        plan, numbers = stage_plan(pattern, self.a if self.together else np.ones((1, 1)), len(slopes) - 1)
+        single = stage_plan(pattern, np.ones((1, 1)), len(slopes) - 1)
+        scheme = Stages(
+            *(np.ascontiguousarray(self.a).ravel(), self.b, self.c),
+            np.zeros(s + 1) if self.errors is None else self.errors,
+            *(self.filter_factor, s, int(self.together), self.error_order),  # type: ignore[arg-type]  # mypy joins kinds
+            *(np.concatenate([pattern.rows, pattern.columns]), slopes, numbers, plan, single[1], single[0]),
+        )
+        functions = law_functions(compiled, "residual", "tangent")
+        width, n, more = padded(info.ny), compiled.law.unknowns, info.ny - info.nq - info.nv
+        memory, room = implicit.memory(n, more), implicit.room(width, n, more, s, self.together)
         step = spec.step if spec.step is not None else 1e-4 * spec.until
-        before = (
-            *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
-            *(np.ascontiguousarray(self.a).ravel(), self.b, self.c, s, int(self.together)),
-            *(np.zeros(s + 1) if self.errors is None else self.errors, self.filter_factor, self.error_order),
-            *(info.nq, info.nv, info.m, n),
-            *(info.sections["multipliers"][0], info.sections["mask"][0]),
-            *(state.y, state.p, state.w, state.iw, int(spec.adaptive), 0.0, step),
-            *(spec.largest_step, spec.until, spec.rtol, spec.atol),
-        )
-        entries = np.concatenate([pattern.rows, pattern.columns])
-        return LoopCall(
-            ImplicitTableau.loop(self, spec), before, (room, slopes, numbers, plan, single_numbers, single, entries)
-        )
+        return Setup(ImplicitTableau.loop(self, spec.adaptive), functions, scheme, step, memory, room)

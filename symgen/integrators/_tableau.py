@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.integrators._base import Array, BatchCall, IntegratorParameter, LoopCall, State
-from symgen.ir.program import STATUS
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -42,6 +42,8 @@ class Tableau:
         y(t + x h) = y + h sum_k K_k sum_j dense[k, j] x^(j + 1).
     real_boundary : float
         Where the region of absolute stability ends on the negative real axis.
+    safety : float
+        Part of the step that the error estimate would allow that is taken.
     """
 
     name: str
@@ -58,6 +60,7 @@ class Tableau:
     extra_a: Array = field(default_factory=lambda: np.zeros((0, 0)))
     extra_c: Array = field(default_factory=lambda: np.zeros(0))
     dense: Array | None = None
+    safety: float = 0.9
 
     def __post_init__(self) -> None:
         s = self.stages
@@ -86,11 +89,12 @@ class Tableau:
     def packed(self) -> tuple[NDArray[np.int64], NDArray[np.int64], Array, Array]:
         """Return the nonzero coefficients row by row as the loops read them.
 
-        Rows are the stages, then b, then the stages of dense output. Row r has the entries from ``start[r]`` to
-        ``start[r + 1]`` of `column` and `value`; `nodes` holds c of all stages, 1 for the end of the step.
+        Rows are the stages, then b, then the stages of dense output, then the error weights. Row r has the entries from
+        ``start[r]`` to ``start[r + 1]`` of `column` and `value`; `nodes` holds c of all stages, 1 for the end of the
+        step.
         """
         s, extra = self.stages, len(self.extra_c)
-        rows = [self.a[i] for i in range(s)] + [self.b] + [self.extra_a[i] for i in range(extra)]
+        rows = [*(self.a[i] for i in range(s)), self.b, *(self.extra_a[i] for i in range(extra)), *self.errors]
         start, column, value = [0], list[int](), list[float]()
         for row in rows:
             for j, x in enumerate(row):
@@ -101,47 +105,37 @@ class Tableau:
         nodes = np.concatenate([self.c, [1.0], self.extra_c])
         return np.array(start, dtype=np.int64), np.array(column, dtype=np.int64), np.array(value), nodes
 
-    def loop(self, spec: RunSpec) -> Any:
+    def record(self, adaptive: bool) -> Any:
+        """Return the scheme as loops take it, with dense output for adaptive ones."""
+        from symgen.runtime.records import Tableau as Record
+
+        start, column, value, nodes = self.packed()
+        dense, ends = np.zeros(0), any(e[-1] != 0.0 for e in self.errors)
+        if adaptive:
+            assert self.dense is not None, "every adaptive tableau has dense output"
+            dense = np.zeros((self.dense.shape[1], padded(len(nodes))))
+            dense[:, : len(nodes)] = self.dense.T
+        count = np.arange(padded(len(nodes)), dtype=np.int64)
+        sizes = self.stages, len(self.errors), self.error_order, len(dense), int(ends)
+        return Record(start, column, value, nodes, dense.ravel(), count, *sizes)
+
+    def loop(self, adaptive: bool) -> Any:
         """Return the loop of runs with constant or with adaptive steps."""
-        from symgen.runtime import explicit
+        from symgen.runtime.schemes import explicit
 
-        return explicit.adaptive_steps if spec.adaptive else explicit.fixed_steps
+        return explicit.adaptive if adaptive else explicit.constant
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
-        law = compiled.law_module
-        confirm = getattr(law, "confirm", law.rhs)  # a law without pivots of S has nothing to confirm
-        y, p, w, iw = state.y, state.p, state.w, state.iw
-        common = (law.rhs, confirm, law.accept, *self.packed(), self.stages, compiled.info.nq)
-        room = np.zeros(self._room(len(y)))
-        if not spec.adaptive:
-            assert spec.step is not None, "a constant step is given"
-            return LoopCall(self.loop(spec), (*common, y, p, w, iw, 0.0, spec.step, spec.until), (room,))
-        control = (0.0, spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
-        return LoopCall(self.loop(spec), (*common, *self._pair(), y, p, w, iw, *control), (room,))
-
-    def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
+    def rows(self, adaptive: bool) -> Any:
         """Return the loop over many runs."""
-        if not spec.adaptive:
-            from symgen.runtime.batch import fixed_runs
+        from symgen.runtime import rows
 
-            assert spec.step is not None, "a constant step is given"
-            return BatchCall(fixed_runs, (*self.packed(), self.stages, spec.step, spec.until), self._room(ny))
-        from symgen.runtime.batch import adaptive_runs
+        return rows.adaptive if adaptive else rows.constant
 
-        control = (spec.step or 0.0, spec.largest_step, spec.until, spec.rtol, spec.atol)
-        return BatchCall(adaptive_runs, (*self.packed(), self.stages, *self._pair(), *control), self._room(ny))
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
+        from symgen.runtime.schemes import explicit
 
-    def _room(self, ny: int) -> int:
-        # all stages, two states, two error sums, and what `accept` measured at the end of a step
-        return (self.stages + 5 + len(self.extra_c)) * ny + len(STATUS)
-
-    def _pair(self) -> tuple[Array, int, int, Array]:
-        """Return what adaptive loops need beyond the scheme: error weights, their number and order, dense output."""
-        assert self.dense is not None, "every adaptive tableau has dense output"
-        return (
-            np.concatenate(self.errors),
-            len(self.errors),
-            self.error_order,
-            np.ascontiguousarray(self.dense).ravel(),
-        )
+        width, scheme = padded(compiled.info.ny), self.record(spec.adaptive)
+        memory = len(scheme.nodes) * width if spec.adaptive else 0
+        functions, room = law_functions(compiled), explicit.room(width, scheme)
+        return Setup(self.loop(spec.adaptive), functions, scheme, spec.step or 0.0, memory, room, self.safety)

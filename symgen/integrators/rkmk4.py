@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.integrators._base import BatchCall, LoopCall, State
 from symgen.integrators._tableau import Tableau
 from symgen.integrators.rk4 import KIND as RK4
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -25,30 +26,27 @@ class LieTableau(Tableau):
 
     forms: tuple[str, ...] = ("ode",)
 
-    def loop(self, spec: RunSpec) -> Any:
+    def loop(self, adaptive: bool) -> Any:
         """Return the loop of exponential updates."""
-        from symgen.runtime.lie import lie_steps
+        from symgen.runtime.schemes import lie
 
-        return lie_steps
+        return lie.constant
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
-        from symgen.runtime.manifold import stay
-
-        law, info = compiled.law_module, compiled.info
-        assert spec.step is not None, "a constant step is given"
-        before = (
-            *(law.rhs, getattr(law, "confirm", law.rhs), law.accept, getattr(compiled.model, "turn", stay)),
-            *(np.ascontiguousarray(self.a).ravel(), self.b, self.c, self.stages),
-            *(info.nq, info.nv, info.sections["change"][0]),
-            *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
-        )
-        room = np.zeros(2 * info.ny + (self.stages + 1) * (2 * info.nv + 1))
-        return LoopCall(self.loop(spec), before, (room, np.array([j for _, j in info.spins], dtype=np.int64)))
-
-    def batch(self, ny: int, spec: RunSpec) -> BatchCall | None:
-        """Return None: the scheme has no loop over many runs."""
+    def rows(self, adaptive: bool) -> Any:
+        """Return None: there is no loop over many runs."""
         return None
+
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
+        from symgen.runtime.records import Rotations
+        from symgen.runtime.schemes import lie
+
+        info = compiled.info
+        assert spec.step is not None, "a constant step is given"
+        spins, stage = np.array([j for _, j in info.spins], dtype=np.int64), lie.stage_width(info.nq, info.nv, info.ny)
+        scheme = Rotations(self.record(False), spins, stage)
+        functions, room = law_functions(compiled, "turn"), lie.room(padded(info.ny), stage, self.stages)
+        return Setup(lie.constant, functions, scheme, spec.step, 0, room)
 
 
 KIND = LieTableau(

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.integrators._base import LoopCall, State
 from symgen.integrators._implicit import ImplicitTableau
+from symgen.runtime.blocks import padded
+from symgen.runtime.integrator import Array, Setup, law_functions
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -22,33 +23,28 @@ if TYPE_CHECKING:
 class Trapezoidal(ImplicitTableau):
     """The rule as a tableau for index 1, and in positions for index 3 with projections."""
 
-    def loop(self, spec: RunSpec) -> Any:
+    def loop(self, adaptive: bool) -> Any:
         """Return None: the method decides."""
         return None
 
-    def call(self, compiled: CompiledModel, spec: RunSpec, state: State) -> LoopCall:
-        """Return the loop for a run and its arguments."""
+    def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
+        """Return what the loop is entered with."""
         if compiled.law.level != "projected":
-            return super().call(compiled, spec, state)
-        from symgen.runtime.manifold import stay
+            return super().setup(compiled, spec, w)
         from symgen.runtime.newton import Pattern, constraint_forces, mass_diagonal, projection_plan
-        from symgen.runtime.projected import projected_steps
+        from symgen.runtime.records import Projection
+        from symgen.runtime.schemes import projected
 
-        law, info, n = compiled.law_module, compiled.info, compiled.law.unknowns
+        law, info = compiled.law, compiled.info
         assert spec.step is not None, "a constant step is given"
-        penalty = state.p[compiled.law.parameter_offset + [q for q, _ in compiled.law.parameters].index("penalty")]
-        before = (
-            *(law.residual, law.tangent, law.rhs, getattr(law, "confirm", law.rhs), law.accept),
-            getattr(compiled.model, "turn", stay),
-            *(float(penalty), info.nq, info.nv, info.m, info.sections["multipliers"][0], info.sections["change"][0]),
-            *(state.y, state.p, state.w, state.iw, 0.0, spec.step, spec.until),
-        )
-        pattern = Pattern.of(compiled, state.w)
+        pattern = Pattern.of(compiled, w)
         plan, numbers, sources = projection_plan(pattern)
         forces = np.stack(constraint_forces(pattern), axis=1).ravel()
-        room = np.zeros(3 * info.ny + 2 * n + 4 * info.m + 3 * info.nv + 5)
-        after = (room, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern))
-        return LoopCall(projected_steps, before, after)
+        place = law.parameter_offset + [name for name, _ in law.parameters].index("penalty")
+        scheme = Projection(place, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern))
+        functions, width = law_functions(compiled, "turn", "residual", "tangent"), padded(info.ny)
+        memory, room = projected.memory(width, info.m), projected.room(width, info.nv, info.m, law.unknowns)
+        return Setup(projected.constant, functions, scheme, spec.step, memory, room)
 
 
 KIND = Trapezoidal(

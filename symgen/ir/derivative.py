@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from symgen.ir.graph import Graph
+from symgen.vocabulary.functions import ELEMENTARY
 
 Key = tuple[str, int]
 
@@ -95,23 +96,8 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
         return (zero if payload.endswith("'") else g.call(f"table:{payload}'", a),)
-    if op in _UNARY:
-        return (_UNARY[op](g, a, node),)
+    if op == "abs":
+        return (g.call("sign", a),)
+    if op in ELEMENTARY:
+        return (ELEMENTARY[op].slope(g, a, node),)
     return (zero,) * len(args)  # comparisons, logic, sign and step are piecewise constant
-
-
-_UNARY = {
-    "sqrt": lambda g, a, n: g.div(g.constant(0.5), n),
-    "exp": lambda g, a, n: n,
-    "log": lambda g, a, n: g.div(g.one, a),
-    "sin": lambda g, a, n: g.call("cos", a),
-    "cos": lambda g, a, n: g.neg(g.call("sin", a)),
-    "tan": lambda g, a, n: g.add(g.one, g.mul(n, n)),
-    "asin": lambda g, a, n: g.div(g.one, g.call("sqrt", g.sub(g.one, g.mul(a, a)))),
-    "acos": lambda g, a, n: g.neg(g.div(g.one, g.call("sqrt", g.sub(g.one, g.mul(a, a))))),
-    "atan": lambda g, a, n: g.div(g.one, g.add(g.one, g.mul(a, a))),
-    "sinh": lambda g, a, n: g.call("cosh", a),
-    "cosh": lambda g, a, n: g.call("sinh", a),
-    "tanh": lambda g, a, n: g.sub(g.one, g.mul(n, n)),
-    "abs": lambda g, a, n: g.call("sign", a),
-}

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
 from symgen.vocabulary.expressions import Expr, Name, Number
 
-_BINARY = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "pow": "power", "neg": "neg"}
+_ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "pow": "power", "neg": "neg"}
 
 
 def build(graph: Graph, expression: Expr, names: Mapping[str, int]) -> int:
@@ -27,12 +28,15 @@ def build(graph: Graph, expression: Expr, names: Mapping[str, int]) -> int:
     KeyError
         If a name is not in `names`: the validator has let something through.
     """
-    if isinstance(expression, Number):
-        return graph.constant(expression.value)
-    if isinstance(expression, Name):
-        return names[expression.name]
-    arguments = [build(graph, a, names) for a in expression.arguments]
-    method = _BINARY.get(expression.function)
-    if method is not None:
-        return int(getattr(graph, method)(*arguments))
-    return graph.call(expression.function, *arguments)
+    functions = Functions(graph)
+
+    def node(e: Expr) -> int:
+        if isinstance(e, Number):
+            return graph.constant(e.value)
+        if isinstance(e, Name):
+            return names[e.name]
+        arguments = [node(a) for a in e.arguments]
+        method = _ARITHMETIC.get(e.function)
+        return functions.call(e.function, *arguments) if method is None else int(getattr(graph, method)(*arguments))
+
+    return node(expression)

@@ -12,36 +12,20 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from symgen.vocabulary.functions import ELEMENTARY
+
 #: Bits of what a node depends on.
 TIME, POSITION, VELOCITY, PARAMETER, SCRATCH = 1, 2, 4, 8, 16
 
 #: Input spaces that are not scratch: every other name is a section of ``w`` or an array of the block's own.
-_BITS = {"t": TIME, "q": POSITION, "v": VELOCITY, "p": PARAMETER}
+_BITS = {"t": TIME, "q": POSITION, "v": VELOCITY, "p": PARAMETER, "parameter": PARAMETER}
 
-#: Operations that are not arithmetic; ``step(a, b)`` is 1.0 where a > b and 0.0 elsewhere, without a branch.
-FUNCTIONS = frozenset(
-    (
-        "sqrt exp log sin cos tan asin acos atan atan2 sinh cosh tanh "
-        "abs floor min max sign lt le gt ge and or not where step"
-    ).split()
-)
+#: Operations that are not arithmetic; ``step(a, b)`` is 1.0 where a > b and 0.0 elsewhere, without a branch, and
+#: ``defined(a)`` is true where a is a number.
+FUNCTIONS = frozenset((*ELEMENTARY, *"atan2 abs floor min max sign lt le gt ge and or not where step defined".split()))
 
-_FOLD: dict[str, Callable[[float], float]] = {
-    "sqrt": math.sqrt,
-    "exp": math.exp,
-    "log": math.log,
-    "sin": math.sin,
-    "cos": math.cos,
-    "tan": math.tan,
-    "asin": math.asin,
-    "acos": math.acos,
-    "atan": math.atan,
-    "sinh": math.sinh,
-    "cosh": math.cosh,
-    "tanh": math.tanh,
-    "abs": abs,
-    "floor": math.floor,
-}
+_FOLD: dict[str, Callable[[float], float]] = {name: function.evaluate for name, function in ELEMENTARY.items()}
+_FOLD |= {"abs": abs, "floor": math.floor}
 
 
 class Operation(NamedTuple):
@@ -71,11 +55,20 @@ class Graph:
     # -- leaves ------------------------------------------------------------------------------------------------------
 
     def constant(self, value: float) -> int:
-        """Return the node of a literal; -0.0 is 0.0."""
-        return self._node(Operation("const", (), float(value) + 0.0), 0)
+        """Return the node of a literal; -0.0 is 0.0.
+
+        Raises
+        ------
+        OverflowError
+            If it is not finite, as products of finite literals may be: such a number has no literal in emitted code.
+        """
+        number = float(value) + 0.0
+        if not math.isfinite(number):
+            raise OverflowError("a constant that is not finite")
+        return self._node(Operation("const", (), number), 0)
 
     def input(self, space: str, index: int) -> int:
-        """Return the node of element `index` of ``t``, ``q``, ``v``, ``p`` or of a scratch section."""
+        """Return the node of element `index` of ``t``, ``q``, ``v``, ``p``, ``parameter`` or of a scratch section."""
         return self._node(Operation("input", (), (space, index)), _BITS.get(space, SCRATCH))
 
     def value(self, node: int) -> float | None:

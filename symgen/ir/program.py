@@ -6,17 +6,20 @@ section of the scratch array ``w``) is said by symbolic targets; the emitter's l
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from symgen.ir.graph import Graph
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
-FORMAT = 2
+FORMAT = 3
 
 #: What code is emitted for, and what the names of its modules end in.
 SUFFIXES = {"cpu": "", "lanes": "_lanes", "cuda": "_cuda"}
 TARGETS = tuple(SUFFIXES)
+#: Stems of modules that hold parts of laws: what they are, and the digest of what they hold.
+PART = re.compile(r"[a-z]\w*_[0-9a-f]{16}(_cuda)?", re.ASCII)
 #: Runs that code for ``lanes`` works on at once: a vector of the widest registers, or two of the next.
 LANES = 8
 #: What code for ``lanes`` counts behind ``w``, in this order: evaluations with suspicious pivots, corrections that
@@ -51,8 +54,12 @@ STATUS = (
     "potential",  # V
     "smallest_pivot",  # of D D^T with scaled rows, over the rows that are not permanently redundant
     "rank",  # rows kept by the factorisation of D D^T
-    "length_scale",  # set by the runtime: largest coordinate, at least 1
-    "speed_scale",  # set by the runtime: largest speed, at least 1
+    "length_scale",  # set by the runtime: the mechanism's length [m]
+    "speed_scale",  # set by the runtime: largest speed so far [m/s]
+    "position_measure",  # |Phi| with rows that are angles or numbers times the scale of lengths [m]
+    "velocity_measure",  # the same for |D v - nu| [m/s]
+    "shortest_row",  # of the rows that are angles: least square of a gradient, over that at the start
+    "mean_mass",  # set by the runtime: mean of M's diagonal, that of rotations being I / l^2 [kg]
     "step",  # set by the loop: the step being taken
     "increment",  # |change| of the last iteration of an iterated law
     "partition_quality",  # det(D P D^T) / det(D D^T), P keeping the dependent columns
@@ -61,6 +68,9 @@ STATUS = (
     "partition_sine",  # root of the smallest pivot at the accepted state before
     "power",  # of forces without potential and of drivers, by `residual`
 )
+
+#: Those numbers of the status that a start finds, and that are 1 before.
+SCALES = ("length_scale", "speed_scale", "mean_mass")
 
 #: Integers in ``iw``, in this order.
 COUNTERS = (
@@ -86,6 +96,12 @@ class Target:
     index: int
 
 
+def of_table(payload: object) -> tuple[str, str]:
+    """Return the name in the payload of a table's operation, and whether its ``value`` or its ``slope`` is meant."""
+    name = str(payload)
+    return (name[:-1], "slope") if name.endswith("'") else (name, "value")
+
+
 @dataclass(frozen=True)
 class Block:
     """Straight-line computation.
@@ -104,6 +120,8 @@ class Block:
         Node whose truth the function returns; None: it returns 0.
     arguments : tuple of str
         Arrays passed to the function.
+    role : {"", "preparation", "acceleration", "iteration", "metric", "form"}
+        The part of a law that the function belongs to; none for functions of the model.
     """
 
     name: str
@@ -112,11 +130,18 @@ class Block:
     outputs: tuple[tuple[Target, int], ...]
     arguments: tuple[str, ...]
     flag: int | None = None
+    role: str = ""
 
     @property
     def nodes(self) -> tuple[int, ...]:
         """All nodes that the block ends in."""
         return tuple(n for _, n in self.outputs) + (() if self.flag is None else (self.flag,))
+
+    @property
+    def tables(self) -> tuple[tuple[str, str], ...]:
+        """Tables that are read, by name, and whether for their ``value`` or their ``slope``."""
+        found = (self.graph.nodes[n] for n in self.graph.needed(self.nodes))
+        return tuple(dict.fromkeys(of_table(o.payload) for o in found if o.op == "table"))
 
     @property
     def operations(self) -> int:
@@ -189,9 +214,10 @@ class Correction:
         Whether positions are corrected, by one step or until the constraints hold.
     velocity : bool
         Whether velocities are corrected.
-    metric : {"identity", "mass", "independent", "augmented"}
-        Norm in which the correction is smallest; ``independent`` keeps the independent coordinates, ``augmented`` is
-        the metric of M reached by iterations with M + a D^T D.
+    metric : {"identity", "scaled", "mass", "independent", "augmented"}
+        Norm in which the correction is smallest; ``scaled`` is that in which rank is decided, where 1 rad weighs as
+        much as the body's length; ``independent`` keeps the independent coordinates, ``augmented`` is the metric of M
+        reached by iterations with M + a D^T D.
     """
 
     position: str = "none"
@@ -218,8 +244,8 @@ class LawProgram:
     layout: Layout
     blocks: tuple[Block, ...]
     parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
-    parameter_offset: int
-    hoisted: int
+    parameter_offset: int  # behind the numbers that the law itself hoists
+    hoisted: int  # numbers behind the parameters, for corrections and descriptor forms
     form: str  # how v' is found: direct, iterated, dense or tangent
     closed: bool  # whether dependent coordinates are closed before every evaluation
     correction: Correction

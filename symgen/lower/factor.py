@@ -7,14 +7,17 @@ factorisation is emitted for exactly that pattern; nothing is stored that is str
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from symgen.ir.graph import Graph
 
 
-def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[int, ...]:
-    """Return an elimination order of low fill for a symmetric pattern.
+def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...], list[set[int]]]:
+    """Return an elimination order of low fill for a symmetric pattern, and each pivot's rows below it.
+
+    It takes time linear in the fill.
 
     Parameters
     ----------
@@ -23,18 +26,27 @@ def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[int, ...]:
     """
     graph = [set(n) for n in neighbours]
     level = [0] * len(graph)
-    left = set(range(len(graph)))
+    queue = [(len(near), 0, i) for i, near in enumerate(graph)]
+    heapq.heapify(queue)
     order: list[int] = []
-    while left:
-        pivot = min(left, key=lambda i: (len(graph[i]), level[i], i))
-        order.append(pivot)
-        left.discard(pivot)
+    below: list[set[int]] = []
+    done = [False] * len(graph)
+    while queue:
+        degree, waiting, pivot = heapq.heappop(queue)
+        if done[pivot] or degree != len(graph[pivot]) or waiting != level[pivot]:
+            continue  # the entry is out of date
+        done[pivot] = True
         clique = graph[pivot]
-        for i in clique:
-            graph[i] |= clique
-            graph[i] -= {i, pivot}
+        order.append(pivot)
+        below.append(clique)
+        for i in sorted(clique):
+            near = graph[i]
+            near |= clique
+            near.discard(i)
+            near.discard(pivot)
             level[i] = max(level[i], level[pivot] + 1)
-    return tuple(order)
+            heapq.heappush(queue, (len(near), level[i], i))
+    return tuple(order), below
 
 
 @dataclass(frozen=True)

@@ -17,11 +17,36 @@ class Hoister:
         The graph that all blocks of the module are built in.
     first : int
         Index in ``p`` of the first hoisted number.
+    parameters : int
+        Number of a method's parameters, which stand behind the numbers that `reserve` has found.
     """
 
-    def __init__(self, graph: Graph, first: int) -> None:
-        self.graph, self.first = graph, first
+    def __init__(self, graph: Graph, first: int, parameters: int = 0) -> None:
+        self.graph, self.first, self.parameters = graph, first, parameters
         self.slots: dict[int, int] = {}
+        self.reserved = 0
+
+    @property
+    def first_parameter(self) -> int:
+        """Index in ``p`` of the method's first parameter."""
+        return self.first + self.reserved
+
+    def reserve(self, ends: Sequence[int]) -> None:
+        """Give the numbers that `ends` need places before the method's parameters: call it before any block is made.
+
+        So a law's own functions do not depend on how many parameters the method has, nor on what else it hoists.
+        """
+        for node in self._reached(ends):
+            if self._moves(node):
+                self.slots.setdefault(node, len(self.slots))
+        self.reserved = len(self.slots)
+
+    def _place(self, slot: int) -> int:
+        return self.first + slot + (self.parameters if slot >= self.reserved else 0)
+
+    def _input(self, graph: Graph, space: str, index: int) -> int:
+        """Return an input as blocks read it."""
+        return graph.input("p", self.first_parameter + index) if space == "parameter" else graph.input(space, index)
 
     def block(
         self,
@@ -39,11 +64,11 @@ class Hoister:
             op, args, payload = source.nodes[node]
             if self._moves(node):
                 slot = self.slots.setdefault(node, len(self.slots))
-                image[node] = target.input("p", self.first + slot)
+                image[node] = target.input("p", self._place(slot))
             elif op == "const":
                 image[node] = target.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
             elif op == "input":
-                image[node] = target.input(*payload)  # type: ignore[misc]  # an input's payload is its key
+                image[node] = self._input(target, *payload)  # type: ignore[misc]  # an input's payload is its key
             else:
                 image[node] = target.rebuild(op, tuple(image[a] for a in args), payload)
         moved = tuple((where, image[n]) for where, n in outputs)
@@ -69,12 +94,12 @@ class Hoister:
         graph = Graph()
         nodes = sorted(self.slots, key=self.slots.__getitem__)
         inputs = {
-            key: graph.input(*key)
+            key: self._input(graph, *key)
             for n in self.graph.needed(nodes)
             if self.graph.nodes[n].op == "input" and isinstance(key := self.graph.nodes[n].payload, tuple)
         }
         images = graph.inline(self.graph, nodes, inputs)
         outputs = tuple(
-            (Target("p", self.first + self.slots[n]), image) for n, image in zip(nodes, images, strict=True)
+            (Target("p", self._place(self.slots[n])), image) for n, image in zip(nodes, images, strict=True)
         )
         return Block("prepare", "numbers that depend on parameters alone", graph, outputs, ("p",))

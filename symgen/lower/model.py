@@ -2,24 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from symgen.formulate.equations import Equations
-from symgen.ir.program import STATUS, Block, Entry, Layout, ModelProgram, Target
-from symgen.lower.algebra import System
+from symgen.ir.program import STATUS, Block, Layout, ModelProgram, Target
 from symgen.lower.hoist import Hoister
+from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
-from symgen.lower.parts import (
-    Outputs,
-    Stored,
-    constraint_entries,
-    geometry_outputs,
-    loaded_rows,
-    pivot_outputs,
-    spread,
-    to_status,
-)
-from symgen.lower.vectors import Vector
+from symgen.lower.record import record_model
+from symgen.lower.scalar import Outputs, Scalars, to_status
 
 
 def lower_model(equations: Equations, digest: str) -> ModelProgram:
@@ -32,11 +21,11 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     digest : str
         Digest of the canonical description, for the emitted header.
     """
-    system = System(equations)
-    g, m = system.graph, equations.m
-    factor = system.gram_factor()
-    jacobian = constraint_entries(g, equations)
-    stored = Stored(g, factor)
+    m, record = equations.m, record_model()
+    scalars = Scalars(equations, record.operations)
+    scalars.run(range(len(record.operations)))
+    geometry, spread = record.parts
+    factor = scalars.values[geometry.outputs[1][1]]
     sections: dict[str, tuple[int, int]] = {}
     offset = 0
     sizes = {
@@ -50,9 +39,11 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         "pivot": m,
         "change": equations.nv,
         "mass": equations.nv,
-        "jacobian": sum(e.slot is not None for e in jacobian),
-        "lower": len(stored.lower),
-        "reciprocal": len(stored.reciprocal),
+        "gauge": equations.nv,
+        "row_weight": m,
+        "jacobian": sum(e.slot is not None for e in scalars.jacobian),
+        "lower": len(scalars.kept["lower"]),
+        "reciprocal": len(scalars.kept["reciprocal"]),
     }
     for name, size in sizes.items():
         if name == "winding" and not size:
@@ -60,21 +51,12 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         sections[name] = (offset, size)
         offset += size
     layout = Layout(equations.nq, equations.nv, m, len(equations.parameters), sections)
-    hoister = Hoister(g, layout.parameters)
+    hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
-        hoister.block(
-            "geometry",
-            "Phi, nu, D, and the factorisation of D D^T that decides rank",
-            [
-                *geometry_outputs(system, jacobian),
-                *pivot_outputs(system, factor),
-                *stored.outputs("lower", "reciprocal"),
-            ],
-            ("t", "y", "p", "w"),
-        ),
-        spread(hoister, equations, jacobian, stored),
-        measure(hoister, equations, jacobian),
-        observe(hoister, system),
+        law_block(hoister, scalars, geometry),
+        law_block(hoister, scalars, spread),
+        measure(hoister, scalars),
+        observe(hoister, scalars),
         hoister.block(
             "masses",
             "diagonal of M",
@@ -89,10 +71,10 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         digest=digest,
         layout=layout,
         blocks=tuple(blocks),
-        jacobian=jacobian,
+        jacobian=scalars.jacobian,
         hoisted=len(hoister.slots),
-        order=system.order,
-        fill=sum(len(c) for c in factor.lower.values()) - sum(i > j for i, j in system.gram(None)),
+        order=scalars.order,
+        fill=sum(len(c) for c in factor.lower.values()) - sum(i > j for i, j in scalars.gram(scalars.rows)),
         tables=equations.tables,
     )
 
@@ -100,29 +82,30 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
 # -- blocks of the model ----------------------------------------------------------------------------------------------
 
 
-def measure(hoister: Hoister, equations: Equations, jacobian: Sequence[Entry]) -> Block:
+def measure(hoister: Hoister, scalars: Scalars) -> Block:
     """Return the block that measures a state after its geometry."""
-    g = hoister.graph
+    g, equations = hoister.graph, scalars.equations
     outputs: Outputs = []
     residuals: list[int] = []
-    for i, row in enumerate(loaded_rows(g, jacobian, equations.m)):
+    for i, row in enumerate(scalars.stored_constraints()):
         total = g.total(g.mul(e, g.input("v", j)) for j, e in row)
         if equations.rows[i].nu != g.zero:
             total = g.sub(total, g.input("nu", i))
         residuals.append(total)
         outputs.append((Target("residual", i), total))
-    outputs.append(to_status("velocity_violation", g.call("sqrt", g.dot(residuals, residuals))))
+    outputs += scalars.violation("velocity", residuals)
     outputs += [to_status("kinetic", equations.kinetic), to_status("potential", equations.potential)]
     outputs += [(Target("winding", i), node) for i, node in enumerate(equations.windings)]
     purpose = "D v - nu with the D and nu that `geometry` left, and the energies"
     return hoister.block("measure", purpose, outputs, ("t", "y", "p", "w"))
 
 
-def observe(hoister: Hoister, system: System) -> Block:
+def observe(hoister: Hoister, scalars: Scalars) -> Block:
     """Return the block of what is reported at outputs only."""
-    g, e = system.graph, system.equations
-    accelerations = Vector(g, tuple(g.input("ydot", e.nq + i) for i in range(e.nv)))
-    outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(system.D @ accelerations - system.gamma)]
+    g, e = hoister.graph, scalars.equations
+    changes = scalars.product(scalars.rows, scalars.section("rates.v", e.nv))
+    left = [g.sub(n, row.gamma) for n, row in zip(changes, e.rows, strict=True)]
+    outputs: Outputs = [(Target("out", i), n) for i, n in enumerate(left)]
     for k, c in enumerate(e.joint_coordinates):
         outputs += [(Target("out", e.m + 2 * k), c.value), (Target("out", e.m + 2 * k + 1), c.rate)]
     return hoister.block(

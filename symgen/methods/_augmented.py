@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 from symgen.methods._base import MethodParameter
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
-    from symgen.lower.vectors import Vector
+    from symgen.methods._formula import System, Vector
 
 SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 

@@ -21,8 +21,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import Correction
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
-    from symgen.lower.vectors import Scalar, Vector
+    from symgen.methods._formula import Scalar, System, Vector
 
 
 @dataclass(frozen=True)
@@ -82,10 +81,11 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates of what is integrated in place of q and v, and the multipliers of v' for the power of drivers."""
+    """Rates of what is integrated in place of q and v, the velocities at which forces do work, and the multipliers."""
 
     position: Vector
     velocity: Vector
+    velocities: Vector
     multipliers: Vector
 
 

@@ -10,7 +10,7 @@ from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.methods._base import Iteration, IterationState, Method, Rates, multiplier_law
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class AugmentedHamiltonian(Method):
@@ -57,7 +57,7 @@ class AugmentedHamiltonian(Method):
                 IterationState("kept_impulse", system.zeros(target.size), raised),
             ),
             increment,
-            Rates(position, system.minv(force), multipliers),
+            Rates(position, system.minv(force), v, multipliers),
         )
 
     def correction(self, options: Mapping[str, str]) -> Correction:

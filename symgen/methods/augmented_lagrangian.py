@@ -9,7 +9,7 @@ from symgen.methods._augmented import ITERATION_TOLERANCE, MU, OMEGA, PENALTY, s
 from symgen.methods._base import Iteration, Method, augmented_iteration
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class AugmentedLagrangian(Method):

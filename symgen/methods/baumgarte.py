@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 from symgen.methods._base import MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
-    from symgen.lower.vectors import Vector
+    from symgen.methods._formula import System, Vector
 
 _SOURCE = "the source's value (Marques, Souto, Flores, Multibody Syst. Dyn. 39, 2017)"
 

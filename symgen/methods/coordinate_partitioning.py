@@ -9,7 +9,7 @@ from symgen.ir.program import Correction
 from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class CoordinatePartitioning(MultiplierMethod):
@@ -29,7 +29,7 @@ class CoordinatePartitioning(MultiplierMethod):
     integrates = "independent"
     parameters = (
         MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
         ),
     )
 

@@ -27,7 +27,7 @@ class DirectCorrection(MultiplierMethod):
     )
     parameters = (
         MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
         ),
     )
     options = (

@@ -10,7 +10,7 @@ from symgen.methods._augmented import ITERATION_TOLERANCE, PENALTY
 from symgen.methods._base import Iteration, Method, MethodParameter, augmented_iteration
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class Index1AugmentedLagrangian(Method):
@@ -31,7 +31,7 @@ class Index1AugmentedLagrangian(Method):
         PENALTY,
         ITERATION_TOLERANCE,
         MethodParameter(
-            "tolerance", 1e-13, "m", "violation at which projections end, times the largest coordinate or speed"
+            "tolerance", 1e-13, "m", "violation at which projections end, times the mechanism's length or speed"
         ),
     )
 

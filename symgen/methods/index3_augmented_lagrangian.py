@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.methods._base import Descriptor, MethodParameter, MultiplierMethod
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class Index3AugmentedLagrangian(MultiplierMethod):

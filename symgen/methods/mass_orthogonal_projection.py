@@ -26,7 +26,7 @@ class MassOrthogonalProjection(MultiplierMethod):
     parameters = (
         PENALTY,
         MethodParameter(
-            "tolerance", 1e-13, "m", "violation at which the iteration ends, times the largest coordinate or speed"
+            "tolerance", 1e-13, "m", "violation at which the iteration ends, times the mechanism's length or speed"
         ),
     )
 

@@ -9,7 +9,7 @@ from symgen.ir.program import Correction
 from symgen.methods._base import Method, MethodParameter, Tangent
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class NullSpace(Method):
@@ -17,7 +17,8 @@ class NullSpace(Method):
 
     The basis R begins with unit vectors of independent coordinates and is projected on to each new tangent space, ``R
     <- orth((1 - D^+ D) R)``, so that it changes as little as the mechanism does; no decomposition is made anew at
-    every step. After each step positions and velocities are corrected as in `direct-correction`. Readings of the name
+    every step. After each step positions and velocities are corrected as in `direct-correction`, in the metric in
+    which rank is decided: 1 rad weighs as much as the length of its body. Readings of the name
     differ: Mani, Haug and Atkinson take R from a singular value decomposition, Kim and Vanderploeg from a QR one.
     """
 
@@ -30,7 +31,7 @@ class NullSpace(Method):
     )
     parameters = (
         MethodParameter(
-            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times max(1, largest |q|)"
+            "tolerance", 1e-13, "m", "|Phi| at which the position iteration ends, times the mechanism's length"
         ),
     )
 
@@ -40,7 +41,7 @@ class NullSpace(Method):
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return Newton's iteration at position level and one correction at velocity level."""
-        return Correction("newton", True, "identity")
+        return Correction("newton", True, "scaled")
 
 
 KIND = NullSpace()

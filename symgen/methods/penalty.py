@@ -9,7 +9,7 @@ from symgen.methods._augmented import MU, OMEGA, stabilised
 from symgen.methods._base import Acceleration, Descriptor, Method, MethodParameter
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class Penalty(Method):

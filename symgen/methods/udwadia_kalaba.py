@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.methods._base import Acceleration, Method
 
 if TYPE_CHECKING:
-    from symgen.lower.algebra import System
+    from symgen.methods._formula import System
 
 
 class UdwadiaKalaba(Method):

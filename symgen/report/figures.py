@@ -173,8 +173,8 @@ def _over_time(
             ax.plot(trace.t, values, **look, markevery=marks, markerfacecolor="white", markersize=4.5, label=method)
         if name == "error":
             _floor(ax, study.estimated_error, None)
-            lowest = min(float(np.nanmin(np.where(v > 0.0, v, np.nan))) for _, _, v in curves if np.any(v > 0.0))
-            ax.set_ylim(bottom=max(FLOOR, 0.3 * min(lowest, study.estimated_error)))
+            above = (float(np.nanmin(np.where(v > 0.0, v, np.nan))) for _, _, v in curves if np.any(v > 0.0))
+            ax.set_ylim(bottom=max(FLOOR, 0.3 * min((study.estimated_error, *above))))
         ax.set(yscale="log", xlabel="t [s]", ylabel=label, xlim=(0.0, study.until))
         _decades(ax)
         ax.set_title(title)

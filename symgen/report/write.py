@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Mapping
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from symgen.errors import InputError
+from symgen.files import Content, why, write_all, write_whole
 from symgen.report.document import Cell, Document, Picture, Section, Table
-from symgen.result.export import check_path, write_whole
+from symgen.result.export import check_path
 
 if TYPE_CHECKING:
     import jinja2
@@ -44,19 +47,20 @@ def write(document: Document, path: Path) -> Path:
     """
     check_report("report", path)
     if path.suffix.lower() == ".html":
-        text = html(document)
-        return write_whole(path, lambda file: file.write_text(text, encoding="utf-8"))
-    folder = _folder(path)
-    if document.pictures():
-        folder.mkdir(exist_ok=True)
-    for picture in document.pictures():
-        write_whole(folder / f"{picture.name}.{picture.kind}", partial(_put, picture.data))
-    text = markdown(document, folder.name)
-    return write_whole(path, lambda file: file.write_text(text, encoding="utf-8"))
-
-
-def _put(data: bytes, file: Path) -> None:
-    file.write_bytes(data)
+        return write_whole(path, html(document))
+    folder, made = _folder(path), False
+    files: dict[Path, Content] = {folder / f"{p.name}.{p.kind}": p.data for p in document.pictures()}
+    try:
+        if files and not folder.exists():
+            folder.mkdir()
+            made = True
+        write_all(files | {path: markdown(document, folder.name)})
+    except OSError as error:
+        raise InputError(str(folder), "a folder that can be made", why(error)) from error
+    finally:
+        if made and not any(folder.iterdir()):  # something could not be written
+            folder.rmdir()
+    return path
 
 
 def _folder(path: Path) -> Path:
@@ -98,27 +102,41 @@ def html(document: Document) -> str:
 # -- Markdown ----------------------------------------------------------------------------------------------------------
 
 
+#: What Markdown takes for more than text: emphasis, code, tags, entities, links, the columns of a table, and marks at
+#: the beginning of a line. Underscores inside words, and brackets that no address follows, are text.
+_MARKED = re.compile(
+    r"[\\`*<|~$]|&(?=\w+;|#)|(?<![^\W_])_|_(?![^\W_])|\[(?=[^\]]*\]\s*[(\[:])|^(?:[#>+-]|\d+(?=[.)]))", re.MULTILINE
+)
+
+
+def escaped(text: str) -> str:
+    """Return plain text for a line of Markdown: it reads there as it stands."""
+    return _MARKED.sub(lambda mark: f"\\{mark[0]}" if not mark[0].isdigit() else f"{mark[0]}\\", " ".join(text.split()))
+
+
 def markdown(document: Document, folder: str) -> str:
     """Return a document as Markdown with tables, pictures being files in `folder`."""
-    lines = [f"# {document.title}", ""]
-    lines += [x for text in document.lead for x in (text, "")]
+    lines = [f"# {escaped(document.title)}", ""]
+    lines += [x for text in document.lead for x in (escaped(text), "")]
     lines += _table(Table("", ("made with", ""), document.facts, words=2))
     if document.command:
-        lines += ["Made again by", "", "```sh", document.command, "```", ""]
+        fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
+        lines += ["Made again by", "", f"{fence}sh", document.command, fence, ""]
     for section in document.sections:
         lines += _section(section, 2, folder)
     return "\n".join(lines).rstrip() + "\n"
 
 
 def _section(section: Section, level: int, folder: str) -> list[str]:
-    lines = [f"{'#' * level} {section.title}", ""]
-    lines += [x for text in section.text for x in (text, "")]
-    lines += [f"- {text}" for text in section.findings]
+    lines = [f"{'#' * level} {escaped(section.title)}", ""]
+    lines += [x for text in section.text for x in (escaped(text), "")]
+    lines += [f"- {escaped(text)}" for text in section.findings]
     lines += [""] if section.findings else []
     for table in section.tables:
         lines += _table(table)
     for picture in section.pictures:
-        lines += [f"![{picture.alternative}]({folder}/{picture.name}.{picture.kind})", "", picture.caption, ""]
+        address = quote(f"{folder}/{picture.name}.{picture.kind}")
+        lines += [f"![{escaped(picture.alternative)}]({address})", "", escaped(picture.caption), ""]
     for part in section.parts:
         lines += _section(part, level + 1, folder)
     return lines
@@ -127,9 +145,9 @@ def _section(section: Section, level: int, folder: str) -> list[str]:
 def _table(table: Table) -> list[str]:
     def row(cells: tuple[str | Cell, ...]) -> str:
         texts = [cell.text if isinstance(cell, Cell) else cell for cell in cells]
-        return "| " + " | ".join(text.replace("|", "\\|").replace("\n", " ") for text in texts) + " |"
+        return f"| {' | '.join(map(escaped, texts))} |"
 
     marks = ["---" if i < table.words else "---:" for i in range(len(table.headings))]
-    lines = [table.caption, ""] if table.caption else []
+    lines = [escaped(table.caption), ""] if table.caption else []
     lines += [row(table.headings), f"| {' | '.join(marks)} |", *(row(cells) for cells in table.rows), ""]
-    return [*lines, *(x for note in table.notes for x in (note, ""))]
+    return [*lines, *(x for note in table.notes for x in (escaped(note), ""))]

@@ -5,33 +5,36 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces
-from symgen.result.result import OK, UNVERIFIED, Rank, Result, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from symgen.api import Model
+    from symgen.describe.mechanism import Mechanism
     from symgen.model import CompiledModel
-    from symgen.plan import Plan, Settings
+    from symgen.plan import Plan
+    from symgen.result.agreement import Settled
     from symgen.runtime.run import Outcome
+    from symgen.settings import Settings
 
 
 def build_result(
-    model: Model,
+    mechanism: Mechanism,
     settings: Settings,
     plan: Plan,
     compiled: CompiledModel,
     outcome: Outcome,
     run_spread: float = 0.0,
-    doubt: str | None = None,
+    second: Settled | None = None,
 ) -> Result:
     """Label and judge the outcome of a run.
 
     Parameters
     ----------
-    model : Model
+    mechanism : Mechanism
         What was run.
     settings, plan : Settings, Plan
         How it was asked for, and what the loop got.
@@ -41,27 +44,25 @@ def build_result(
         What the loop gave.
     run_spread : float, optional
         Longest minus shortest run time of repeated runs [s].
-    doubt : str, optional
-        Why nothing vouches for the run although the loop saw nothing wrong.
+    second : Settled, optional
+        What a run with finer steps said of this one.
 
     Returns
     -------
     Result
-        With status, reason, warnings and notes settled. With ``settings.verify``, a run that came near a singular
-        position is run once more at another step.
+        With status, reason, warnings and notes settled.
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
-    forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in model.mechanism.joints})
-    verdict = judge(settings, plan, compiled, outcome)
+    forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in mechanism.joints})
+    parameters = parameter_values(mechanism, settings.parameters)
+    verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    if doubt is not None and verdict.status == OK:
-        verdict = replace(verdict, status=UNVERIFIED, reason=doubt)
     verdict = replace(verdict, notes=(*notes, *verdict.notes))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, -1]
     law = compiled.law
     return Result(
-        mechanism=model.name,
+        mechanism=mechanism.name,
         method=law.method,
         integrator=plan.tableau.name,
         step=spec.step,
@@ -70,9 +71,9 @@ def build_result(
         until=spec.until,
         status=verdict.status,
         reason=verdict.reason,
-        warnings=(*plan.warnings, *verdict.warnings),
+        warnings=(*plan.warnings, *outcome.start.warnings, *verdict.warnings),
         notes=verdict.notes,
-        parameters=model.parameters(settings.parameters),
+        parameters=parameters,
         t=outcome.times,
         q=labelled(states[:, : info.nq], info.coordinates),
         v=labelled(states[:, info.nq : info.nq + info.nv], info.velocities),
@@ -98,6 +99,7 @@ def build_result(
         position_violation_max=outcome.position_violation_max,
         velocity_violation_max=outcome.velocity_violation_max,
         energy_drift_max=outcome.energy_drift_max,
+        error_estimate=None if second is None or verdict.status == FAILED else second.error,
         outcome=outcome,
         forces=forces,
     )

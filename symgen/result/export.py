@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import json
-import os
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError, nearest
+from symgen.files import check_writable, write_whole
+from symgen.memory import require
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -95,34 +96,12 @@ def check_path(where: str, path: Path, endings: Mapping[str, tuple[str, ...]], e
     check_writable(where, path)
 
 
-def check_writable(where: str, path: Path) -> None:
-    """Refuse a file whose folder is missing or cannot be written."""
-    if path.is_dir():
-        raise InputError(where, "the name of a file", f"the folder '{path}'")
-    if not path.parent.is_dir():
-        raise InputError(where, "a file in a folder that exists", f"'{path}'")
-    if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
-        raise InputError(where, "a file that can be written", f"'{path}'")
-
-
-def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
-    """Let `write` make a sibling of `path`, then put it in place: the file appears whole or not at all.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be written; nothing is left behind.
-    """
-    sibling = path.with_name(f".{path.stem}-{os.urandom(6).hex()}{path.suffix.lower()}")
-    try:
-        write(sibling)
-        os.replace(sibling, path)
-    except OSError as error:
-        raise InputError(str(path), "a file that can be written", error.strerror or "an error") from error
-    finally:
-        with suppress(OSError):
-            sibling.unlink()
-    return path
+def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
+    """Return what writes a dataset to an open file as NetCDF, with a checksum for every block of numbers."""
+    summed = {
+        str(name): {"fletcher32": True} for name, v in dataset.variables.items() if v.dtype.kind in "fi" and v.size
+    }
+    return lambda file: dataset.to_netcdf(file, engine="h5netcdf", encoding=summed)
 
 
 def to_dataframe(result: Result) -> pd.DataFrame:
@@ -165,6 +144,7 @@ def to_xarray(result: Result) -> xr.Dataset:
         "integrator": result.integrator,
         "status": result.status,
         "reason": result.reason or "",
+        "error_estimate": np.nan if result.error_estimate is None else result.error_estimate,
         "run": json.dumps(result.to_json(), allow_nan=False),
     }
     return xr.Dataset(variables, coordinates, facts)
@@ -177,11 +157,12 @@ def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_
 def save(result: Result, path: Path) -> Path:
     """Write all tables in the format that the ending of `path` names."""
     check_path("save", path, SAVED, "data")
+    columns = len(result.q) + 2 * len(result.v) + 3 * result.rank.rows + 16
+    require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
     ending = path.suffix.lower()
     if ending == ".nc":
-        dataset = to_xarray(result)
-        return write_whole(path, lambda file: dataset.to_netcdf(file, engine="h5netcdf"))
+        return write_whole(path, netcdf(to_xarray(result)))
     frame = to_dataframe(result)
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
-    return write_whole(path, lambda file: frame.to_csv(file))
+    return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))

@@ -2,7 +2,7 @@
 
 Small violations say nothing about the branch that was taken at a singular position, and there the step size does not
 control the error. So every run that came near one says so; where moreover nothing corrected the positions, the run is
-not ok unless a second run with other steps agrees.
+not ok unless a second run with finer steps agrees.
 """
 
 from __future__ import annotations
@@ -10,25 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
-import numpy as np
-
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
-from symgen.runtime.run import WARN, integrate
+from symgen.runtime.run import WARN
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from symgen.model import CompiledModel
-    from symgen.plan import Plan, Settings
+    from symgen.plan import Plan
+    from symgen.result.agreement import Settled
     from symgen.runtime.run import Outcome, RankEvent
 
-#: Two runs agree when no coordinate differs by more than this, times the largest coordinate (at least 1).
-AGREEMENT = 1e-6
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
 JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3
-#: A rerun with a constant step takes this fraction of it; an adaptive one takes this fraction of the tolerances.
-OTHER_STEP, OTHER_TOLERANCE = 0.9, 0.1
 
 
 @dataclass(frozen=True)
@@ -77,25 +72,26 @@ class Seen(Protocol):
         """Counts of the emitted code by name."""
 
 
-def judge(settings: Settings, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Verdict:
-    """Judge a run by what its loop saw; with ``settings.verify``, run again at another step to settle doubts.
+def judge(plan: Plan, compiled: CompiledModel, outcome: Outcome, second: Settled | None, asked: bool) -> Verdict:
+    """Judge a run by what its loop saw, and by a second run where there was one.
 
     Parameters
     ----------
-    settings, plan : Settings, Plan
-        What was asked for.
-    compiled : CompiledModel
-        Model and method.
-    outcome : Outcome
-        What the loop gave.
+    plan, compiled, outcome : Plan, CompiledModel, Outcome
+        The run.
+    second : Settled or None
+        What a run with finer steps said of it.
+    asked : bool
+        Whether that was asked for, to settle doubts; doubts of its own count in any case.
     """
     verdict = judge_alone(outcome, compiled.law.position_correction)
     verdict = replace(verdict, warnings=(*verdict.warnings, *_velocity_warning(plan, outcome)))
-    if verdict.status == FAILED or not settings.verify:
+    if second is None or verdict.status == FAILED:
         return verdict
-    if not _passed(outcome):
-        return replace(verdict, notes=("nothing to verify: the run met no position near a singular one",))
-    return _verified(verdict, plan, compiled, outcome)
+    verdict = replace(verdict, notes=() if second.note is None else (second.note,))
+    if second.doubt is not None and (asked or verdict.status == OK):
+        return replace(verdict, status=UNVERIFIED, reason=second.doubt)
+    return replace(verdict, status=OK, reason=None) if asked else verdict
 
 
 def judge_alone(outcome: Seen, position_correction: bool) -> Verdict:
@@ -179,34 +175,3 @@ def _when(outcome: Seen) -> str:
         return f": smallest pivot {outcome.smallest_pivot:.2g}"
     event = min(outcome.rank_events, key=lambda e: e.smallest_pivot)
     return f" at t = {event.t_in:.6g} s: smallest pivot {event.smallest_pivot:.2g}"
-
-
-# -- a second opinion --------------------------------------------------------------------------------------------------
-
-
-def _verified(verdict: Verdict, plan: Plan, compiled: CompiledModel, outcome: Outcome) -> Verdict:
-    """Run again with other steps and compare positions at all outputs."""
-    spec = plan.spec
-    if spec.adaptive:
-        spec = replace(spec, rtol=spec.rtol * OTHER_TOLERANCE, atol=spec.atol * OTHER_TOLERANCE)
-        other = f"a rerun with rtol = {spec.rtol:g}"
-    else:
-        assert spec.step is not None, "a constant step is given"
-        spec = replace(spec, step=spec.step * OTHER_STEP)
-        other = f"a rerun with step = {spec.step:g} s"
-    second = integrate(compiled, plan.tableau, outcome.start, spec)
-    if second.code == abi.STOPPED:
-        return replace(verdict, notes=("the verification was interrupted",))
-    if second.code != abi.DONE:
-        return Verdict(UNVERIFIED, f"{other} failed: {second.reason}", verdict.warnings)
-    nq = compiled.info.nq
-    scale = max(1.0, float(np.abs(outcome.states[:, :nq]).max(initial=0.0)))
-    difference = float(np.abs(outcome.states[:, :nq] - second.states[:, :nq]).max(initial=0.0))
-    if not difference <= AGREEMENT * scale:
-        return Verdict(
-            UNVERIFIED,
-            f"passed near a singular position{_when(outcome)}, and {other} differs by {difference:.3g} in a coordinate",
-            verdict.warnings,
-        )
-    note = f"verified: {other} agrees within {difference:.2g} in every coordinate"
-    return Verdict(OK, None, verdict.warnings, (note,))

@@ -9,7 +9,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError, nearest
+from symgen.arguments import shown, whole
+from symgen.errors import InputError, nearest, quoted
 
 Array = NDArray[np.float64]
 
@@ -45,12 +46,15 @@ class Labelled:
         InputError
             If there is no such name; says the nearest one.
         """
+        if not isinstance(name, str):
+            hint = "outputs are rows: table.values[-1] is the last one as an array, table.row(-1) by name"
+            raise InputError("result", "the name of a column, a body or a joint", shown(name), hint)
         if name in self.names:
             return self.values[:, self.names.index(name)]
         group = [i for i, full in enumerate(self.names) if full.startswith(f"{name}.")]
         if not group:
             hint = nearest(name, self.names) if len(self.names) <= 40 or "." in name else ""
-            raise InputError("result", "the name of a column, a body or a joint", f"'{name}'", hint)
+            raise InputError("result", "the name of a column, a body or a joint", quoted(name), hint)
         return self.values[:, group]
 
     def unit(self, name: str) -> str:
@@ -59,9 +63,17 @@ class Labelled:
         return self.units[self.names.index(name)] if name in self.names else ""
 
     def row(self, index: int = -1) -> dict[str, float]:
-        """Return one row by name, the last one unless told; empty where there are no rows."""
-        if not len(self.values):
+        """Return one row by name, the last one unless told; empty where there are no rows.
+
+        Raises
+        ------
+        InputError
+            If there is no such row.
+        """
+        count = len(self.values)
+        if count == 0:
             return {}
+        index = whole("row", index, -count, count - 1)
         return {name: float(x) for name, x in zip(self.names, self.values[index], strict=True)}
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError, nearest
-from symgen.result.export import PLOTTED, check_path, write_whole
+from symgen.files import write_whole
+from symgen.result.export import PLOTTED, check_path
 from symgen.result.labelled import Labelled
 
 if TYPE_CHECKING:
@@ -48,8 +49,9 @@ def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "ener
             raise InputError("plot", "the name of a panel", f"'{name}'", nearest(name, PANELS))
     figure = draw(result, what)
     # no date in the file: the same result gives the same bytes
-    metadata = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(path.suffix.lower(), {})
-    return write_whole(path, lambda file: figure.savefig(file, dpi=150, metadata=metadata))
+    kind = path.suffix.lower().removeprefix(".")
+    metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
+    return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
 
 
 def draw(result: Result, what: tuple[str, ...]) -> Any:

@@ -164,14 +164,14 @@ class Forces:
 
     def _entries(self) -> list[tuple[int, int, Array]]:
         """Return (row, column, values at all outputs) of D's structural entries."""
-        from symgen.runtime.probe import call_measure
+        from symgen.runtime.probe import Ready
 
-        o = self.outcome
+        o, geometry = self.outcome, Ready(self.compiled.model.geometry, abi.MEASURE)
         w = o.w.copy()
         stored = self.compiled.section(w, "jacobian")
         values = np.empty((len(o.times), len(stored)))
         for k, t in enumerate(o.times):
-            call_measure(self.compiled.model.geometry, float(t), o.states[k], o.p, w)
+            geometry(float(t), o.states[k], o.p, w)
             values[k] = stored
         constant = np.ones(len(o.times))
         return [
@@ -182,10 +182,10 @@ class Forces:
 
 def jacobian(outcome: Outcome, t: float, y: Array) -> Array:
     """Return D at one state, shape (m, nv)."""
-    from symgen.runtime.probe import call_measure
+    from symgen.runtime.probe import Ready
 
     w = outcome.w.copy()
-    call_measure(outcome.compiled.model.geometry, float(t), y.copy(), outcome.p, w)
+    Ready(outcome.compiled.model.geometry, abi.MEASURE)(float(t), y.copy(), outcome.p, w)
     return outcome.compiled.jacobian(w)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.errors import InputError, nearest
+from symgen.arguments import path as argument_path
+from symgen.arguments import shown, words
+from symgen.errors import InputError, nearest, quoted
 from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
@@ -37,6 +39,14 @@ OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
 INTERRUPTED = "interrupted"
 
 
+#: What a copy does without, and what is worked out before.
+_OF_THE_RUN = ("outcome", "forces")
+_DERIVED = (
+    *("a", "joint_coordinates", "violations", "lam", "reactions", "non_unique_reactions", "shape"),
+    "_final_multipliers",
+)
+
+
 @dataclass(frozen=True)
 class Rank:
     """Rank of D at the start, and rows that were left out because they repeat another row for all q."""
@@ -58,7 +68,7 @@ class Seconds:
     run_spread: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """What a run gave; arrays have one row an output.
 
@@ -94,6 +104,14 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
+    error_estimate : float or None
+        About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
+        where there was none.
+
+    Notes
+    -----
+    A result that was pickled or copied holds all of its tables, worked out when that was done, but neither the code
+    that ran nor `outcome` and `forces`, which belong to the process of the run.
     """
 
     mechanism: str
@@ -127,8 +145,24 @@ class Result:
     position_violation_max: float
     velocity_violation_max: float
     energy_drift_max: float
-    outcome: Outcome = field(repr=False)
-    forces: Forces = field(repr=False)
+    error_estimate: float | None
+    outcome: Outcome
+    forces: Forces
+
+    # -- copies and other processes ------------------------------------------------------------------------------------
+
+    def __getstate__(self) -> dict[str, Any]:
+        for name in _DERIVED:
+            getattr(self, name)  # kept by the instance
+        return {name: value for name, value in self.__dict__.items() if name not in _OF_THE_RUN}
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name in _OF_THE_RUN and "mechanism" in self.__dict__:
+                got = "one that was pickled or copied: it has its tables only"
+                raise InputError(f"result.{name}", "a result of this process", got)
+            raise AttributeError(f"'Result' object has no attribute '{name}'")
 
     # -- derived, when first asked for ---------------------------------------------------------------------------------
 
@@ -174,12 +208,19 @@ class Result:
 
     def reaction(self, joint: str) -> Array:
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
+        known = list(dict.fromkeys(name.rpartition(".")[0] for name in self.reactions.names))
+        if joint not in known:
+            raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), known))
         return self.reactions[joint]
 
-    @property
+    @cached_property
     def non_unique_reactions(self) -> tuple[str, ...]:
         """Joints whose reactions the equations of motion do not determine, because constraints are redundant."""
         return self.forces.non_unique
+
+    @cached_property
+    def _final_multipliers(self) -> dict[str, float]:
+        return self.forces.final()
 
     @property
     def interrupted(self) -> bool:
@@ -215,6 +256,9 @@ class Result:
 
         Multipliers of a joint that is called like a body are hidden by the body's coordinates here; they are in `lam`.
         """
+        if not isinstance(name, str):
+            hint = "outputs are rows: result.q.values[-1] holds the last coordinates, result.q.row(-1) by name"
+            raise InputError("result", "the name of a column", shown(name), hint)
         if name == "t":
             return self.t
         known: list[str] = []
@@ -224,11 +268,11 @@ class Result:
             if name in found:
                 return found[name]
             known += found.names
-        raise InputError("result", "the name of a column", f"'{name}'", nearest(name, known))
+        raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
-    @property
+    @cached_property
     def shape(self) -> str:
         """Return the shape of the code that ran: ``straight`` or ``looped``."""
         return self.outcome.compiled.shape
@@ -264,6 +308,7 @@ class Result:
                 "position_violation_max": self.position_violation_max,
                 "velocity_violation_max": self.velocity_violation_max,
                 "energy_drift_max": self.energy_drift_max,
+                "error_estimate": self.error_estimate,
                 "rank": {
                     "rows": self.rank.rows,
                     "rank": self.rank.rank,
@@ -278,7 +323,7 @@ class Result:
                     "t": float(self.t[last]) if last >= 0 else None,
                     "q": self.q.row(),
                     "v": self.v.row(),
-                    "lam": self.forces.final(),
+                    "lam": self._final_multipliers,
                 },
             }
         )
@@ -318,7 +363,7 @@ class Result:
         """
         from symgen.result.export import save
 
-        return save(self, Path(path))
+        return save(self, argument_path("save", path))
 
     def plot(self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.
@@ -332,7 +377,12 @@ class Result:
         """
         from symgen.result.plots import plot
 
-        return plot(self, Path(path), what)
+        return plot(self, argument_path("plot", path), words("plot", what))
+
+    def __repr__(self) -> str:
+        from symgen.result.summary import status_in_words
+
+        return f"<Result of {self.mechanism}, {self.method}, {self.integrator}: {status_in_words(self)}>"
 
     def _repr_html_(self) -> str:
         from symgen.result.summary import html

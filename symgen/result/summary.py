@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from symgen.result.result import FAILED
+
 if TYPE_CHECKING:
     from symgen.result.result import Result
 
@@ -19,7 +21,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
     found = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
-        ("status", result.status + (f": {result.reason}" if result.reason else "")),
+        ("status", status_in_words(result)),
         ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side"),
         ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{made}"),
         ("violations", f"position {result.position_violation_max:.3g}, velocity {result.velocity_violation_max:.3g}"),
@@ -31,6 +33,22 @@ def lines(result: Result) -> list[tuple[str, str]]:
     if len(result.t):
         found.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
     return found
+
+
+def status_in_words(result: Result) -> str:
+    """Return status, reason, and how the error was estimated: ``ok (error about 3.2e-07 m, from ...)``."""
+    said = result.status + (f": {result.reason}" if result.reason else "")
+    if result.status == FAILED:
+        return said
+    if result.rtol is None:
+        local, other = "", "half the step"
+    else:
+        local, other = f"local errors within rtol {result.rtol:g}; ", "other tolerances"
+    if result.error_estimate is not None:
+        return f"{said} ({local}error about {result.error_estimate:.2g} m, from a run with {other})"
+    if not local:
+        return f"{said} (error not estimated: --verify runs again with half the step)"
+    return f"{said} ({local}global error not estimated: --verify runs again with a tenth of it)"
 
 
 def html(result: Result) -> str:

@@ -26,8 +26,7 @@ MOVE = types.FunctionType(types.int64(_A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
 
-# -- positions in the status section at the beginning of w, and in iw
-# ---------------------------------------------------
+# -- positions in the status section at the beginning of w, and in iw --------------------------------------------------
 PHI = STATUS.index("position_violation")
 DRIFT = STATUS.index("velocity_violation")
 KINETIC = STATUS.index("kinetic")
@@ -36,8 +35,13 @@ PIVOT = STATUS.index("smallest_pivot")
 RANK = STATUS.index("rank")
 LENGTH = STATUS.index("length_scale")
 SPEED = STATUS.index("speed_scale")
+PHI_MEASURE = STATUS.index("position_measure")
+DRIFT_MEASURE = STATUS.index("velocity_measure")
+SHORTEST_ROW = STATUS.index("shortest_row")
+MEAN_MASS = STATUS.index("mean_mass")
 STEP_STATUS = STATUS.index("step")
 POWER = STATUS.index("power")
+N_STATUS = RANK + 1  # what an output keeps of the status
 WINDING = len(STATUS)  # where the section of angles begins that count turns
 PROBING = COUNTERS.index("probing")
 LIGHT = COUNTERS.index("light")
@@ -46,15 +50,43 @@ SUSPECTS = COUNTERS.index("suspects")
 FAILURES = COUNTERS.index("failures")
 N_COUNTERS = len(COUNTERS)
 
-# -- control: integers shared with the thread that watches a run
-# ---------------------------------------------------------
-STOP, STEPS, REJECTED, EVALUATIONS, OUTPUTS, EVENTS, IN_ZONE, LAST_RANK, JACOBIANS, NEWTON_ITERATIONS = range(10)
-N_CONTROL = 10
+# -- control: integers that a run keeps, shared with the thread that watches it ----------------------------------------
+(
+    STOP,  # raised from outside: the run is to end
+    STEPS,
+    REJECTED,
+    EVALUATIONS,
+    OUTPUTS,
+    EVENTS,
+    IN_ZONE,
+    LAST_RANK,
+    JACOBIANS,
+    NEWTON_ITERATIONS,
+    BEGUN,  # 1 once the first state is accepted
+    INDEX,  # steps of the grid that began at `ORIGIN`
+    REFUSED,  # 1 where the last attempt was
+    BARRED,  # 1 where a zone is not to be crossed in one step: an attempt to do so has failed
+    KNOWN,  # 1 where what the scheme keeps of the beginning of the step is that of the state
+    POINTS,  # past points of a multistep scheme
+    ORDER,  # of the error estimate, plus one
+    MARKED,  # attempts at `MARK`
+    MASKED,  # rows that are left out because they depend on others for ever
+) = range(19)
+N_CONTROL = 19
 
-# -- gauges: floating-point numbers a run keeps
-# --------------------------------------------------------------------------
+# -- clock: floating-point numbers that a run keeps of its time and steps ----------------------------------------------
 (
     TIME,  # how far the run is
+    ORIGIN,  # where the grid of constant steps begins
+    NEXT,  # step to try next where steps vary; 0: not chosen yet
+    STEP,  # last accepted step
+    ALLOWED,  # by how much its error estimate would have let it grow; 0 where nothing is known of it
+    MARK,  # time from which on progress is judged
+) = range(6)
+N_CLOCK = 6
+
+# -- gauges: floating-point numbers that a run keeps of its states -----------------------------------------------------
+(
     MAX_PHI,  # largest |Phi| over accepted steps and outputs
     MAX_DRIFT,  # largest |D v - nu|
     MAX_ENERGY,  # largest |E - E0 - W|
@@ -65,24 +97,28 @@ N_CONTROL = 10
     LIMIT_ENERGY,  # fraction of the energy scale
     WARN_PIVOT,
     SMALLEST_PIVOT,
-    STEP,  # last step of an adaptive run
     POTENTIAL_START,
     ENERGY_ENTRY,  # E - E0 - W where the run entered a warn zone
     MAX_ENERGY_JUMP,  # largest change of it over a passage
     LAST_TIME,  # time, root of the smallest pivot, and how fast that root fell, at the accepted state before
     LAST_SINE,
     FALL,
-) = range(18)
-N_GAUGES = 18
+    LAST_SHORT,  # root of the shortest row at the accepted state before, and how fast it fell
+    SHORT_FALL,
+    CHOSEN,  # largest value of the smallest pivot since rows were chosen that stand for all
+) = range(19)
+N_GAUGES = 19
 
 #: Columns of the table of rank events.
 EVENT_IN, EVENT_OUT, EVENT_RANK, EVENT_PIVOT = range(4)
 N_EVENT = 4
 MAX_EVENTS = 1000
 
-# -- how a loop ended
-# -----------------------------------------------------------------------------------------------------
-DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP, NEWTON = range(9)
+# -- how a loop ended --------------------------------------------------------------------------------------------------
+DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP, NEWTON, NO_PROGRESS, VANISHED = range(11)
+#: A loop that can go on when it is entered again: after so many steps, once there is more room for a matrix, and once
+#: other rows stand for all; and a run in a lane that is left to the loop over single runs.
+PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
 
 REASONS = {
     DONE: "",
@@ -94,4 +130,6 @@ REASONS = {
     CORRECTION: "the correction of positions did not converge",
     NEWTON: "Newton's iteration of an implicit stage did not converge",
     TINY_STEP: "the step size fell below what the time can resolve",
+    NO_PROGRESS: "the run makes no progress",
+    VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

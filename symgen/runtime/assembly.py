@@ -1,31 +1,76 @@
-"""Consistent starts: positions closed by minimum-norm Newton, velocities completed by least squares."""
+"""Consistent starts: positions closed by shortest changes, velocities completed by least squares.
+
+`Assembly` says what the one start (`symgen.runtime.starting`) has to know of a compiled model; `assemble` makes the
+start of a single run, `Assembly.close` those of the rows of a sweep.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError, InputError
-from symgen.runtime.abi import N_COUNTERS
-from symgen.runtime.large import SparseRows, is_large, minimum_norm_step, tangent_direction
-from symgen.runtime.probe import call_measure, call_rhs
-from symgen.runtime.turns import choose_turns, follow_angles
-from symgen.store.modules import interpreted
+from symgen.ir.numerics import SKIP
+from symgen.runtime import abi, decisions
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.exact import compiled_form, plain_form
+from symgen.runtime.least_norm import dense_change, sparse_change
+from symgen.runtime.manifold import stay
+from symgen.runtime.probe import Ready
+from symgen.runtime.start_records import Asked, Instant, Layout, new_work
+from symgen.runtime.starting import close_row, close_rows, follow_nothing, prepare_rows
+from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.model import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
-#: A pivot of D D^T (rows scaled) below this belongs to a dependent row; as in the emitted code.
-SKIP = 1e-12
-#: Singular values of D with scaled rows below this count as zero when the start is judged: the root of SKIP.
-RANK_CUTOFF = 1e-6
-_ITERATIONS = 60
+_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
+_WHERE, _SIZE, _LIGHT = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size"), e.SUMMARY.index("light")
+
+#: Changed coordinates that a note tells one by one.
+_TOLD = 6
+
+
+@dataclass(frozen=True)
+class Change:
+    """A coordinate or given velocity that was changed to make a start consistent.
+
+    Attributes
+    ----------
+    name, unit : str
+        What it is.
+    before, after : float
+        As described, and at the start.
+    """
+
+    name: str
+    unit: str
+    before: float
+    after: float
+
+
+@dataclass(frozen=True)
+class Held:
+    """What a start keeps at values of its own while everything else gives way.
+
+    Attributes
+    ----------
+    coordinates : mapping of int to float
+        Values by index in q, Euler parameters excepted. They are reached in small steps from the described start.
+    velocities : mapping of int to float
+        Values by index in v. They are not projected where they contradict other given ones.
+    """
+
+    coordinates: Mapping[int, float] = field(default_factory=dict)
+    velocities: Mapping[int, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -41,9 +86,15 @@ class Start:
     rank : int
         Rank of D at the start.
     redundant_rows : tuple of str
-        Rows that depend on others at the start.
+        Rows that depend on others at the start and near it.
     notes : tuple of str
         What was changed to make the start consistent, one sentence each.
+    changes : tuple of Change
+        The same as data, positions before velocities.
+    light : bool
+        Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where nobody asked.
+    warnings : tuple of str
+        What was changed by so much that another motion may have been meant.
     """
 
     y: Array
@@ -52,12 +103,212 @@ class Start:
     rank: int
     redundant_rows: tuple[str, ...]
     notes: tuple[str, ...]
+    changes: tuple[Change, ...] = ()
+    light: bool = False
+    warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """The one start of a compiled model.
+
+    Attributes
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    layout : Layout
+        See `symgen.runtime.start_records`.
+    strict : bool
+        Whether a start that has to be changed is refused.
+    """
+
+    compiled: CompiledModel
+    layout: Layout
+    strict: bool
+
+    @classmethod
+    def of(
+        cls,
+        compiled: CompiledModel,
+        held: Sequence[int] = (),
+        kept: Sequence[int] = (),
+        strict: bool = False,
+        ask_light: bool = False,
+    ) -> Assembly:
+        """Return the start of a model.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        held, kept : sequence of int
+            Coordinates and velocities that are held.
+        strict, ask_light : bool
+            Whether a start that has to be changed is refused; whether it shall be said if bodies are too light for the
+            law's solver.
+        """
+        info, joints = compiled.info, joints_of(compiled.info)
+        sparse = compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE
+        numbers = (
+            *(0.0, info.nq, info.nv, info.m, info.windings),
+            *(int(sparse), int(ask_light and hasattr(compiled.law_module, "confirm"))),
+            *(info.sections[name][0] for name in Layout._fields[7:16]),
+        )
+        arrays = (
+            *entries_of(info),
+            np.isin(np.arange(info.nv), info.massless).astype(np.int64),
+            np.isin(np.arange(info.nv), kept).astype(np.int64),
+            np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
+            np.array([(joints.index(row.joint), row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
+            np.array(_spins(info), dtype=np.int64),
+            lengths_of(info),
+        )
+        layout = Layout._make((*numbers, *arrays))
+        return cls(compiled, layout, strict)
+
+    def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
+        """Make the selected rows consistent, in compiled code.
+
+        Parameters
+        ----------
+        now, asked : Instant, Asked
+            Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
+        selected, control : Array of int
+            Rows to work on; what the watching thread shares.
+
+        Returns
+        -------
+        int
+            Rows that were worked on.
+        """
+        (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
+        scratch = self.compiled.scratch()
+        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
+        geometry, measure, move, _, *others = self._functions
+        flat = Asked(*(array.ravel() for array in asked))
+        work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
+        functions = (compiled_form(f) for f in (geometry, measure, move, *others))
+        described = now.y.copy() if self.strict else now.y
+        done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
+        self._judge(now.w, asked.summary, described)
+        return done
+
+    def close_one(self, now: Instant, asked: Asked) -> int:
+        """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
+        model, law, functions = self.compiled.model, self.compiled.law_module, self._functions
+        described = now.y.copy()
+        with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
+            try:
+                for module in (model, law):
+                    Ready(module.prepare, e.PREPARE)(now.p)
+                Ready(model.masses, abi.MOVE)(now.p, now.w)
+            except (ArithmeticError, ValueError):  # and errors where nothing is compiled
+                now.p[:] = np.nan
+            m, n, form = self.layout.m, self.layout.nv, compiled_form
+            if not self.layout.sparse and m * n * min(m, n) <= decisions.LARGEST_INTERPRETED:
+                geometry, measure, move, spread, solve, turns, rhs = (plain_form(f) for f in functions)
+                measures = Ready(geometry, abi.MEASURE), Ready(measure, abi.MEASURE)
+                functions = (*measures, Ready(move, abi.MOVE), spread, solve, turns, Ready(rhs, abi.RHS))
+                form = plain_form
+            work = new_work(self.layout, len(now.w))
+            try:
+                form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
+            except (ArithmeticError, ValueError):
+                asked.summary[_START] = e.UNDEFINED
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
+        return int(asked.summary[_START])
+
+    def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
+        """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
+        info = self.compiled.info
+        for r in np.flatnonzero(summaries[:, _START] == e.OPEN):
+            joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
+            squares = np.bincount([joints.index(row.joint) for row in info.rows], residual**2)
+            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(squares), np.sqrt(squares.max())
+        if self.strict:
+            good = summaries[:, _START] == e.ASSEMBLED
+            moved = good & (summaries[:, _MOVED] > 0.0) & (not len(self.layout.held))
+            summaries[good & (summaries[:, _VELOCITIES] == 1.0), _START] = e.PROJECTED
+            summaries[moved, _START] = e.MOVED
+
+    @property
+    def _functions(self) -> tuple[Any, ...]:
+        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs."""
+        model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
+        return (
+            model.geometry,
+            model.measure if layout.windings else follow_nothing,
+            model.move if layout.nq != layout.nv else stay,
+            model.spread if layout.sparse else stay,
+            sparse_change if layout.sparse else dense_change,
+            choose_turns if layout.windings else choose_no_turns,
+            law.rhs,
+        )
+
+
+def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
+    """Return what coordinates and velocities are compared with: the scales that a run settles at its beginning.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    w : Array
+        Scratch that a start has left.
+    until : float
+        End of the run [s].
+
+    Returns
+    -------
+    Array, shape (nq + nv,)
+        The mechanism's length for lengths, 1 for angles and numbers, its speed, and that over a body's length.
+    """
+    length = float(w[abi.LENGTH])
+    speed = max(float(w[abi.SPEED]), length / until)
+    positions = np.where(lengths_of(compiled.info) == 1.0, length, 1.0)
+    return np.concatenate([positions, speed * np.sqrt(compiled.section(w, "gauge"))])
+
+
+def entries_of(info: ModelInfo) -> tuple[Integers, Array]:
+    """Return (row, column, slot or -1) of D's structural entries, flat, and their values where they have no slot."""
+    places = [(row, column, -1 if slot is None else slot) for row, column, _, slot in info.jacobian]
+    constants = [constant or 0.0 for _, _, constant, _ in info.jacobian]
+    return np.array(places, dtype=np.int64).ravel(), np.array(constants, dtype=np.float64)
+
+
+def lengths_of(info: ModelInfo) -> Array:
+    """Return 1 for coordinates that are lengths, else 0."""
+    return np.array([quantity.unit == "m" for quantity in info.coordinates], dtype=np.float64)
+
+
+def _spins(info: ModelInfo) -> list[int]:
+    """Return the body's first angular velocity for each angular velocity, -1 for others."""
+    found = [j if quantity.unit == "rad/s" else -1 for j, quantity in enumerate(info.velocities)]
+    for _, first in info.spins:
+        found[first : first + 3] = [first] * 3
+    return found
+
+
+def joints_of(info: ModelInfo) -> list[str]:
+    """Return the joints that have rows, in their order."""
+    return list(dict.fromkeys(row.joint for row in info.rows))
+
+
+def velocity_of(coordinate: int, info: ModelInfo) -> int:
+    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
+    return coordinate - sum(1 for first, _ in info.spins if first < coordinate)
 
 
 def assemble(
-    compiled: CompiledModel, q: Array, v: Sequence[float | None], p: Array, t0: float = 0.0, strict: bool = False
+    compiled: CompiledModel,
+    q: Array,
+    v: Sequence[float | None],
+    p: Array,
+    strict: bool = False,
+    held: Held | None = None,
+    ask_light: bool = False,
 ) -> Start:
-    """Close the mechanism from an approximate start.
+    """Return the consistent start of a single run.
 
     Positions: ``dv = -D^+ Phi``, ``q <- q + N dv`` with the Moore-Penrose inverse until ``|Phi|`` is at rounding.
     Velocities: the given ones are kept and the others are the smallest that satisfy ``D v = nu``; where the given ones
@@ -73,219 +324,151 @@ def assemble(
         Given velocities; None where they are to be completed.
     p : Array
         Parameters, not yet prepared.
-    t0 : float
-        Time of the start [s].
     strict : bool
-        Refuse a start that is not consistent instead of projecting it.
+        Refuse a start that is not consistent instead of changing it.
+    held : Held, optional
+        Coordinates and velocities that have values of their own.
+    ask_light : bool
+        Whether the start shall say if bodies are too light for the law's solver.
 
     Raises
     ------
     AssemblyError
-        If the mechanism stays open; says at which joint and by how much.
+        If the mechanism stays open, or a row has no derivative at the described start; says at which joint.
     InputError
-        If `strict` and the start had to be changed.
+        If `strict` and the start had to be changed; if a mass is not positive, a formula is not finite, or nothing
+        determines the accelerations of a massless body.
     """
-    info = compiled.info
-    w = compiled.scratch()
-    not_finite = "parameters", "values for which every formula is finite", "one that divides by 0 or overflows"
-    try:
-        # interpreted functions warn or raise where compiled ones give inf or nan
-        with np.errstate(all="ignore"):
-            for function in (compiled.model.prepare, compiled.law_module.prepare):
-                interpreted(function)(p)
-            interpreted(compiled.model.masses)(p, w)
-    except (ArithmeticError, ValueError):
-        raise InputError(*not_finite) from None
-    masses = compiled.section(w, "mass").copy()
-    masses[list(info.massless)] = 1.0  # described as massless; a mass that became 0 is another matter
-    if not np.all(masses > 0.0):
-        name = info.velocities[int(np.argmin(masses))].name.split(".")[0]
-        raise InputError(f"parameters: mass or inertia of {name}", "a value above 0", f"{float(masses.min()):g}")
-    if not np.all(np.isfinite(p)):
-        raise InputError(*not_finite)
-    y = np.zeros(info.ny)
+    info, fixed = compiled.info, held or Held()
+    assembly = Assembly.of(compiled, tuple(fixed.coordinates), tuple(fixed.velocities), strict, ask_light)
+    described = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
+    described[list(fixed.velocities)] = list(fixed.velocities.values())
+    y, w = np.zeros(info.ny), compiled.scratch()
     y[: info.nq] = q
-    notes: list[str] = []
-
-    choose_turns(compiled, t0, y, p, w)
-    moved = _close(compiled, t0, y, p, w)
-    if moved > 1e-9 * max(1.0, float(np.abs(q).max(initial=0.0))):
-        notes.append(f"initial positions were closed by minimum-norm Newton, moving a coordinate by up to {moved:.3g}")
-    large = is_large(compiled)
-    d = None if large else compiled.jacobian(w)
-    changed = _complete_velocities(compiled, y, v, d, p, w)
-    if changed:
-        notes.append(changed)
-    if notes and strict:
-        raise InputError("initial state", "a consistent start (--strict)", f"{notes[0]}")
-
-    lasting = _lasting(compiled, t0, y, p, w)
-    compiled.section(w, "mask")[lasting] = np.inf
-    redundant = tuple(info.rows[i].name for i in np.flatnonzero(lasting))
-    status = compiled.section(w, "status")
-    status[6] = max(1.0, float(np.abs(y[: info.nq]).max(initial=0.0)))
-    status[7] = max(1.0, float(np.abs(y[info.nq : -1]).max(initial=0.0)))
-    rank = int(np.sum(compiled.section(w, "pivot") >= SKIP)) if d is None else _rank(d)
-    return Start(y, p, w, rank, redundant, tuple(notes))
+    targets = np.array(list(fixed.coordinates.values()), dtype=np.float64)
+    asked = Asked(described, targets, np.zeros(e.N_SUMMARY))
+    if assembly.close_one(Instant(y, p, w), asked) != e.ASSEMBLED:
+        raise _without_derivative(compiled, q, p) or refusal(asked.summary, info)
+    changes = _changes(info, np.concatenate([q, described]), y, state_scales(compiled, w, math.inf))
+    moved = None if fixed.coordinates else asked.summary[_MOVED]
+    return Start(
+        *(y, p, w, int(np.sum(compiled.section(w, "pivot") >= SKIP))),
+        redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
+        notes=_notes(moved, asked.summary, changes, info),
+        changes=changes,
+        light=bool(asked.summary[_LIGHT]),
+        warnings=() if moved is None else _warnings(changes, info, float(w[abi.LENGTH])),
+    )
 
 
-def _lasting(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> NDArray[np.bool_]:
-    """Return which rows depend on others at the start and at closed positions near it: not only at a singular one."""
-    nq = compiled.info.nq
-    lasting = np.asarray(compiled.section(w, "pivot") < SKIP)
-    if not lasting.any():
-        return lasting
-    large, free = is_large(compiled), np.zeros((0, 0))
-    if not large:
-        _, sizes, rows = np.linalg.svd(_scaled(compiled.jacobian(w)))
-        free = rows[int(np.sum(sizes > RANK_CUTOFF)) :]
-    for k in range(3 if large or len(free) else 0):
-        if large:
-            direction = tangent_direction(compiled, p, w.copy(), k)
-        else:
-            direction = np.cos((k + 1.0) * np.arange(1, len(free) + 1)) @ free
-        probe, probed = y.copy(), w.copy()
-        size = 0.03 * max(1.0, float(np.abs(y[:nq]).max()))
-        compiled.move(probe, size * direction / np.abs(direction).max(), probed)
-        follow_angles(compiled, t0, probe, p, probed)
+def _without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyError | None:
+    """Return which joint has no derivative at the described start, where that is why there is none; p is prepared."""
+    info = compiled.info
+    y, w = np.zeros(info.ny), compiled.scratch()
+    y[: info.nq] = q
+    if not np.all(np.isfinite(p)):
+        return None
+    with np.errstate(all="ignore"):
         try:
-            _close(compiled, t0, probe, p, probed)
-        except AssemblyError:
-            continue
-        lasting = lasting & (compiled.section(probed, "pivot") < SKIP)
-    return lasting
+            Ready(compiled.model.masses, abi.MOVE)(p, w)
+            Ready(compiled.model.geometry, abi.MEASURE)(0.0, y, p, w)
+        except (ArithmeticError, ValueError):  # where nothing is compiled
+            return None
+    lengths = np.abs(compiled.jacobian(w)).sum(axis=1)
+    open_rows = ~(np.abs(compiled.section(w, "residual")) <= decisions.MOVED)
+    for row in np.flatnonzero(~np.isfinite(lengths) | (open_rows & (lengths == 0.0))):
+        return AssemblyError(
+            f"{info.name}: joint '{info.rows[row].joint}' cannot be closed from this start: its row "
+            f"{info.rows[row].name} has no derivative there, as where points meet that it keeps apart or a disc lies "
+            "flat on its plane; describe another start"
+        )
+    return None
 
 
-def _scaled(d: Array) -> Array:
-    norms = np.linalg.norm(d, axis=1, keepdims=True)
-    return np.asarray(d / np.where(norms > 0.0, norms, 1.0))
-
-
-def _rank(d: Array) -> int:
-    if d.size == 0:
-        return 0
-    return int(np.sum(np.linalg.svd(_scaled(d), compute_uv=False) > RANK_CUTOFF))
-
-
-def _close(compiled: CompiledModel, t0: float, y: Array, p: Array, w: Array) -> float:
-    """Close positions in place; return by how much a coordinate moved."""
-    info = compiled.info
-    first = y[: info.nq].copy()
-    phi = compiled.section(w, "residual")
-    best, stalled = np.inf, 0
-    for _ in range(_ITERATIONS):
-        call_measure(compiled.model.geometry, t0, y, p, w)
-        size = float(np.linalg.norm(phi))
-        if not np.isfinite(size):
-            break
-        floor = 1e-15 * max(1.0, float(np.abs(y).max())) * max(1, info.m)
-        stalled = stalled + 1 if size > 0.5 * best else 0
-        best = min(best, size)
-        if size <= floor or (stalled >= 3 and size < 1e-9 * max(1.0, float(np.abs(y).max()))):
-            return float(np.abs(y[: info.nq] - first).max(initial=0.0))
-        if stalled >= 15:
-            break
-        step = _newton_step(compiled, p, w, phi)
-        # far from closed, a full Newton step can turn bodies by several radians
-        compiled.move(y, step * min(1.0, 1.0 / max(float(np.abs(step).max(initial=0.0)), 1e-300)), w)
-        follow_angles(compiled, t0, y, p, w)
-    open_by: dict[str, float] = {}
-    for row, residual in zip(info.rows, phi, strict=True):
-        open_by[row.joint] = float(np.hypot(open_by.get(row.joint, 0.0), residual))
-    worst = max(open_by, key=lambda joint: open_by[joint] if np.isfinite(open_by[joint]) else np.inf)
-    raise AssemblyError(stays_open(info.name, worst, open_by[worst]))
-
-
-def stays_open(mechanism: str, joint: str, size: float) -> str:
-    """Return the sentence for positions that cannot be closed."""
-    return (
-        f"{mechanism}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
-        f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
+def _changes(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[Change, ...]:
+    """Return what differs noticeably from what was described; velocities that were not given are nan there."""
+    quantities = (*info.coordinates, *info.velocities)
+    return tuple(
+        Change(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
+        for i in np.flatnonzero(np.abs(y[: len(scales)] - described) > decisions.MOVED * scales)
     )
 
 
-def no_velocities(mechanism: str) -> str:
-    """Return the sentence for velocities that cannot be completed."""
-    return f"{mechanism}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+def _warnings(changes: Sequence[Change], info: ModelInfo, length: float) -> tuple[str, ...]:
+    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far."""
+    names = {quantity.name for quantity in info.coordinates}
+    limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
+    far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
+    if not far:
+        return ()
+    told = "; ".join(f"{c.name} from {c.before:.6g} to {c.after:.6g} {c.unit}" for c in far[:_TOLD])
+    more = f"; and {len(far) - _TOLD} more" if len(far) > _TOLD else ""
+    return (f"closing the initial positions moved bodies far from where they are described: {told}{more}",)
 
 
-def _newton_step(compiled: CompiledModel, p: Array, w: Array, phi: Array) -> Array:
-    """Return -D^+ Phi."""
-    if is_large(compiled):
-        return minimum_norm_step(compiled, p, w, phi)
-    return np.asarray(np.linalg.lstsq(compiled.jacobian(w), -phi, rcond=RANK_CUTOFF)[0])
+def _notes(moved: float | None, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
+    """Return what was changed, one sentence each."""
+    notes = list[str]()
+    names = {quantity.name for quantity in info.coordinates}
+    positions = [change for change in changes if change.name in names]
+    if moved is not None and positions:
+        told = "; ".join(
+            f"{change.name} from {change.before:.6g} to {change.after:.6g} {change.unit}"
+            for change in positions[:_TOLD]
+        )
+        more = f"; and {len(positions) - _TOLD} more" if len(positions) > _TOLD else ""
+        notes.append(f"initial positions were closed by the shortest changes: {told}{more}")
+    if summary[_VELOCITIES]:
+        largest = max(
+            (change for change in changes if change.name not in names),
+            key=lambda change: abs(change.after - change.before),
+            default=None,
+        )
+        what = (
+            ""
+            if largest is None
+            else (f"; {largest.name} changed from {largest.before:.6g} to {largest.after:.6g} {largest.unit}")
+        )
+        notes.append(
+            f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix{what}"
+        )
+    return tuple(notes)
 
 
-def _complete_velocities(
-    compiled: CompiledModel, y: Array, v: Sequence[float | None], d: Array | None, p: Array, w: Array
-) -> str:
-    """Set the velocities in place; return a sentence if given ones had to be changed."""
-    info = compiled.info
-    velocity = y[info.nq : info.nq + info.nv]
-    given = np.array([x is not None for x in v], dtype=bool)
-    velocity[:] = [0.0 if x is None else x for x in v]
-    nu = compiled.section(w, "nu")
-    if info.m == 0:
-        return ""
-    sparse = SparseRows(compiled, w) if d is None else None
-
-    def rest() -> Array:
-        if sparse is not None:
-            return np.asarray(nu - sparse.times(velocity))
-        assert d is not None, "either form of D is there"
-        return np.asarray(nu - d @ velocity)
-
-    def smallest(residual: Array, scale: Array) -> Array:
-        """Return the change with D change = residual whose change / scale is smallest."""
-        if sparse is not None:
-            return sparse.least_norm(residual, scale)
-        used = scale > 0.0
-        change = np.zeros(info.nv)
-        assert d is not None, "either form of D is there"
-        change[used] = scale[used] * np.linalg.lstsq(d[:, used] * scale[used], residual, rcond=RANK_CUTOFF)[0]
-        return change
-
-    residual = rest()
-    scale = max(1.0, float(np.abs(velocity).max()))
-    if not given.all():
-        velocity += smallest(residual, np.where(given, 0.0, 1.0))
-        residual = rest()
-    if np.linalg.norm(residual) <= 1e-9 * scale:
-        # what is left is rounding: take it out without touching the given values noticeably
-        if sparse is None:
-            velocity += smallest(residual, np.ones(info.nv))
-        else:
-            velocity += minimum_norm_step(compiled, p, w, -residual)
-        return ""
-    before = velocity.copy()
-    for _ in range(2):
-        # massless bodies give way first
-        masses = compiled.section(w, "mass")
-        velocity += smallest(rest(), 1.0 / np.sqrt(np.maximum(masses, 1e-12 * masses.max())))
-    if np.linalg.norm(rest()) > 1e-8 * scale:
-        raise AssemblyError(no_velocities(info.name))
-    k = int(np.argmax(np.abs(velocity - before)))
-    name = info.velocities[k]
-    return (
-        f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix; "
-        f"{name.name} changed from {before[k]:.6g} to {velocity[k]:.6g} {name.unit}"
-    )
-
-
-def has_light_bodies(compiled: CompiledModel, start: Start) -> bool:
-    """Whether a pivot of S is suspiciously small at the start although D D^T finds no row dependent.
+def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
+    """Return why a run has no start.
 
     Parameters
     ----------
-    compiled : CompiledModel
-        A method that eliminates v'.
-    start : Start
-        Its consistent start; not changed.
+    summary : Array, shape (N_SUMMARY,)
+        What the start left; see `symgen.runtime.ensemble_abi`.
+    info : ModelInfo
+        The model.
     """
-    if not hasattr(compiled.law_module, "confirm"):
-        return False
-    y, w, iw = start.y.copy(), start.w.copy(), np.zeros(N_COUNTERS, dtype=np.int64)
-    if call_rhs(compiled.law_module.rhs, 0.0, y, start.p, w, iw, np.zeros_like(y)) == 0:
-        return False
-    call_measure(compiled.model.geometry, 0.0, y, start.p, w)
-    return bool(np.all(compiled.section(w, "pivot")[compiled.section(w, "mask") == 0.0] >= SKIP))
+    code, where, size = int(summary[_START]), int(summary[_WHERE]), float(summary[_SIZE])
+    if code == e.UNDEFINED:
+        return InputError("parameters or start", "values for which every formula is finite", "others")
+    if code == e.NO_MASS:
+        body = info.velocities[where].name.split(".")[0]
+        return InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}")
+    if code == e.UNDETERMINED:
+        body, _, name = info.velocities[where].name.partition(".")
+        return InputError(
+            f"body '{body}'",
+            "a mass, or joints that hold it",
+            f"a massless body that is free to move in {name}: nothing determines its acceleration",
+        )
+    if code == e.OPEN:
+        joint = joints_of(info)[where]
+        return AssemblyError(
+            f"{info.name}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
+            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
+        )
+    if code == e.CONTRADICTION:
+        return AssemblyError(
+            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+        )
+    found = "given velocities contradicted by the constraints"
+    if code == e.MOVED:
+        found = f"positions that closing moves by up to {float(summary[_MOVED]):.3g}"
+    return InputError("initial state", "a consistent start (--strict)", found)

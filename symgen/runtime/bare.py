@@ -16,16 +16,25 @@ from numba.np.arrayobj import populate_array
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
-def _bare(typing_context: Any, array: Any) -> Any:
-    """Return the same array without a reference to the object that owns its memory."""
+def _bare(typing_context: Any, value: Any) -> Any:
+    """Return the same array, or record of arrays and numbers, without references to objects that own memory."""
 
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        view = context.make_array(signature.args[0])(context, builder, args[0])
-        view.meminfo = view.meminfo.type(None)
-        view.parent = view.parent.type(None)
-        return view._getvalue()
+        return _stripped(context, builder, signature.args[0], args[0])
 
-    return array(array), codegen
+    return value(value), codegen
+
+
+def _stripped(context: Any, builder: Any, kind: Any, value: Any) -> Any:
+    if isinstance(kind, types.BaseTuple):
+        fields = zip(kind, cgutils.unpack_tuple(builder, value), strict=True)
+        return context.make_tuple(builder, kind, [_stripped(context, builder, *field) for field in fields])
+    if not isinstance(kind, types.Array):
+        return value
+    view = context.make_array(kind)(context, builder, value)
+    view.meminfo = view.meminfo.type(None)
+    view.parent = view.parent.type(None)
+    return view._getvalue()
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -48,14 +57,16 @@ def _part(typing_context: Any, array: Any, first: Any, size: Any) -> Any:
     return array(array, types.int64, types.int64), codegen
 
 
-def _same(array: Any) -> Any:
-    return array
+def plain_bare(value: Any) -> Any:
+    """Return the value: what `bare` is where nothing is compiled."""
+    return value
 
 
-def _slice(array: Any, first: int, size: int) -> Any:
+def plain_part(array: Any, first: int, size: int) -> Any:
+    """Return a view: what `part` is where nothing is compiled."""
     return array[first : first + size]
 
 
 #: Under NUMBA_DISABLE_JIT the loops are plain Python and views do.
-bare: Any = _same if config.DISABLE_JIT else _bare
-part: Any = _slice if config.DISABLE_JIT else _part
+bare: Any = plain_bare if config.DISABLE_JIT else _bare
+part: Any = plain_part if config.DISABLE_JIT else _part

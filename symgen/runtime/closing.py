@@ -1,6 +1,8 @@
-"""Pieces of consistent starts in compiled code: what `symgen.runtime.assembly` does with NumPy, for one row.
+"""Pieces of a start, for one run: positions closed, velocities completed, what is redundant or undetermined found.
 
-D is dense here, and its least-norm solutions are those of `symgen.runtime.least_norm`.
+What all of them take: ``geometry``, ``measure``, ``move``, ``spread``, ``rhs`` are emitted functions
+(`symgen.runtime.abi`), where ``geometry`` comes before ``measure`` and ``spread`` at the same state; `solve` is one of
+`symgen.runtime.least_norm`; `layout`, `now`, `work` are records of `symgen.runtime.start_records`.
 """
 
 from __future__ import annotations
@@ -8,267 +10,238 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
+from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part
-from symgen.runtime.least_norm import least_norm
-from symgen.store.jit import jit
-
-_A, _I = types.float64[::1], types.int64[::1]
-_NQ, _NV, _M, _NW, _SPATIAL, _MASS = e.NQ, e.NV, e.M, e.NW, e.SPATIAL, e.MASS
-_RESIDUAL, _NU, _JACOBIAN, _PIVOTS, _MASK, _CHANGE = e.RESIDUAL, e.NU, e.JACOBIAN, e.PIVOTS, e.MASK, e.CHANGE
-_ASSEMBLED, _CONTRADICTION, _PROJECTED = e.ASSEMBLED, e.CONTRADICTION, e.PROJECTED
-_WINDINGS = e.WINDINGS
-#: As in `symgen.runtime.assembly`.
-_SKIP, _ITERATIONS = 1e-12, 60
+from symgen.runtime.decisions import is_dependent
+from symgen.runtime.exact import exact
+from symgen.runtime.least_norm import multiply
+from symgen.runtime.redundancy import choose_rows
+from symgen.runtime.scales import extent_of, free_scale, larger, row_weight, size_of_change, speed_of
+from symgen.runtime.start_records import Instant
 
 
-@jit()
-def _rows(d: Any, sizes: Any, scale: Any, table: Any, constants: Any, w: Any) -> None:
-    """Write D with its columns scaled into `d`, dense, from what ``geometry`` left in `w`."""
-    n = sizes[_NV]
-    for i in range(sizes[_M] * n):
-        d[i] = 0.0
-    for k in range(constants.shape[0]):
-        column, slot = table[3 * k + 1], table[3 * k + 2]
-        value = constants[k] if slot < 0 else w[sizes[_JACOBIAN] + slot]
-        d[table[3 * k] * n + column] = value * scale[column]
-
-
-@jit(types.int64(_A, _I, _A, _I, _A, _A, _A, _A, _I))
-def correct(
-    right: Any, sizes: Any, scale: Any, table: Any, constants: Any, w: Any, x: Any, room: Any, order: Any
-) -> int:
-    """Set `x` to the change with D x = right whose x / scale is shortest; `right` is overwritten.
-
-    Starts take it as a first-class function: copied to every place it is called from it would take seconds to compile.
-    """
-    m, n = sizes[_M], sizes[_NV]
-    d, rest = part(room, 0, m * n), part(room, m * n, m * min(m, n) + m + n)
-    _rows(d, sizes, scale, table, constants, w)
-    rank = least_norm(d, m, n, right, x, rest, order)
-    for j in range(n):
-        x[j] *= scale[j]
-    return int(rank)
-
-
-@jit()
-def largest_of(values: Any, count: int) -> float:
-    """Return the largest magnitude, at least 1."""
-    largest = 1.0
-    for i in range(count):
-        largest = max(largest, abs(values[i]))
-    return largest
-
-
-@jit()
-def _step(measure: Any, move: Any, y: Any, x: Any, factor: float, sizes: Any, p: Any, w: Any) -> None:
-    """Move the coordinates by a change of the velocities; angles in space that count turns follow."""
-    if sizes[_SPATIAL] == 0:
-        for j in range(sizes[_NV]):
-            y[j] += factor * x[j]
-        return
-    for j in range(sizes[_NV]):
-        w[sizes[_CHANGE] + j] = factor * x[j]
-    move(y, w)
-    if sizes[_WINDINGS] > 0:
-        measure(0.0, y, p, w)
-
-
-@jit()
+@exact()
 def close_positions(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    solve: Any,
-    y: Any,
-    p: Any,
-    w: Any,
-    sizes: Any,
-    scale: Any,
-    table: Any,
-    constants: Any,
-    vectors: Any,
-    room: Any,
-    order: Any,
+    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, work: Any
 ) -> bool:
-    """Close positions in place by shortest changes; return whether they are closed."""
-    m, n = sizes[_M], sizes[_NV]
-    x, right = part(vectors, 0, n), part(vectors, n, m)
+    """Close positions by the shortest changes, of coordinates with a scale of 0 none; return whether they are closed.
+
+    D, nu and the angles that count turns are then those of the closed positions; if not, Phi is that of the last ones.
+    """
+    y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0
-    for _ in range(_ITERATIONS):
-        geometry(0.0, y, p, w)
+    for _ in range(decisions.POSITION_STEPS):
+        geometry(layout.t, y, p, w)
         square = 0.0
-        for i in range(m):
-            right[i] = -w[sizes[_RESIDUAL] + i]
-            square += right[i] * right[i]
-        size = math.sqrt(square)
-        if not math.isfinite(size):
-            return False
-        largest = largest_of(y, y.shape[0])
+        for i in range(layout.m):
+            right[i] = -w[layout.residual + i]
+            square += (row_weight(layout, w, i) * right[i]) ** 2
+        size, length = math.sqrt(square), larger(w[abi.LENGTH], extent_of(layout, y))
         stalled = stalled + 1 if size > 0.5 * best else 0
-        best = min(best, size)
-        if size <= 1e-15 * largest * max(1, m) or (stalled >= 3 and size < 1e-9 * largest):
-            return True
-        if stalled >= 15:
+        best = size if size < best else best
+        if not math.isfinite(size) or stalled >= decisions.POSITION_STALLS:
             return False
-        solve(right, sizes, scale, table, constants, w, x, room, order)
-        size = 1e-300
-        for j in range(n):
-            size = max(size, abs(x[j]))
+        if layout.windings > 0:  # may leave something else in the section of Phi
+            measure(layout.t, y, p, w)
+        rounding = decisions.ROUNDING * length * (layout.m if layout.m > 1 else 1)
+        if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < decisions.CLOSED * length):
+            return True
+        solve(spread, layout, now, work)
+        longest = size_of_change(layout, w, x)
         # far from closed, a full Newton step can turn bodies by several radians
-        _step(measure, move, y, x, min(1.0, 1.0 / size), sizes, p, w)
+        _shift(move, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
+    geometry(layout.t, y, p, w)
     return False
 
 
-@jit()
-def _drift(y: Any, sizes: Any, ones: Any, table: Any, constants: Any, w: Any, right: Any) -> float:
-    """Set `right` to nu - D v and return its length."""
-    nq = sizes[_NQ]
-    for i in range(sizes[_M]):
-        right[i] = w[sizes[_NU] + i]
-    for k in range(constants.shape[0]):
-        column, slot = table[3 * k + 1], table[3 * k + 2]
-        value = constants[k] if slot < 0 else w[sizes[_JACOBIAN] + slot]
-        right[table[3 * k]] -= value * y[nq + column]
-    square = 0.0
-    for i in range(sizes[_M]):
-        square += right[i] * right[i]
+@exact()
+def _shift(move: Any, layout: Any, y: Any, w: Any, change: Any, factor: float) -> None:
+    """Move the coordinates by a multiple of a change of the velocities."""
+    if layout.nq == layout.nv:
+        for j in range(layout.nv):
+            y[j] += factor * change[j]
+    else:
+        for j in range(layout.nv):
+            w[layout.change + j] = factor * change[j]
+        move(y, w)
+
+
+@exact()
+def complete_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: Any, given: Any) -> int:
+    """Set the velocities: those that are given are kept, the others are the smallest that satisfy D v = nu.
+
+    Where the given ones contradict the constraints, all but those to be kept are projected in the metric of the mass
+    matrix. Returns `ASSEMBLED`, `PROJECTED` or `CONTRADICTION`.
+    """
+    n, w, v, mass, scale = layout.nv, now.w, part(now.y, layout.nq, layout.nv), layout.mass, work.scale
+    for j in range(n):
+        v[j] = given[j] if math.isfinite(given[j]) else 0.0
+        scale[j] = 0.0 if math.isfinite(given[j]) else free_scale(layout, w, j)
+    if layout.m == 0:
+        return int(e.ASSEMBLED)
+    speed = speed_of(layout, w, v)
+    for i in range(layout.m):  # of drivers
+        speed = larger(speed, row_weight(layout, w, i) * abs(w[layout.nu + i]))
+    _velocity_violation(layout, now, work)
+    size = _correct_velocities(spread, solve, layout, now, work)
+    if size <= decisions.VELOCITIES_FIT * speed:
+        # what is left is rounding: take it out without touching the given values noticeably
+        for j in range(n):
+            scale[j] = free_scale(layout, w, j)
+        _correct_velocities(spread, solve, layout, now, work)
+        return int(e.ASSEMBLED)
+    heaviest = 0.0
+    for j in range(n):
+        heaviest = larger(heaviest, w[mass + j] * w[layout.gauge + j])
+    for j in range(n):  # massless bodies give way first
+        least = decisions.LEAST_MASS * (heaviest if heaviest > 0.0 else 1.0) / w[layout.gauge + j]
+        weight = w[mass + j] if w[mass + j] > least else least
+        scale[j] = 0.0 if layout.kept[j] != 0 else 1.0 / math.sqrt(weight)
+    for _ in range(2):
+        size = _correct_velocities(spread, solve, layout, now, work)
+    return int(e.PROJECTED if size <= decisions.VELOCITIES_CONTRADICT * speed else e.CONTRADICTION)
+
+
+@exact()
+def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
+    """Set `work.right` to nu - D v and return its length."""
+    w, right, square = now.w, work.right, 0.0
+    multiply(layout, w, part(now.y, layout.nq, layout.nv), right)
+    for i in range(layout.m):
+        right[i] = w[layout.nu + i] - right[i]
+        square += (row_weight(layout, w, i) * right[i]) ** 2
     return math.sqrt(square)
 
 
-@jit()
-def complete_velocities(
-    solve: Any,
-    y: Any,
-    given: Any,
-    w: Any,
-    sizes: Any,
-    scale: Any,
-    table: Any,
-    constants: Any,
-    vectors: Any,
-    room: Any,
-    order: Any,
-) -> int:
-    """Set the velocities; return `ASSEMBLED`, `PROJECTED` or `CONTRADICTION`."""
-    nq, n, m = sizes[_NQ], sizes[_NV], sizes[_M]
-    x, right = part(vectors, 0, n), part(vectors, n, m)
-    missing = False
-    for j in range(n):
-        known = math.isfinite(given[j])
-        y[nq + j] = given[j] if known else 0.0
-        scale[j] = 0.0 if known else 1.0
-        missing = missing or not known
-    if m == 0:
-        return _ASSEMBLED
-    speed = largest_of(part(y, nq, n), n)
-    size = _drift(y, sizes, scale, table, constants, w, right)
-    if missing:
-        solve(right, sizes, scale, table, constants, w, x, room, order)
-        for j in range(n):
-            y[nq + j] += x[j]
-        size = _drift(y, sizes, scale, table, constants, w, right)
-    if size <= 1e-9 * speed:
-        # what is left is rounding: take it out without touching the given values noticeably
-        for j in range(n):
-            scale[j] = 1.0
-        solve(right, sizes, scale, table, constants, w, x, room, order)
-        for j in range(n):
-            y[nq + j] += x[j]
-        return _ASSEMBLED
-    heaviest = 0.0
-    for j in range(n):
-        heaviest = max(heaviest, w[sizes[_MASS] + j])
-    for j in range(n):  # massless bodies give way first
-        scale[j] = 1.0 / math.sqrt(max(w[sizes[_MASS] + j], 1e-12 * heaviest))
-    for _ in range(2):
-        _drift(y, sizes, scale, table, constants, w, right)
-        solve(right, sizes, scale, table, constants, w, x, room, order)
-        for j in range(n):
-            y[nq + j] += x[j]
-    size = _drift(y, sizes, scale, table, constants, w, right)
-    return _PROJECTED if size <= 1e-8 * speed else _CONTRADICTION
+@exact()
+def _correct_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: Any) -> float:
+    """Add the shortest change for nu - D v in `work.right`; return the length of what is left, which stands there."""
+    solve(spread, layout, now, work)
+    y, x = now.y, work.x
+    for j in range(layout.nv):
+        y[layout.nq + j] += x[j]
+    return float(_velocity_violation(layout, now, work))
 
 
-@jit()
+@exact()
 def mask_redundant(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    solve: Any,
-    y: Any,
-    p: Any,
-    w: Any,
-    probe: Any,
-    sizes: Any,
-    scale: Any,
-    table: Any,
-    constants: Any,
-    vectors: Any,
-    room: Any,
-    order: Any,
-) -> None:
-    """Mask the rows that depend on others at the start and at closed positions near it: not only at a singular one."""
-    nq, n, m, ny, nw = sizes[_NQ], sizes[_NV], sizes[_M], y.shape[0], sizes[_NW]
-    count = 0
+    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, work: Any
+) -> int:
+    """Mask as many rows as depend on others at the start and at closed positions near it; return how many these are.
+
+    Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
+    others may differ from position to position: then those are kept that are farthest from each other.
+    """
+    m, count, other, same = layout.m, 0, Instant(work.y, now.p, work.w), True
     for i in range(m):
-        if w[sizes[_PIVOTS] + i] < _SKIP:
-            w[sizes[_MASK] + i] = math.inf
+        if is_dependent(now.w[layout.pivot + i]):
+            now.w[layout.mask + i] = math.inf
             count += 1
-    if count == 0:
-        return
-    other, probed, direction = part(probe, 0, ny), part(probe, ny, nw), part(probe, ny + nw, n)
-    x, right = part(vectors, 0, n), part(vectors, n, m)
-    for k in range(3):
+    alone = count
+    for k in range(decisions.PROBES):
+        for j in range(layout.nv):
+            work.scale[j] = free_scale(layout, now.w, j)
+        if count == 0:
+            break
         # a direction along the constraints, another one each time
-        for j in range(n):
-            direction[j] = math.cos((k + 1.0) * (j + 1.0))
-            scale[j] = 1.0
+        _unseen(spread, solve, layout, now, work, k + 1.0)
+        size = size_of_change(layout, now.w, work.direction)
+        if size < decisions.STANDSTILL:
+            break
+        _copy(layout, now, other)
         for i in range(m):
-            right[i] = 0.0
-        for c in range(constants.shape[0]):
-            column, slot = table[3 * c + 1], table[3 * c + 2]
-            value = constants[c] if slot < 0 else w[sizes[_JACOBIAN] + slot]
-            right[table[3 * c]] += value * direction[column]
-        solve(right, sizes, scale, table, constants, w, x, room, order)
-        size = 0.0
-        for j in range(n):
-            direction[j] -= x[j]
-            size = max(size, abs(direction[j]))
-        if size < 1e-9:  # nothing moves
-            return
-        for i in range(ny):
-            other[i] = y[i]
-        for i in range(nw):
-            probed[i] = w[i]
-        for i in range(m):
-            probed[sizes[_MASK] + i] = 0.0
-        _step(measure, move, other, direction, 0.03 * largest_of(y, nq) / size, sizes, p, probed)
-        if close_positions(
-            geometry, measure, move, solve, other, p, probed, sizes, scale, table, constants, vectors, room, order
-        ):
+            other.w[layout.mask + i] = 0.0
+        _shift(move, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
+        if close_positions(geometry, measure, move, spread, solve, layout, other, work):
+            near = 0
             for i in range(m):
-                if not probed[sizes[_PIVOTS] + i] < _SKIP:
-                    w[sizes[_MASK] + i] = 0.0
+                dependent = is_dependent(other.w[layout.pivot + i])
+                near += 1 if dependent else 0
+                same = same and (now.w[layout.mask + i] != 0.0 or not dependent)
+            count = near if near < count else count
+    return int(_masked(layout, now, other, work, count, alone, same))
 
 
-@jit()
-def is_light(rhs: Any, geometry: Any, y: Any, p: Any, w: Any, probe: Any, sizes: Any, iw: Any) -> bool:
-    """Whether a pivot of S is suspiciously small although D D^T finds no row dependent."""
-    ny, nw, m = y.shape[0], sizes[_NW], sizes[_M]
-    other, probed, rate = part(probe, 0, ny), part(probe, ny, nw), part(probe, ny + nw, ny)
-    for i in range(ny):
-        other[i] = y[i]
-    for i in range(nw):
-        probed[i] = w[i]
-    for i in range(iw.shape[0]):
-        iw[i] = 0
-    if rhs(0.0, other, p, probed, iw, rate) == 0:
-        return False
-    geometry(0.0, other, p, probed)
+@exact()
+def _masked(layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
+    """Mask `count` rows: of those that depend on others at the start alone, or of all; return their number."""
+    m, mask = layout.m, layout.mask
+    if count == alone and same:
+        return count  # the same ones everywhere
+    if count > 0 and not same and layout.sparse == 0:
+        here = now.w if count == alone else other.w  # at a singular position rounding would choose
+        places = layout.jacobian, layout.gauge, mask
+        choose_rows(m, layout.nv, m - count, layout.entries, layout.constants, *places, here, work.numbers)
+        for i in range(m):
+            now.w[mask + i] = here[mask + i]
+        return count
+    left = 0
     for i in range(m):
-        if probed[sizes[_MASK] + i] == 0.0 and not probed[sizes[_PIVOTS] + i] >= _SKIP:
+        if now.w[mask + i] != 0.0 and not is_dependent(other.w[layout.pivot + i]):
+            now.w[mask + i] = 0.0
+        left += 1 if now.w[mask + i] != 0.0 else 0
+    return left
+
+
+@exact()
+def _unseen(spread: Any, solve: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
+    """Set `work.direction` to a change that D does not see, of the velocities whose scale is not 0.
+
+    Returns the index of its component that is largest beside its scale.
+    """
+    largest, most, direction = 0, 0.0, work.direction
+    for j in range(layout.nv):
+        direction[j] = work.scale[j] * math.cos(seed * (j + 1.0))
+        work.x[j] = 0.0
+    if layout.m > 0:
+        multiply(layout, now.w, direction, work.right)
+        solve(spread, layout, now, work)
+    for j in range(layout.nv):
+        direction[j] -= work.x[j]
+        size = abs(direction[j]) / free_scale(layout, now.w, j)
+        largest, most = (j, size) if size > most else (largest, most)
+    return largest
+
+
+@exact()
+def find_undetermined(spread: Any, solve: Any, layout: Any, now: Any, work: Any) -> int:
+    """Return a velocity that has neither mass nor a row of D to determine its rate, -1 if there is none.
+
+    Accelerations are determined where M + D^T D is regular: D sees every change of the velocities without mass.
+    """
+    massless = 0
+    for j in range(layout.nv):
+        massless += layout.massless[j]
+        work.scale[j] = free_scale(layout, now.w, j) if layout.massless[j] != 0 else 0.0
+    if massless == 0:
+        return -1
+    largest = _unseen(spread, solve, layout, now, work, 1.0)
+    left = abs(work.direction[largest]) / free_scale(layout, now.w, largest)
+    return largest if left > decisions.UNHELD else -1
+
+
+@exact()
+def is_light(rhs: Any, geometry: Any, layout: Any, now: Any, work: Any) -> bool:
+    """Whether a pivot of S is suspiciously small although D D^T finds no row dependent; `now` is not changed."""
+    other = Instant(work.y, now.p, work.w)
+    _copy(layout, now, other)
+    for i in range(work.counters.shape[0]):
+        work.counters[i] = 0
+    if rhs(layout.t, other.y, other.p, other.w, work.counters, work.direction) == 0:
+        return False
+    geometry(layout.t, other.y, other.p, other.w)
+    for i in range(layout.m):
+        if other.w[layout.mask + i] == 0.0 and is_dependent(other.w[layout.pivot + i]):
             return False
     return True
+
+
+@exact()
+def _copy(layout: Any, now: Any, other: Any) -> None:
+    """Copy state and scratch."""
+    (y, _, w), (other_y, _, other_w) = now, other
+    for i in range(layout.nq + layout.nv + 1):
+        other_y[i] = y[i]
+    for i in range(w.shape[0]):
+        other_w[i] = w[i]

@@ -1,8 +1,8 @@
-"""The loops of `symgen.runtime.explicit` on CUDA devices: the same source, instantiated for a law.
+"""The loops of `symgen.runtime.frame` on CUDA devices: the same source, instantiated for a law.
 
 CUDA has no first-class functions, so a kernel is built for a law, with one thread for each run: `on_device` takes the
-plain Python of a loop, gives it device functions under the names of its helpers, and hands it to Numba's CUDA compiler.
-Nothing is written twice, so a device takes the steps that a processor takes.
+plain Python of a function and of all that it calls, and hands it to Numba's CUDA compiler. Nothing is written twice, so
+a device takes the steps that a processor takes.
 
 What a run works on (state, scratch, stages) is local memory of its thread: the hardware interleaves it so that
 neighbouring threads touch neighbouring words, its addresses are constants, and it stays in the first-level cache. What
@@ -16,19 +16,54 @@ from __future__ import annotations
 import math
 import types as python
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from numba import config, cuda, float64, int64, types
 
-from symgen.runtime import abi, batch_rows, explicit, observe, steps, watch
-from symgen.runtime import device_stages as stages
+from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime.instances import Instances
+from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
+from symgen.runtime.redundancy import never
+from symgen.runtime.schemes import explicit
+from symgen.runtime.vectors import PLAIN
 
-_A, _I, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+_A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+#: Numbers of `events` on a device: the passage that is going on, and the narrowest one so far.
+N_EVENTS = 2 * abi.N_EVENT
+_N_EVENT, _MAX_EVENTS, _PIVOT, _EVENTS = abi.N_EVENT, abi.MAX_EVENTS, abi.EVENT_PIVOT, abi.EVENTS
+_STOP, _OUTPUTS, _ENERGY_START = abi.STOP, abi.OUTPUTS, abi.ENERGY_START
+
+
+class Starts(NamedTuple):
+    """What runs begin with, shapes (ny, runs), (np, runs), (nw, runs); and what they are judged and asked by."""
+
+    ys: Any
+    ps: Any
+    ws: Any
+    limits: Any
+    share: Any
+    metric: Any
+    picks: Any
+    times: Any
+
+
+class Results(NamedTuple):
+    """What runs leave: outputs and what is observed at them by output, column and run; other numbers by run."""
+
+    states: Any
+    status: Any
+    accelerations: Any
+    multipliers: Any
+    rows: Any
+    values: Any
+    summary: Any
+
+
 #: Types of a kernel's arguments; see `make_kernel`.
-SIGNATURE = types.void(*(_M,) * 3, *(_I, _I), *(_A,) * 4, *(_I, _A, _I, _A, _A, _I), *(_T,) * 5, *(_M,) * 2)
-_N_EVENT, _STOP, _OUTPUTS, _ENERGY_START = abi.N_EVENT, abi.STOP, abi.OUTPUTS, abi.ENERGY_START
-_NQ, _ROWS = e.NQ, e.M
+STARTS = types.NamedTuple((_M, _M, _M, _A, _A, _K, _A), Starts)
+RESULTS = types.NamedTuple((_T, _T, _T, _T, _T, _M, _M), Results)
+SIGNATURE = types.void(TABLEAU, SIZES, SPAN, STARTS, RESULTS)
 
 
 def simulated() -> bool:
@@ -36,33 +71,36 @@ def simulated() -> bool:
     return bool(config.ENABLE_CUDASIM)
 
 
-def on_device(function: Any, inline: bool = False, **names: Any) -> Any:
-    """Return a function of the runtime as a device function.
+# -- what is different on a device -------------------------------------------------------------------------------------
 
-    Parameters
-    ----------
-    function : compiled or plain function
-        Its Python source is what counts.
-    inline : bool
-        Whether it is copied into its callers before types are inferred, as a function that returns a view must be.
-    **names
-        What global names in it mean on the device: helpers, and sizes that differ there.
 
-    Raises
-    ------
-    ValueError
-        If it would call a function that is compiled for the processor.
-    """
-    plain = getattr(function, "py_func", function)
-    for name in set(plain.__code__.co_names) - set(names):
-        if getattr(plain.__globals__.get(name), "py_func", None) is not None:
-            raise ValueError(f"{plain.__name__} needs '{name}' as a device function")
-    meaning = {**plain.__globals__, **names}
-    if simulated():
-        meaning["math"] = ForgivingMath()
-    copy = python.FunctionType(plain.__code__, meaning, plain.__name__)
-    copy.__module__, copy.__qualname__ = plain.__module__, plain.__qualname__
-    return cuda.jit(device=True, inline="always" if inline else "never")(copy)
+def same(value: Any) -> Any:
+    """Stand in for `symgen.runtime.bare.bare`: CUDA counts no references."""
+    return value
+
+
+def cut(array: Any, first: int, size: int) -> Any:
+    """Stand in for `symgen.runtime.bare.part`."""
+    return array[first : first + size]
+
+
+def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
+    """Watch as on a processor; of all passages only the one that is going on and the narrowest are kept."""
+    code, events = watch_states(sizes, run, y, t), run.events
+    if 0 < run.control[_EVENTS] <= _MAX_EVENTS and not events[_N_EVENT + _PIVOT] <= events[_PIVOT]:
+        for i in range(_N_EVENT):
+            events[_N_EVENT + i] = events[i]
+    return code
+
+
+def watch_states(sizes: Any, run: Any, y: Any, t: float) -> int:
+    """Stand for `symgen.runtime.watch.watch` with a table of one event."""
+    return 0
+
+
+def confirm_nothing(t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
+    """Stand in for ``confirm`` in a law whose ``rhs`` never asks for it."""
+    return 0
 
 
 class ForgivingMath:
@@ -84,29 +122,50 @@ class ForgivingMath:
         return forgiving
 
 
+def on_device(function: Any, **meanings: Any) -> Any:
+    """Return a function of the runtime, and what it calls, as device functions.
+
+    Parameters
+    ----------
+    function : compiled or plain function
+        Its Python source is what counts.
+    **meanings
+        What global names mean on the device beside those that differ for all: helpers, and sizes.
+    """
+    common: dict[str, Any] = {"bare": same, "part": cut, **PLAIN, **meanings}
+    if simulated():
+        common["math"] = ForgivingMath()
+    return Instances(common, _compiled, everything=True).of(function)
+
+
+def _compiled(copy: python.FunctionType, original: Any) -> Any:
+    # a function that returns a view must be copied into its callers before types are inferred
+    return cuda.jit(device=True, inline="always" if copy.__name__ in ("same", "cut", "opened") else "never")(copy)
+
+
+# -- kernels -----------------------------------------------------------------------------------------------------------
+
+
 @dataclass(frozen=True)
 class Need:
     """What shapes a kernel beside its law: sizes in numbers, and what is asked of it.
 
     Attributes
     ----------
-    ny, n_p, nw : int
+    width, n_p, nw : int
         Lengths of the state, of the parameters and of the scratch array.
-    nv, m : int
-        Velocities and constraint rows.
-    room : int
-        Working memory of the scheme.
+    memory, room : int
+        What the scheme keeps, and its working memory.
     rows : int
         What ``observe`` writes at an output.
     adaptive, rates, joints : bool
         Whether steps are adaptive, accelerations or multipliers asked for, and joint coordinates.
     """
 
-    ny: int
+    width: int
     n_p: int
     nw: int
-    nv: int
-    m: int
+    memory: int
     room: int
     rows: int
     adaptive: bool
@@ -116,7 +175,7 @@ class Need:
     @property
     def working(self) -> int:
         """Numbers of working memory: the scheme's, or what observing needs."""
-        return max(self.room, 2 * self.ny + self.rows)
+        return max(self.width + self.room, 2 * self.width + self.rows)
 
     @property
     def kept(self) -> int:
@@ -126,8 +185,8 @@ class Need:
     @property
     def local_bytes(self) -> int:
         """Local memory of a thread for its run."""
-        own = self.ny + self.n_p + self.nw + self.kept + self.working
-        return 8 * (own + abi.N_COUNTERS + abi.N_GAUGES + e.N_CONTROL + stages.N_EVENTS)
+        own = 2 * self.width + self.n_p + self.nw + self.kept + self.memory + self.working
+        return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
 
 
 def make_kernel(law: Any, model: Any, need: Need) -> Any:
@@ -143,127 +202,72 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     Returns
     -------
     function
-        ``kernel(ys, ps, ws, start, column, value, nodes, weights, dense, integers, numbers, sizes, limits, times,
-        picks, states, status, accelerations, multipliers, observed, values, summary)``, of the types in `SIGNATURE`;
-        every array of runs has the run as its last index, and none is empty: what is not asked for has one element.
+        ``kernel(scheme, sizes, span, starts, results)``, of the types in `SIGNATURE`; every array of runs has the run
+        as its last index, and none is empty: what is not asked for has one element.
     """
-    same, view = on_device(stages.identity, inline=True), on_device(stages.cut, inline=True)
-    maxima = on_device(watch.keep_maxima)
-    watched = on_device(stages.watch_passages, watch=on_device(watch.watch, keep_maxima=maxima, _N_EVENT=0))
-    name = "adaptive_steps" if need.adaptive else "fixed_steps"
-    integrated = on_device(
-        getattr(explicit, name),
-        **{"bare": same, "part": view, "watch": watched, "keep_maxima": maxima},
-        **{helper: on_device(getattr(steps, helper)) for helper in ("combine", "error_norm", "store")},
-        **{helper: on_device(getattr(watch, helper)) for helper in ("approach", "begin")},
-    )
-    integrate = on_device(stages.adaptive if need.adaptive else stages.fixed, **{name: integrated})
-    begin_run, pick = on_device(batch_rows.begin_run), on_device(batch_rows.pick)
-    summarise = on_device(batch_rows.summarise, _MAX_EVENTS=1)  # the narrowest passage is kept alone
-    observe_after = on_device(stages.observe_nothing)
-    if need.rates:
-        rates_after = on_device(stages.observe_rates, fill_rates=on_device(observe.fill_rates), part=view)
-        rows_of = {"fill_rows": on_device(observe.fill_rows), "observe_rates": rates_after, "part": view}
-        observe_after = on_device(stages.observe_joints, **rows_of) if need.joints else rates_after
-    nothing = on_device(stages.confirm_nothing)
+    parts: dict[str, Any] = explicit.ADAPTIVE_PARTS if need.adaptive else explicit.CONSTANT_PARTS
+    one_event = on_device(watch.watch, _N_EVENT=0)
+    watched = on_device(watch_passages, watch_states=one_event)
+    integrate = on_device(frame.integrate, **parts, watch=watched, rows_fell=never)
+    begin_run, pick = on_device(rows.begin_run), on_device(rows.pick)
+    summarise = on_device(rows.summarise, _MAX_EVENTS=1)  # the narrowest passage is kept alone
+    observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
+    nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
     rates, observed_by = getattr(law, "rates", law.rhs), model.observe if need.joints else nothing
-    ny, n_p, nw, n_room, n_kept = need.ny, max(1, need.n_p), need.nw, need.working, need.kept
-    n_counters, n_gauges, n_control = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL
-    n_events, keeps, nv, m, rows = stages.N_EVENTS, need.rates, need.nv, need.m, need.rows
+    width, n_p, nw, n_room, n_kept = need.width, max(1, need.n_p), need.nw, need.working, need.kept
+    n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
+    n_events, n_memory, n_rows, wants_rates, wants_joints = (
+        N_EVENTS,
+        max(1, need.memory),
+        need.rows,
+        need.rates,
+        need.joints,
+    )
 
-    def kernel(
-        ys: Any,
-        ps: Any,
-        ws: Any,
-        start: Any,
-        column: Any,
-        value: Any,
-        nodes: Any,
-        weights: Any,
-        dense: Any,
-        integers: Any,
-        numbers: Any,
-        sizes: Any,
-        limits: Any,
-        times: Any,
-        picks: Any,
-        states: Any,
-        status: Any,
-        accelerations: Any,
-        multipliers: Any,
-        observed: Any,
-        values: Any,
-        summary: Any,
-    ) -> None:
+    def kernel(scheme: Any, sizes: Any, span: Any, starts: Any, results: Any) -> None:
         i = cuda.grid(1)
-        if i >= ys.shape[1]:
+        if i >= starts.ys.shape[1]:
             return
-        y, p, w = cuda.local.array(ny, float64), cuda.local.array(n_p, float64), cuda.local.array(nw, float64)
+        y, p, w = cuda.local.array(width, float64), cuda.local.array(n_p, float64), cuda.local.array(nw, float64)
         kept, room = cuda.local.array(n_kept, float64), cuda.local.array(n_room, float64)
-        gauges, events = cuda.local.array(n_gauges, float64), cuda.local.array(n_events, float64)
+        clock, gauges = cuda.local.array(n_clock, float64), cuda.local.array(n_gauges, float64)
+        events, memory = cuda.local.array(n_events, float64), cuda.local.array(n_memory, float64)
+        metric, scales = cuda.local.array(width, float64), cuda.local.array(width, float64)
         iw, control = cuda.local.array(n_counters, int64), cuda.local.array(n_control, int64)
-        for j in range(ny):
-            y[j] = ys[j, i]
-        for j in range(ps.shape[0]):
-            p[j] = ps[j, i]
+        for j in range(width):
+            y[j] = starts.ys[j, i] if j < sizes.ny else 0.0
+            metric[j], scales[j] = starts.metric[j], 0.0
+        for j in range(starts.ps.shape[0]):
+            p[j] = starts.ps[j, i]
         for j in range(nw):
-            w[j] = ws[j, i]
-            if keeps:
+            w[j] = starts.ws[j, i]
+            if wants_rates:
                 kept[j] = w[j]
+        for j in range(n_room):
+            room[j] = 0.0
+        for j in range(n_memory):
+            memory[j] = 0.0
         for j in range(n_events):
             events[j] = math.nan
         control[_STOP] = 0  # which `begin_run` leaves as it is
-        begin_run(y, w, iw, sizes, limits, gauges, control)
-        times_asked = times.shape[0]
-        outputs, columns = states[:times_asked, :, i], status[:times_asked, :, i]
-        code = integrate(
-            rhs,
-            confirm,
-            accept,
-            start,
-            column,
-            value,
-            nodes,
-            weights,
-            dense,
-            integers,
-            numbers,
-            sizes[_NQ],
-            y,
-            p,
-            w,
-            iw,
-            times,
-            outputs,
-            columns,
-            gauges,
-            control,
-            events,
-            room,
-        )
-        summarise(code, summary[:, i], w, iw, gauges, control, events[_N_EVENT:])
-        k = control[_OUTPUTS]
-        rate, lam, joint = accelerations[:, :nv, i], multipliers[:, :m, i], observed[:, :rows, i]
-        observe_after(
-            rates,
-            confirm,
-            accept,
-            observed_by,
-            sizes,
-            k,
-            p,
-            w,
-            kept,
-            iw,
-            times,
-            outputs,
-            columns,
-            rate,
-            lam,
-            joint,
-            room,
-        )
-        pick(values[:, i], 0, k, picks, outputs, columns, rate, lam, joint, sizes[_ROWS], gauges[_ENERGY_START])
+        state = State(y, p, w, iw, clock, gauges, control, events, memory, starts.share, metric, scales, room)
+        begin_run(state, starts.limits)
+        k = starts.times.shape[0]
+        outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
+        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, outputs)
+        narrowest = events[_N_EVENT:]
+        ended = State(y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, room)
+        summarise(code, ended, results.summary[:, i])
+        count = control[_OUTPUTS]
+        accelerations, multipliers = results.accelerations[:, : sizes.nv, i], results.multipliers[:, : sizes.m, i]
+        observed = Observed(accelerations, multipliers, results.rows[:, :n_rows, i])
+        if wants_rates:
+            for j in range(n_counters):
+                iw[j] = 0
+            observe_rates(rates, confirm, accept, sizes, outputs, count, p, kept, iw, observed, room)
+        if wants_joints:
+            observe_rows(observed_by, sizes, outputs, count, p, w, observed, room)
+        pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[_ENERGY_START], results.values[:, i])
 
     return kernel

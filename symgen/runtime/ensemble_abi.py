@@ -1,4 +1,4 @@
-"""Where things stand in the arrays of ensembles: sizes of the model, and the row of numbers that each run leaves."""
+"""Where things stand in the arrays of ensembles: the row of numbers that each run leaves."""
 
 from __future__ import annotations
 
@@ -6,37 +6,8 @@ from numba import types
 
 from symgen.runtime import abi
 
-_A, _I = types.float64[::1], types.int64[::1]
 #: prepare(p).
-PREPARE = types.FunctionType(types.int64(_A))
-#: solve(right, sizes, scale, table, constants, w, x, room, order): see `symgen.runtime.closing.correct`.
-SOLVE = types.FunctionType(types.int64(_A, _I, _A, _I, _A, _A, _A, _A, _I))
-
-# -- sizes: integers that describe the model to the compiled loops
-# -----------------------------------------------------
-(
-    NQ,
-    NV,
-    M,
-    NP,  # length of p
-    NW,  # length of w
-    N_PARAMETERS,  # of the model, at the beginning of p
-    SPATIAL,  # 1 where q has Euler parameters and `move` applies changes of v
-    LIGHT_CHECK,  # 1 where bodies may turn out too light for the law's solver
-    STRICT,  # 1 where a start that had to be changed is refused
-    MASS,  # where sections begin in w
-    RESIDUAL,
-    NU,
-    JACOBIAN,
-    PIVOTS,
-    MASK,
-    CHANGE,
-    MULTIPLIERS,
-    WANTS_RATES,  # 1 where accelerations or multipliers are asked for
-    WANTS_JOINTS,  # 1 where joint coordinates are asked for
-    WINDINGS,  # angles whose turns are counted
-) = range(20)
-N_SIZES = 20
+PREPARE = types.FunctionType(types.int64(types.float64[::1]))
 
 # -- what a column of the outputs is taken from
 # ------------------------------------------------------------------------
@@ -78,7 +49,7 @@ SUMMARY = (
 N_SUMMARY = len(SUMMARY)
 
 #: How an assembly ended.
-ASSEMBLED, UNDEFINED, NO_MASS, OPEN, CONTRADICTION, MOVED, PROJECTED = range(7)
+ASSEMBLED, UNDEFINED, NO_MASS, OPEN, CONTRADICTION, MOVED, PROJECTED, UNDETERMINED = range(8)
 
 #: In the integers shared with the thread that watches, behind those of single runs: runs that are done.
 RUNS_DONE = abi.N_CONTROL

@@ -1,15 +1,17 @@
 """Many runs of one compiled model with a constant step, several at once in the lanes of vector instructions.
 
-Lanes take the same steps side by side. What a run in a lane cannot do alone is not done here: where one comes near a
-singular position, meets a suspicious pivot, exceeds a limit or fails, it is left to the loop over single runs, from its
-start. So every run that ends here has gone well, and every other one has exactly the result of a single run.
+Lanes take the same steps side by side: the frame of single runs, with other meanings of what it does to a state. What a
+run in a lane cannot do alone is not done here: where one comes near a singular position, meets a suspicious pivot,
+exceeds a limit or fails, it is left to the loop over single runs, from its start. So every run that ends here has gone
+well, and every other one has exactly the result of a single run.
 
-Element i of every array of the lanes stands at ``LANES*i + lane``; those of emitted code are parts of one array
-(`symgen.ir.program.lane_bases`).
+Element i of every array of the lanes stands at ``LANES*i + lane``; those of emitted code are parts of one array z
+(`symgen.ir.program.lane_bases`), which stands in the place of ``p``.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from numba import types
@@ -17,295 +19,300 @@ from numba import types
 from symgen.ir.program import LANE_COUNTERS, LANES, lane_bases
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime import watch as watching
 from symgen.runtime.bare import bare, part
-from symgen.runtime.batch_rows import begin_run, end_run
-from symgen.runtime.lane_watch import FIRST_RANK, N_LANE_GAUGES, ODD, keep_lanes, padded, store_lanes, watch_lanes
-from symgen.runtime.steps import combine
-from symgen.store.jit import jit
+from symgen.runtime.frame import integrate
+from symgen.runtime.instances import instance
+from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
+from symgen.runtime.redundancy import never
+from symgen.runtime.rows import begin_run, end_run, take
+from symgen.runtime.schemes import explicit
+from symgen.runtime.vectors import copied
 
-_F8, _I8 = types.float64, types.int64
-_A, _I, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
 #: rhs(t, z) and accept(t, z).
-LANE_FUNCTION = types.FunctionType(types.int64(_F8, _A))
+LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
 
 _L, _SPARE = LANES, len(LANE_COUNTERS)
-_NQ, _NV, _NP, _NW, _WINDINGS = e.NQ, e.NV, e.NP, e.NW, e.WINDINGS
-_STOP, _STEPS, _EVALUATIONS, _OUTPUTS, _DONE = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS, abi.DONE
-_KINETIC, _POTENTIAL, _N_STATUS = abi.KINETIC * _L, abi.POTENTIAL * _L, abi.RANK + 1
-_STEP_STATUS, _START, _POTENTIAL_START = abi.STEP_STATUS * _L, abi.ENERGY_START * _L, abi.POTENTIAL_START * _L
-_TIME, _N_GAUGES, _LAST_RANK, _RUN_ITERATIONS = abi.TIME, abi.N_GAUGES, abi.LAST_RANK, abi.ITERATIONS
+_STOP, _STEPS, _EVALUATIONS, _OUTPUTS, _STOPPED = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS, abi.STOPPED
+_DONE, _NONE_GOES, _LEFT, _TIME, _N_STATUS = abi.DONE, abi.PAUSED, abi.LEFT, abi.TIME, abi.N_STATUS
+_RUN_ITERATIONS, _N_GAUGES, _N_SUMMARY, _CODE = abi.ITERATIONS, abi.N_GAUGES, e.N_SUMMARY, e.SUMMARY.index("code")
+_PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
+_SHORTEST = abi.SHORTEST_ROW * _L
+_PIVOT, _RANK, _LENGTH, _SPEED = abi.PIVOT * _L, abi.RANK * _L, abi.LENGTH * _L, abi.SPEED * _L
+_STEP_STATUS, _WINDING = abi.STEP_STATUS * _L, abi.WINDING * _L
+_PHI_MEASURE, _DRIFT_MEASURE = abi.PHI_MEASURE * _L, abi.DRIFT_MEASURE * _L
+_MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.MAX_PHI * _L, abi.MAX_DRIFT * _L, abi.MAX_ENERGY * _L
+_START, _SCALE, _POTENTIAL_START = abi.ENERGY_START * _L, abi.ENERGY_SCALE * _L, abi.POTENTIAL_START * _L
+_LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI * _L, abi.LIMIT_DRIFT * _L, abi.LIMIT_ENERGY * _L
+_SMALLEST, _LAST_SINE, _FALL = abi.SMALLEST_PIVOT * _L, abi.LAST_SINE * _L, abi.FALL * _L
+_LAST_TIME, _WARN = abi.LAST_TIME * _L, abi.WARN_PIVOT * _L
+_SUSPECTS, _FAILURES = LANE_COUNTERS.index("suspects") * _L, LANE_COUNTERS.index("failures") * _L
 _ITERATIONS = LANE_COUNTERS.index("iterations") * _L
+#: Behind the gauges of all lanes: the largest coordinate, the rank at the start, and 1 for lanes left to single runs.
+_LARGEST, _FIRST_RANK, _ODD = abi.N_GAUGES * _L, (abi.N_GAUGES + 1) * _L, (abi.N_GAUGES + 2) * _L
+_N_LANE_GAUGES = abi.N_GAUGES + 3
+#: Angles beyond this lose digits in the reduction of emitted sines.
+_LARGEST_ANGLE = 1e5
+_NEGLIGIBLE = watching.NEGLIGIBLE
+#: Rows that have lost more than half of their gradient are watched in single runs.
+_SHORT = 0.25
 
 
-@jit()
+# -- what the frame does, for all lanes --------------------------------------------------------------------------------
+
+
+def opened(sizes: Any, state: Any) -> Any:
+    """Return what runs keep: emitted code works on the state that is tried where it stands in z."""
+    s = bare(state)
+    trial = part(s.p, 0, sizes.width)
+    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
+    return Run(*kept, s.share, s.metric, s.scales, s.room)
+
+
+def settle(sizes: Any, span: Any, run: Any) -> None:
+    """Raise the scales of speeds to those of motions that cross the mechanism in the time of the run."""
+    for lane in range(_L):
+        speed = run.w[_LENGTH + lane] / span.duration
+        run.w[_SPEED + lane] = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
+
+
+def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
+    """Set `rate` to the rates of the states that are tried."""
+    width = system.sizes.width
+    system.rhs(t, run.p)
+    copied(width, part(run.p, width, width), rate)
+
+
+def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+    """Correct and measure the states that are tried; what fails is noted in the counters."""
+    system.accept(t, run.p)
+    return 0
+
+
+def note_step(run: Any, h: float) -> None:
+    """Tell emitted functions the step being taken."""
+    for lane in range(_L):
+        run.w[_STEP_STATUS + lane] = h
+
+
+def remember_rank(sizes: Any, run: Any) -> None:
+    """Do nothing: each lane has the rank of its own start."""
+
+
+def begin(run: Any) -> None:
+    """Take the energies of the first accepted states as those the balances start from."""
+    for lane in range(_L):
+        run.gauges[_START + lane] = run.w[_KINETIC + lane] + run.w[_POTENTIAL + lane]
+        run.gauges[_POTENTIAL_START + lane] = run.w[_POTENTIAL + lane]
+
+
+def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
+    """Update the largest violations and energy errors."""
+    w, gauges, work = run.w, run.gauges, (sizes.nq + sizes.nv) * _L
+    for lane in range(_L):
+        error = abs(w[_KINETIC + lane] + w[_POTENTIAL + lane] - gauges[_START + lane] - y[work + lane])
+        phi, drift = w[_PHI + lane], w[_DRIFT + lane]
+        gauges[_MAX_PHI + lane] = phi if phi > gauges[_MAX_PHI + lane] else gauges[_MAX_PHI + lane]
+        gauges[_MAX_DRIFT + lane] = drift if drift > gauges[_MAX_DRIFT + lane] else gauges[_MAX_DRIFT + lane]
+        gauges[_MAX_ENERGY + lane] = error if error > gauges[_MAX_ENERGY + lane] else gauges[_MAX_ENERGY + lane]
+    return 0.0
+
+
+def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
+    """Judge accepted states as `symgen.runtime.watch.watch` does; mark lanes that cannot go on."""
+    w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
+    run.clock[_TIME] = t
+    keep_maxima(sizes, run, y)
+    for lane in range(_L):
+        gauges[_LARGEST + lane] = 0.0
+    for i in range(sizes.nq):
+        for lane in range(_L):
+            angle = abs(y[i * _L + lane]) * (1.0 - run.metric[i])
+            gauges[_ODD + lane] = gauges[_ODD + lane] if angle <= _LARGEST_ANGLE else 1.0
+            size = abs(y[i * _L + lane]) * run.metric[i]
+            gauges[_LARGEST + lane] = size if size > gauges[_LARGEST + lane] else gauges[_LARGEST + lane]
+    for i in range(sizes.nq, behind):
+        for lane in range(_L):
+            size = abs(y[i * _L + lane]) / math.sqrt(w[(sizes.gauge + i - sizes.nq) * _L + lane])
+            w[_SPEED + lane] = size if size > w[_SPEED + lane] else w[_SPEED + lane]
+    work, going = behind * _L, 0.0
+    for lane in range(_L):
+        largest = gauges[_LARGEST + lane]
+        length = largest if largest > w[_LENGTH + lane] else w[_LENGTH + lane]
+        kinetic, done = w[_KINETIC + lane], abs(y[work + lane])
+        error = kinetic + w[_POTENTIAL + lane] - gauges[_START + lane] - y[work + lane]
+        change = abs(w[_POTENTIAL + lane] - gauges[_POTENTIAL_START + lane])
+        scale = kinetic if kinetic > gauges[_SCALE + lane] else gauges[_SCALE + lane]
+        scale = change if change > scale else scale
+        scale = done if done > scale else scale
+        gauges[_SCALE + lane] = scale
+        pivot, smallest, warn = w[_PIVOT + lane], gauges[_SMALLEST + lane], gauges[_WARN + lane]
+        gauges[_SMALLEST + lane] = pivot if pivot < smallest else smallest
+        sine = math.sqrt(pivot if pivot > 0.0 else 0.0)
+        elapsed, fall, before = t - gauges[_LAST_TIME + lane], gauges[_FALL + lane], gauges[_LAST_SINE + lane]
+        met = (fall > 0.0) & (before - fall * elapsed < math.sqrt(warn))
+        gauges[_FALL + lane] = (before - sine) / elapsed if elapsed > 0.0 else 0.0
+        gauges[_LAST_TIME + lane] = t
+        gauges[_LAST_SINE + lane] = sine
+        phi, drift = w[_PHI_MEASURE + lane], w[_DRIFT_MEASURE + lane]
+        bad = met | (pivot < warn) | (w[_RANK + lane] != gauges[_FIRST_RANK + lane])
+        bad |= not phi <= gauges[_LIMIT_PHI + lane] * length
+        bad |= not drift <= gauges[_LIMIT_DRIFT + lane] * w[_SPEED + lane]
+        least = _NEGLIGIBLE * (kinetic + abs(w[_POTENTIAL + lane]))
+        bad |= not abs(error) <= gauges[_LIMIT_ENERGY + lane] * scale + least
+        bad |= not w[_SHORTEST + lane] >= _SHORT
+        bad |= (counters[_SUSPECTS + lane] > 0.0) | (counters[_FAILURES + lane] > 0.0)
+        odd = 1.0 if bad else gauges[_ODD + lane]
+        gauges[_ODD + lane] = odd
+        going += 1.0 - odd
+    return _DONE if going > 0.0 else _NONE_GOES
+
+
+def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+    """Keep output `k` of all lanes: states, then what ``accept`` measured, then angles with their turns counted."""
+    n, width = sizes.ny * _L, outputs.status.shape[0] // outputs.times.shape[0]
+    for i in range(n):
+        outputs.states[k * n + i] = y[i]
+    for i in range(_N_STATUS * _L):
+        outputs.status[k * width + i] = w[i]
+    for i in range(width - _N_STATUS * _L):
+        outputs.status[k * width + _N_STATUS * _L + i] = w[_WINDING + i]
+
+
+_MEANINGS: dict[str, Any] = {
+    **{"opened": opened, "evaluate": evaluate, "correct": correct, "note_step": note_step, "store": store},
+    **{"settle": settle, "remember_rank": remember_rank, "begin": begin, "keep_maxima": keep_maxima, "watch": watch},
+    **{"rows_fell": never, "attempt": explicit.attempt_constant},
+}
+
+
+# -- groups of rows ----------------------------------------------------------------------------------------------------
+
+
+def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> None:
+    """Bring a group of rows into the lanes; the last group repeats its last row."""
+    n, n_p, nw, total = sizes.ny, state.p.shape[0], state.w.shape[0], chunk.selected.shape[0]
+    p_at = 2 * sizes.width
+    w_at = p_at + n_p * _L
+    for lane in range(_L):
+        r = chunk.selected[min(g + lane, total - 1)]
+        for i in range(n):
+            z[i * _L + lane] = chunk.ys[r * n + i]
+        for i in range(n_p):
+            z[p_at + i * _L + lane] = chunk.ps[r * n_p + i]
+        for i in range(nw):
+            z[w_at + i * _L + lane] = chunk.ws[r * nw + i]
+        for i in range(_SPARE):
+            z[w_at + (nw + i) * _L + lane] = 0.0
+        begin_run(state, chunk.limits)
+        for i in range(_N_GAUGES):
+            gauges[i * _L + lane] = state.gauges[i]
+        rank = 0.0
+        for i in range(sizes.m):
+            rank += 1.0 if chunk.ws[r * nw + sizes.pivots + i] >= 1e-12 else 0.0
+        gauges[_FIRST_RANK + lane], gauges[_ODD + lane] = rank, 0.0
+
+
+def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:
+    """Take the run of a lane out of them, as if it had been done alone."""
+    n, nw, columns = sizes.ny, state.w.shape[0], kept.outputs.status.shape[1]
+    for i in range(nw):
+        state.w[i] = lanes.w[i * _L + lane]
+    for k in range(outputs.times.shape[0]):
+        for i in range(n):
+            kept.outputs.states[k, i] = outputs.states[(k * n + i) * _L + lane]
+        for i in range(columns):
+            kept.outputs.status[k, i] = outputs.status[(k * columns + i) * _L + lane]
+    for i in range(_N_GAUGES):
+        state.gauges[i] = lanes.gauges[i * _L + lane]
+    for i in range(state.iw.shape[0]):
+        state.iw[i] = 0
+    state.iw[_RUN_ITERATIONS] = int(lanes.iw[_ITERATIONS + lane])
+
+
 def run_lanes(
     rhs: Any,
-    accept: Any,
-    start: Any,
-    column: Any,
-    value: Any,
-    nodes: Any,
-    n_stages: int,
-    nq: int,
-    n: int,
-    n_p: int,
-    nw: int,
-    windings: int,
-    h: float,
-    until: float,
-    z: Any,
-    before: Any,
-    stages: Any,
-    times: Any,
-    outputs: Any,
-    gauges: Any,
-    limits: Any,
-    control: Any,
-    lanes: int,
-) -> int:
-    """Integrate all lanes as `symgen.runtime.explicit.fixed_steps` does one run; return the steps, -1 if stopped."""
-    width = padded(n) * _L
-    y, rate, at = part(z, 0, width), part(z, width, width), 2 * width + n_p * _L
-    w, counters = part(z, at, nw * _L), part(z, at + nw * _L, _SPARE * _L)
-    tiny = 1e-9 * h
-    t, index, out = 0.0, 0, 0
-    accept(t, z)
-    for lane in range(lanes):
-        gauges[_START + lane] = w[_KINETIC + lane] + w[_POTENTIAL + lane]
-        gauges[_POTENTIAL_START + lane] = w[_POTENTIAL + lane]
-    going = watch_lanes(t, y, nq, n, w, counters, gauges, limits, lanes)
-    while out < times.shape[0] and times[out] <= t + tiny:
-        store_lanes(out, y, w, n, windings, outputs)
-        out += 1
-    for i in range(width):
-        before[i] = y[i]
-    while t < until - tiny and going > 0.0:
-        if control[_STOP] != 0:
-            return -1
-        following = (index + 1) * h
-        step = h
-        if following > until - tiny:
-            following = until
-            step = until - t
-        partial = out < times.shape[0] and times[out] < following - tiny
-        if partial:
-            following = times[out]
-            step = following - t
-        for lane in range(lanes):
-            w[_STEP_STATUS + lane] = step
-        for s in range(n_stages):
-            combine(width, step, start[s], start[s + 1], column, value, before, stages, y)
-            rhs(t + nodes[s] * step, z)
-            for i in range(width):
-                stages[s * width + i] = rate[i]
-        combine(width, step, start[n_stages], start[n_stages + 1], column, value, before, stages, y)
-        control[_EVALUATIONS] += n_stages
-        accept(following, z)
-        if partial:
-            keep_lanes(y, w, gauges, n - 1, lanes)
-            store_lanes(out, y, w, n, windings, outputs)
-            out += 1
-            continue
-        for i in range(width):
-            before[i] = y[i]
-        t = following
-        index += 1
-        going = watch_lanes(t, y, nq, n, w, counters, gauges, limits, lanes)
-        if out < times.shape[0] and times[out] <= t + tiny:
-            store_lanes(out, y, w, n, windings, outputs)
-            out += 1
-    return index
-
-
-@jit(
-    _I8(
-        *(
-            LANE_FUNCTION,
-            LANE_FUNCTION,
-            abi.RHS,
-            abi.RHS,
-            abi.ACCEPT,
-            abi.OBSERVE,
-            _I,
-            _I,
-            _A,
-            _A,
-            _I8,
-            _F8,
-            _F8,
-            _I,
-            _I,
-            _A,
-            _A,
-            _A,
-        ),
-        *(_A, _M, _M, _M, _M, _M, _M, _I, _A, _A, _A, _A, _I, _A, _I, _A, _I),
-    )
-)
-def lane_runs(
-    lanes_rhs: Any,
     lanes_accept: Any,
     rates: Any,
     rates_confirm: Any,
     accept: Any,
     observe: Any,
-    start: Any,
-    column: Any,
-    value: Any,
-    nodes: Any,
-    n_stages: int,
-    h: float,
-    until: float,
+    scheme: Any,
     sizes: Any,
-    selected: Any,
-    ys: Any,
-    ps: Any,
-    ws: Any,
-    times: Any,
-    states: Any,
-    status: Any,
-    accelerations: Any,
-    multipliers: Any,
-    observed: Any,
-    angles: Any,
-    picks: Any,
-    values: Any,
-    summary: Any,
-    limits: Any,
-    gauges: Any,
-    control: Any,
-    events: Any,
-    iw: Any,
-    room: Any,
-    left: Any,
+    span: Any,
+    chunk: Any,
+    state: Any,
+    kept: Any,
 ) -> int:
-    """Run the selected rows, `LANES` at a time; the other arguments are as for `symgen.runtime.batch.fixed_runs`.
+    """Run the selected rows, `LANES` at a time; rows that are left to single runs get the code `LEFT`.
 
     Parameters
     ----------
-    lanes_rhs, lanes_accept : emitted functions
+    rhs, lanes_accept : emitted functions
         For lanes; the other ones are those of single runs.
-    room : Array
-        Working memory: `room_of_lanes` numbers.
-    left : Array of int, shape (k,)
-        1 for rows that are left to the loop over single runs; written.
+    rates, rates_confirm, accept, observe, scheme, sizes, span, chunk, kept
+        As for `symgen.runtime.rows.run_rows`.
+    state : State
+        As for single runs; its working memory, `room_of_lanes` numbers, holds the lanes.
 
     Returns
     -------
     int
         How many of the selected rows were worked on: all of them, unless the run was stopped.
     """
-    nq, n, n_p, nw = sizes[_NQ], sizes[_NQ] + sizes[_NV] + 1, sizes[_NP], sizes[_NW]
-    windings, k_times = sizes[_WINDINGS], times.shape[0]
-    ys, ps, ws, room = bare(ys), bare(ps), bare(ws), bare(room)
-    width, full = n + _N_STATUS + windings, padded(n)
-    numbers = 2 * full + n_p + nw + _SPARE
-    z, before = part(room, 0, numbers * _L), part(room, numbers * _L, full * _L)
-    at = (numbers + full) * _L
-    stages, lane_gauges = (
-        part(room, at, n_stages * full * _L),
-        part(room, at + n_stages * full * _L, N_LANE_GAUGES * _L),
+    chunk, state, kept = bare(chunk), bare(state), bare(kept)
+    n, n_p, nw, columns = sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
+    times, total, room = kept.outputs.times, chunk.selected.shape[0], state.room
+    width = (n + 3) // 4 * 4 * _L  # as in `symgen.ir.program.lane_bases`
+    wide = Sizes(
+        *(sizes.nq, sizes.nv, sizes.m, n, width, sizes.controlled, sizes.unknowns),
+        *(sizes.pivots, sizes.multipliers, sizes.mask, sizes.change, sizes.gauge, sizes.jacobian, sizes.auxiliary),
     )
-    at += (n_stages * full + N_LANE_GAUGES) * _L
-    one, outputs = part(room, at, nw), part(room, at + nw, k_times * width * _L)
-    p_at, w_at = 2 * full * _L, (2 * full + n_p) * _L
-    total = selected.shape[0]
+    numbers = 2 * width + (n_p + nw + _SPARE) * _L
+    z, at = part(room, 0, numbers), numbers
+    y, gauges = part(room, at, width), part(room, at + width, _N_LANE_GAUGES * _L)
+    at += width + _N_LANE_GAUGES * _L
+    states, status = (
+        part(room, at, times.shape[0] * n * _L),
+        part(room, at + times.shape[0] * n * _L, times.shape[0] * columns * _L),
+    )
+    at += times.shape[0] * (n + columns) * _L
+    w, counters = part(z, 2 * width + n_p * _L, nw * _L), part(z, 2 * width + (n_p + nw) * _L, _SPARE * _L)
+    outputs = Outputs(times, states, status)
+    clock, control, rest = state.clock, state.control, part(room, at, room.shape[0] - at)
+    more = state.events, state.memory, state.share, state.metric, state.scales
+    lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)
     for g in range(0, total, _L):
         if control[_STOP] != 0:
             return int(g)
-        for lane in range(_L):
-            r = selected[min(g + lane, total - 1)]  # the last group repeats its last row
-            for i in range(n):
-                z[i * _L + lane] = ys[r * n + i]
-            for i in range(n_p):
-                z[p_at + i * _L + lane] = ps[r * n_p + i]
-            for i in range(nw):
-                z[w_at + i * _L + lane] = ws[r * nw + i]
-            for i in range(_SPARE):
-                z[w_at + (nw + i) * _L + lane] = 0.0
-            begin_run(part(ys, r * n, n), part(ws, r * nw, nw), iw, sizes, limits, gauges, control)
-            for i in range(_N_GAUGES):
-                lane_gauges[i * _L + lane] = gauges[i]
-            lane_gauges[FIRST_RANK + lane] = control[_LAST_RANK]
-            lane_gauges[ODD + lane] = 0.0
-        steps = run_lanes(
-            lanes_rhs,
-            lanes_accept,
-            start,
-            column,
-            value,
-            nodes,
-            n_stages,
-            nq,
-            n,
-            n_p,
-            nw,
-            windings,
-            h,
-            until,
-            z,
-            before,
-            stages,
-            times,
-            outputs,
-            lane_gauges,
-            limits,
-            control,
-            _L,
-        )
-        if steps < 0:
+        load(chunk, wide, state, g, z, gauges)
+        copied(width, z, y)
+        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == _STOPPED:
             return int(g)
-        evaluations = control[_EVALUATIONS]
+        steps, evaluations = control[_STEPS], control[_EVALUATIONS]
         for lane in range(min(_L, total - g)):
-            r = selected[g + lane]
-            left[r] = 1 if lane_gauges[ODD + lane] != 0.0 else 0
-            if left[r] == 1:
+            r = chunk.selected[g + lane]
+            if gauges[_ODD + lane] != 0.0:
+                chunk.summary[r * _N_SUMMARY + _CODE] = _LEFT
                 continue
-            for i in range(nw):
-                one[i] = z[w_at + i * _L + lane]
-            for k in range(k_times):
-                for i in range(n):
-                    states[k, i] = outputs[(k * width + i) * _L + lane]
-                for i in range(_N_STATUS + windings):
-                    status[k, i] = outputs[(k * width + n + i) * _L + lane]
-            for i in range(_N_GAUGES):
-                gauges[i] = lane_gauges[i * _L + lane]
-            gauges[_TIME] = until
-            for i in range(iw.shape[0]):
-                iw[i] = 0
-            iw[_RUN_ITERATIONS] = int(z[w_at + nw * _L + _ITERATIONS + lane])
-            control[_STEPS], control[_OUTPUTS], control[_EVALUATIONS] = steps, k_times, evaluations
-            end_run(
-                _DONE,
-                r,
-                rates,
-                rates_confirm,
-                accept,
-                observe,
-                sizes,
-                part(ps, r * n_p, n_p),
-                one,
-                part(ws, r * nw, nw),
-                iw,
-                times,
-                states,
-                status,
-                accelerations,
-                multipliers,
-                observed,
-                angles,
-                picks,
-                values,
-                summary,
-                gauges,
-                control,
-                events,
-            )
+            unload(lane, sizes, lanes, state, outputs, kept)
+            take(chunk.ps, r * n_p, n_p, state.p)
+            clock[_TIME] = span.until
+            control[_STEPS], control[_OUTPUTS], control[_EVALUATIONS] = steps, times.shape[0], evaluations
+            end_run(_DONE, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
     return int(total)
 
 
-def room_of_lanes(n: int, n_stages: int, n_p: int, nw: int, windings: int, n_times: int) -> int:
-    """Return the length of the working memory of `lane_runs`."""
+def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times: int) -> int:
+    """Return the length of the working memory of `run_lanes`."""
     bases = lane_bases(n, n_p, nw)
-    numbers = bases["numbers"] + (1 + n_stages) * bases["ydot"] + N_LANE_GAUGES
-    return LANES * (numbers + n_times * (n + _N_STATUS + windings)) + nw
+    numbers = bases["numbers"] + (1 + stages) * bases["ydot"] + _N_LANE_GAUGES
+    return LANES * (numbers + n_times * (n + _N_STATUS + windings))
+
+
+_FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
+lane_runs = compiled_loop(
+    *(__name__, "lane_runs", run_lanes, types.int64(*_FUNCTIONS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
+    integrate=instance(integrate, _MEANINGS),
+)

@@ -1,17 +1,107 @@
-"""Least-squares solutions of least norm, of any rank, in a loop that compiles in a fraction of LAPACK's time."""
+"""Shortest changes: the x with D x = right whose x / scale is shortest, for D of any rank, dense or sparse.
+
+Both solvers take what ``geometry`` left in the scratch array. They are handed to the functions of a start as
+first-class functions: copied to every place they are called from, they would take seconds to compile.
+"""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-from symgen.store.jit import jit
+from numba import types
 
-#: Rows whose remaining part is below this, times the largest row, depend on others; as in `symgen.runtime.assembly`.
-_CUTOFF = 1e-6
+from symgen.runtime import abi, decisions
+from symgen.runtime.bare import part
+from symgen.runtime.exact import exact
+from symgen.runtime.start_records import INSTANT, LAYOUT, WORK
+
+_SIGNATURE = types.int64(abi.MOVE, LAYOUT, INSTANT, WORK)
 
 
-@jit()
+@exact(_SIGNATURE)
+def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+    """Set `work.x` by an orthogonal factorisation of the dense D; return its rank. `spread` is not used."""
+    m, n, numbers, x, scale = layout.m, layout.nv, work.numbers, work.x, work.scale
+    entries, constants, w, jacobian = layout.entries, layout.constants, now.w, layout.jacobian
+    for i in range(m * n):
+        numbers[i] = 0.0
+    for k in range(constants.shape[0]):
+        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
+        numbers[row * n + column] = (constants[k] if slot < 0 else w[jacobian + slot]) * scale[column]
+    rank = least_norm(numbers, m, n, work.right, x, part(numbers, m * n, m * min(m, n) + m + n), work.order)
+    for j in range(n):
+        x[j] *= scale[j]
+    return int(rank)
+
+
+@exact(_SIGNATURE)
+def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+    """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the identity, else by iteration.
+
+    Conjugate gradients on the normal equations (CGLS) begin at 0 and so never leave the row space.
+    """
+    m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
+    uniform = True
+    for j in range(n):
+        x[j] = 0.0
+        uniform = uniform and scale[j] == 1.0
+    if uniform:
+        for i in range(m):
+            w[layout.residual + i] = -right[i]
+        spread(now.p, w)
+        for j in range(n):
+            x[j] = w[layout.change + j]
+        return 0
+    gradient, direction = part(work.numbers, 0, n), part(work.numbers, n, n)
+    product = part(work.numbers, 2 * n, m)
+    size = first = 0.0
+    for k in range(decisions.ITERATIONS_A_ROW * m + decisions.ITERATIONS_AT_LEAST):
+        _multiply_transposed(layout, w, right, gradient)
+        before, size = size, 0.0
+        for j in range(n):
+            gradient[j] *= scale[j]
+            size += gradient[j] * gradient[j]
+        first = size if k == 0 else first
+        if not size > decisions.GRADIENT_FALL * first:
+            break
+        for j in range(n):
+            direction[j] = gradient[j] + (direction[j] * (size / before) if k > 0 else 0.0)
+            gradient[j] = scale[j] * direction[j]
+        multiply(layout, w, gradient, product)
+        square = 0.0
+        for i in range(m):
+            square += product[i] * product[i]
+        for i in range(m):
+            right[i] -= size / square * product[i]
+        for j in range(n):
+            x[j] += size / square * gradient[j]
+    return 0
+
+
+@exact()
+def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
+    """Set `result` to D x."""
+    entries, constants, jacobian = layout.entries, layout.constants, layout.jacobian
+    for i in range(layout.m):
+        result[i] = 0.0
+    for k in range(constants.shape[0]):
+        slot = entries[3 * k + 2]
+        result[entries[3 * k]] += (constants[k] if slot < 0 else w[jacobian + slot]) * x[entries[3 * k + 1]]
+
+
+@exact()
+def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
+    """Set `result` to D^T y."""
+    entries, constants, jacobian = layout.entries, layout.constants, layout.jacobian
+    for j in range(layout.nv):
+        result[j] = 0.0
+    for k in range(constants.shape[0]):
+        slot = entries[3 * k + 2]
+        result[entries[3 * k + 1]] += (constants[k] if slot < 0 else w[jacobian + slot]) * y[entries[3 * k]]
+
+
+@exact()
 def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any) -> int:
     """Set `x` to the shortest vector that minimises ``|a x - right|``; return the rank of `a`.
 
@@ -40,7 +130,7 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
         order[i] = i
     rank, first = 0, 0.0
     for k in range(min(m, n)):
-        best, at = -1.0, k
+        best, at = 0.0, k
         for i in range(k, m):
             row = order[i] * n
             square = 0.0
@@ -51,7 +141,7 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
         size = math.sqrt(best)
         if k == 0:
             first = size
-        if not size > _CUTOFF * first:
+        if not size > decisions.RANK_CUTOFF * first:
             break
         order[k], order[at] = order[at], order[k]
         row = order[k] * n
@@ -104,13 +194,13 @@ def least_norm(a: Any, m: int, n: int, right: Any, x: Any, room: Any, order: Any
     return rank
 
 
-@jit()
+@exact()
 def _reduce(matrix: Any, at: int, m: int, n: int, right: Any) -> None:
     """Reflect the columns of a matrix of full rank, m x n from index `at` on: leave R and Q^T right."""
     for k in range(n):
         square = 0.0
         for i in range(k, m):
-            square += matrix[at + i * n + k] ** 2
+            square += matrix[at + i * n + k] * matrix[at + i * n + k]
         head = matrix[at + k * n + k]
         size = math.sqrt(square)
         diagonal = -size if head > 0.0 else size

@@ -17,25 +17,27 @@ def stay(y: Any, w: Any) -> int:
     return 0
 
 
-@jit()
-def advance(nq: int, nv: int, y: Any, delta: Any, trial: Any, w: Any, change: int, turn: Any) -> None:
-    """Set the positions of `trial` to those of `y` moved by `delta`, bodies in space by its exponential.
+def advance(system: Any, run: Any, delta: Any, trial: Any) -> None:
+    """Set the positions of `trial` to those of the accepted state moved by `delta`, bodies in space by its exponential.
 
     Parameters
     ----------
+    system : System
+        Its ``turn`` is used only where nq differs from nv.
+    run : Run
+        The run.
     delta : Array, shape (nv,)
         Change of position in the coordinates of v.
-    change : int
-        Where the section ``change`` begins in `w`.
-    turn : emitted function
-        See `symgen.runtime.abi`; used only where nq differs from nv.
+    trial : Array
+        A state.
     """
+    nq, nv, change = system.sizes.nq, system.sizes.nv, system.sizes.change
     if nq == nv:
         for i in range(nq):
-            trial[i] = y[i] + delta[i]
+            trial[i] = run.y[i] + delta[i]
         return
     for i in range(nq):
-        trial[i] = y[i]
+        trial[i] = run.y[i]
     for j in range(nv):
-        w[change + j] = delta[j]
-    turn(trial, w)
+        run.w[change + j] = delta[j]
+    system.turn(trial, run.w)

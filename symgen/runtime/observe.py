@@ -4,141 +4,94 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from numba import types
 
 from symgen.runtime import abi
+from symgen.runtime.bare import part
+from symgen.runtime.records import OBSERVED, OUTPUTS, SIZES
 from symgen.store.jit import jit
 
-_WINDING = abi.WINDING
-_A, _I, _M, _I8 = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64
+_WINDING, _N_STATUS = abi.WINDING, abi.N_STATUS
+_A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 
 
 @jit()
-def fill_rates(
-    rhs: Any,
-    confirm: Any,
-    accept: Any,
-    times: Any,
-    states: Any,
-    angles: Any,
-    p: Any,
-    w: Any,
-    iw: Any,
-    nq: int,
-    multipliers: int,
-    accelerations: Any,
-    lam: Any,
-    y: Any,
-    rate: Any,
-) -> None:
-    """Do the work of `observe_rates`; `y` and `rate` are working memory for a state each."""
-    for k in range(times.shape[0]):
-        for i in range(y.shape[0]):
-            y[i] = states[k, i]
-        for i in range(angles.shape[1]):
-            w[_WINDING + i] = angles[k, i]
-        accept(times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
-        if rhs(times[k], y, p, w, iw, rate) != 0:
-            confirm(times[k], y, p, w, iw, rate)
-        for i in range(accelerations.shape[1]):
-            accelerations[k, i] = rate[nq + i]
-        for i in range(lam.shape[1]):
-            lam[k, i] = w[multipliers + i]
+def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
+    """Set `y` to the state of an output, and the angles in `w` to what they were there."""
+    for i in range(sizes.ny):
+        y[i] = outputs.states[k, i]
+    for i in range(outputs.status.shape[1] - _N_STATUS):
+        w[_WINDING + i] = outputs.status[k, _N_STATUS + i]
 
 
-@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, _A, _M, _M, _A, _A, _I, _I8, _I8, _M, _M))
+@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
 def observe_rates(
-    rhs: Any,
+    rates: Any,
     confirm: Any,
     accept: Any,
-    times: Any,
-    states: Any,
-    angles: Any,
+    sizes: Any,
+    outputs: Any,
+    count: int,
     p: Any,
     w: Any,
     iw: Any,
-    nq: int,
-    multipliers: int,
-    accelerations: Any,
-    lam: Any,
+    observed: Any,
+    room: Any,
 ) -> int:
-    """Evaluate v' and lambda at every output.
+    """Evaluate v' and lambda at outputs.
 
     Parameters
     ----------
-    rhs, confirm, accept : emitted functions
+    rates, confirm, accept : emitted functions
         See `symgen.runtime.abi`.
-    times, states : Array, shapes (k,), (k, ny)
-        The outputs, in the order of time.
-    angles : Array, shape (k, number of angles whose turns are counted)
-        What the section ``winding`` held at the outputs.
-    nq, multipliers : int
-        Number of coordinates, and where the multipliers begin in `w`.
-    accelerations, lam : Array, shapes (k, nv), (k, m)
-        Results.
+    sizes : Sizes
+        Of the model.
+    outputs : Outputs
+        In the order of time.
+    count : int
+        How many there are.
+    p, w, iw : Array
+        As emitted functions take them, scratch and counters as they were at the start of the run.
+    observed : Observed
+        Receives accelerations and multipliers.
+    room : Array
+        Working memory for two states.
     """
-    y = np.zeros(states.shape[1])
-    rate = np.zeros(states.shape[1])
-    fill_rates(rhs, confirm, accept, times, states, angles, p, w, iw, nq, multipliers, accelerations, lam, y, rate)
+    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        accept(outputs.times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis
+        if rates(outputs.times[k], y, p, w, iw, rate) != 0:
+            confirm(outputs.times[k], y, p, w, iw, rate)
+        for i in range(sizes.nv):
+            observed.accelerations[k, i] = rate[sizes.nq + i]
+        for i in range(sizes.m):
+            observed.multipliers[k, i] = w[sizes.multipliers + i]
     return 0
 
 
-@jit()
-def fill_rows(
-    observe: Any,
-    times: Any,
-    states: Any,
-    accelerations: Any,
-    angles: Any,
-    p: Any,
-    w: Any,
-    nq: int,
-    observed: Any,
-    y: Any,
-    rate: Any,
-    out: Any,
-) -> None:
-    """Do the work of `observe_rows`; `y`, `rate` and `out` are working memory for a state each and for a row."""
-    for k in range(times.shape[0]):
-        for i in range(y.shape[0]):
-            y[i] = states[k, i]
-        for i in range(accelerations.shape[1]):
-            rate[nq + i] = accelerations[k, i]
-        for i in range(angles.shape[1]):
-            w[_WINDING + i] = angles[k, i]
-        observe(times[k], y, p, w, rate, out)
-        for i in range(observed.shape[1]):
-            observed[k, i] = out[i]
-
-
-@jit(_I8(abi.OBSERVE, _A, _M, _M, _M, _A, _A, _I8, _M))
-def observe_rows(
-    observe: Any,
-    times: Any,
-    states: Any,
-    accelerations: Any,
-    angles: Any,
-    p: Any,
-    w: Any,
-    nq: int,
-    observed: Any,
-) -> int:
-    """Evaluate D v' - gamma and the joint coordinates with their rates at every output.
+@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
+def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
+    """Evaluate D v' - gamma and the joint coordinates with their rates at outputs.
 
     Parameters
     ----------
     observe : emitted function
         See `symgen.runtime.abi`.
-    times, states, accelerations : Array, shapes (k,), (k, ny), (k, nv)
-        The outputs.
-    angles : Array, shape (k, number of angles whose turns are counted)
-        What the section ``winding`` held at the outputs.
-    observed : Array, shape (k, m + 2 n)
-        Result, in the order that ``observe`` writes.
+    sizes, outputs, count, p, w
+        As for `observe_rates`.
+    observed : Observed
+        Holds accelerations; receives rows, in the order that ``observe`` writes.
+    room : Array
+        Working memory for two states and a row.
     """
-    y = np.zeros(states.shape[1])
-    rate = np.zeros(states.shape[1])
-    out = np.zeros(max(1, observed.shape[1]))
-    fill_rows(observe, times, states, accelerations, angles, p, w, nq, observed, y, rate, out)
+    ny, length = sizes.ny, observed.rows.shape[1]
+    y, rate, row = part(room, 0, ny), part(room, ny, ny), part(room, 2 * ny, length)
+    for k in range(count):
+        output(sizes, outputs, k, y, w)
+        for i in range(sizes.nv):
+            rate[sizes.nq + i] = observed.accelerations[k, i]
+        observe(outputs.times[k], y, p, w, rate, row)
+        for i in range(length):
+            observed.rows[k, i] = row[i]
     return 0

@@ -1,24 +1,27 @@
-"""Single evaluations of emitted functions from Python, at the price of one cached compilation for all models."""
+"""Emitted functions for calls from Python, with the machine code that loops of all models take."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from numba import types
 
-from symgen.runtime import abi
-from symgen.store.jit import jit
+class Ready:
+    """An emitted function, compiled or taken from the cache when it is first called.
 
-_F8, _A, _I = types.float64, types.float64[::1], types.int64[::1]
+    Parameters
+    ----------
+    function : Dispatcher or function
+        What is called; plain Python where nothing is compiled.
+    kind : FunctionType
+        Its type, of `symgen.runtime.abi`: machine code is cached under the signature that loops ask for.
+    """
 
+    def __init__(self, function: Any, kind: Any) -> None:
+        self._function, self._signature = function, kind.signature
 
-@jit(types.int64(abi.MEASURE, _F8, _A, _A, _A))
-def call_measure(function: Any, t: float, y: Any, p: Any, w: Any) -> int:
-    """Call ``geometry``."""
-    return int(function(t, y, p, w))
-
-
-@jit(types.int64(abi.RHS, _F8, _A, _A, _A, _I, _A))
-def call_rhs(function: Any, t: float, y: Any, p: Any, w: Any, iw: Any, ydot: Any) -> int:
-    """Call ``rhs``."""
-    return int(function(t, y, p, w, iw, ydot))
+    def __call__(self, *arguments: Any) -> Any:
+        """Call it."""
+        if self._signature is not None and hasattr(self._function, "compile"):
+            self._function.compile(self._signature)
+        self._signature = None
+        return self._function(*arguments)

@@ -12,18 +12,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.integrators._base import State
 from symgen.ir.program import COUNTERS
 from symgen.runtime import abi
-from symgen.runtime.assembly import Start
+from symgen.runtime.assembly import Start, entries_of, lengths_of
+from symgen.runtime.blocks import padded
+from symgen.runtime.exact import compiled_form
 from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
-    from symgen.integrators._base import Integrator, LoopCall
-    from symgen.model import CompiledModel
+    from symgen.model import CompiledModel, ModelInfo
+    from symgen.runtime.integrator import Integrator
+    from symgen.runtime.records import Observed, Outputs, Sizes, Span, State
 
 Array = NDArray[np.float64]
 
+#: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
+MAX_STEPS = 1e8
 #: A pivot of D D^T (rows scaled) below this is near a singular position; as in `symgen.lower.algebra`.
 WARN = 1e-4
 
@@ -42,12 +46,14 @@ class RunSpec:
         Whether steps follow the error estimate.
     rtol, atol : float
         Tolerances of an adaptive run.
+    relative : bool
+        Whether `atol` is meant for coordinates and speeds over those of the mechanism; else it has their units.
     times : Array
         Output times, increasing.
     largest_step : float
         Bound of adaptive steps [s].
     max_violation : float
-        Largest |Phi| (times the largest coordinate) and |D v - nu| (times the largest speed) that is tolerated.
+        Largest |Phi| (times the scale of lengths) and |D v - nu| (times the largest speed) that is tolerated.
     max_velocity_violation : float or None
         The limit of |D v - nu| where it is another one.
     max_energy_error : float
@@ -56,6 +62,8 @@ class RunSpec:
         Values of the integrator's parameters that differ from the defaults.
     max_evaluations : int or None
         The run is stopped some time after it took more right-hand sides than this.
+    max_steps : float
+        An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     """
 
     until: float
@@ -64,12 +72,14 @@ class RunSpec:
     times: Array
     rtol: float = 1e-8
     atol: float = 1e-10
+    relative: bool = False
     largest_step: float = np.inf
     max_violation: float = 1e-6
     max_velocity_violation: float | None = None
     max_energy_error: float = 0.05
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
     max_evaluations: int | None = None
+    max_steps: float = MAX_STEPS
 
     @property
     def velocity_limit(self) -> float:
@@ -125,12 +135,12 @@ class Outcome:
     @property
     def accelerations(self) -> Array:
         """Return v' at the outputs, shape (k, nv)."""
-        return self._rates[0]
+        return np.asarray(self._rates.accelerations)
 
     @property
     def multipliers(self) -> Array:
         """Return lambda at the outputs, shape (k, m)."""
-        return self._rates[1]
+        return np.asarray(self._rates.multipliers)
 
     @property
     def acceleration_violations(self) -> Array:
@@ -142,35 +152,43 @@ class Outcome:
         """Return value and rate of every joint coordinate in turns at the outputs, shape (k, 2 n)."""
         return self._rows[:, self.compiled.info.m :]
 
-    @property
-    def _angles(self) -> Array:
-        """What the section ``winding`` held at the outputs."""
-        return np.ascontiguousarray(self.status_columns[:, abi.RANK + 1 :])
+    @cached_property
+    def _seen(self) -> tuple[Sizes, Outputs, Observed]:
+        """The outputs as compiled functions take them, and room for what is observed at them."""
+        from symgen.runtime.records import Observed, Outputs
+
+        info, k = self.compiled.info, len(self.times)
+        rows = np.zeros((k, info.m + 2 * len(info.joint_coordinates)))
+        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), rows)
+        return sizes_of(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
 
     @cached_property
-    def _rates(self) -> tuple[Array, Array]:
+    def _rates(self) -> Observed:
         from symgen.runtime.observe import observe_rates
 
-        info, law, k = self.compiled.info, self.compiled.law_module, len(self.times)
-        accelerations, multipliers = np.zeros((k, info.nv)), np.zeros((k, info.m))
+        (sizes, outputs, observed), law = self._seen, self.compiled.law_module
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        confirm = getattr(law, "confirm", rates)
-        iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
-        observe_rates(
-            *(rates, confirm, law.accept, self.times, self.states, self._angles, self.p, self.start.w.copy(), iw),
-            *(info.nq, info.sections["multipliers"][0], accelerations, multipliers),
-        )
-        return accelerations, multipliers
+        functions, iw = (rates, getattr(law, "confirm", rates), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
+        if not self.start.redundant_rows:
+            observe_rates(*functions, sizes, outputs, len(self.times), self.p, w, iw, observed, room)
+            return observed
+        for k in range(len(self.times)):  # the rows that stand for all follow the position
+            here, seen = (type(x)(*(array[k : k + 1] for array in x)) for x in (outputs, observed))
+            observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
+            if choose_anew(self.compiled, w):
+                observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
+        return observed
 
     @cached_property
     def _rows(self) -> Array:
         from symgen.runtime.observe import observe_rows
 
-        info = self.compiled.info
-        observed = np.zeros((len(self.times), info.m + 2 * len(info.joint_coordinates)))
-        arrays = (self.times, self.states, self.accelerations, self._angles, self.p, self.w.copy(), info.nq, observed)
-        observe_rows(self.compiled.model.observe, *arrays)
-        return observed
+        (sizes, outputs, _), observed = self._seen, self._rates
+        room = np.zeros(2 * sizes.ny + observed.rows.shape[1])
+        arrays = self.p, self.w.copy(), observed, room
+        observe_rows(self.compiled.model.observe, sizes, outputs, len(self.times), *arrays)
+        return np.asarray(observed.rows)
 
 
 def integrate(
@@ -201,39 +219,37 @@ def integrate(
         Also after an interruption (KeyboardInterrupt): with everything up to there and code `STOPPED`.
     """
     before = cache_stats()
-    w, iw, gauges, control, events = _arrays(compiled, start, spec)
-    y, p = start.y.copy(), start.p.copy()
-    outputs = (
-        spec.times,
-        np.empty((len(spec.times), len(y))),
-        np.empty((len(spec.times), abi.RANK + 1 + compiled.info.windings)),
-    )
-    call = integrator.call(compiled, spec, State(y, p, w, iw))
-    watched = gauges, control, events
-    _warm(call, outputs, watched)
-    code, seconds, interrupted = _in_thread(call, (*outputs, *watched), gauges, control, progress, spec.max_evaluations)
+    simulation = Simulation(compiled, integrator, start, spec)
+    outputs = simulation.outputs(spec.times)
+    simulation.warm(outputs)
+    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
 
+    state = simulation.state
+    w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
+    end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
     after = cache_stats()
     n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
-    table = events.reshape(-1, abi.N_EVENT)[:n_events]
+    table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
         code=code,
         reason=end_reason(
             code,
-            float(gauges[abi.TIME]),
-            (float(w[abi.PHI]), float(w[abi.DRIFT]), float(w[abi.LENGTH]), float(w[abi.SPEED])),
+            end,
+            tuple(float(w[i]) for i in (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)),
             float(gauges[abi.ENERGY_SCALE]),
+            int(control[abi.STEPS] + control[abi.REJECTED]),
             spec,
-        ),
-        end=float(gauges[abi.TIME]),
-        times=outputs[0][:k],
-        states=outputs[1][:k],
-        status_columns=outputs[2][:k],
+        )
+        + (f" (row {_shortest_row(compiled, w)})" if code == abi.VANISHED else ""),
+        end=end,
+        times=outputs.times[:k],
+        states=outputs.states[:k],
+        status_columns=outputs.status[:k],
         steps=int(control[abi.STEPS]),
         rejected=int(control[abi.REJECTED]),
         evaluations=int(control[abi.EVALUATIONS]),
-        counters={name: int(iw[i]) for i, name in enumerate(COUNTERS)},
+        counters={name: int(state.iw[i]) for i, name in enumerate(COUNTERS)},
         position_violation_max=float(gauges[abi.MAX_PHI]),
         velocity_violation_max=float(gauges[abi.MAX_DRIFT]),
         energy_start=float(gauges[abi.ENERGY_START]),
@@ -251,41 +267,195 @@ def integrate(
         - before["load_seconds"],
         compiled=compiled,
         start=start,
-        p=p,
+        p=state.p,
         w=w,
     )
 
 
-def _arrays(compiled: CompiledModel, start: Start, spec: RunSpec) -> tuple[Array, Any, Array, Any, Array]:
-    w = start.w.copy()
-    iw = np.zeros(abi.N_COUNTERS, dtype=np.int64)
-    gauges = np.zeros(abi.N_GAUGES)
-    control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-    gauges[abi.LIMIT_PHI], gauges[abi.LIMIT_DRIFT] = spec.max_violation, spec.velocity_limit
-    gauges[abi.LIMIT_ENERGY] = spec.max_energy_error
-    gauges[abi.WARN_PIVOT] = WARN
-    gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = 1.0
-    control[abi.LAST_RANK] = int(np.sum(compiled.section(w, "pivot") >= 1e-12))
-    return w, iw, gauges, control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)
+class Simulation:
+    """A run that can be left after any accepted step, saved, restored, and gone on with.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    integrator : Integrator
+        The scheme and its loop.
+    start : Start
+        A consistent start; not changed.
+    spec : RunSpec
+        Steps, tolerances and limits.
+
+    Attributes
+    ----------
+    state : State
+        All that the run keeps, as arrays.
+
+    Notes
+    -----
+    Constant steps stand on a grid that begins at the start: pieces that end on it are one run, bit for bit. An end
+    between two steps is reached by a shortened step, from which a new grid begins.
+    """
+
+    def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
+        self.compiled, self.integrator, self.spec = compiled, integrator, spec
+        self.setup = integrator.setup(compiled, spec, start.w)
+        self.sizes = sizes_of(compiled)
+        self.scheme = self.setup.scheme
+        self.state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
+        gauges = self.state.gauges
+        gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
+        gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
+        gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+
+    def outputs(self, times: Array) -> Outputs:
+        """Return room for outputs at `times`."""
+        from symgen.runtime.records import Outputs
+
+        k, given = len(times), np.ascontiguousarray(times, dtype=np.float64)
+        kept = abi.N_STATUS + self.compiled.info.windings
+        return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
+
+    def enter(self, outputs: Outputs, until: float | None = None, pause: float = np.inf) -> int:
+        """Go on; return how the loop ended, see `symgen.runtime.abi`.
+
+        Parameters
+        ----------
+        outputs : Outputs
+            From `outputs`; what is written already is left as it is.
+        until : float, optional
+            End [s]; that of the run unless given.
+        pause : float
+            The loop is left (`PAUSED`) when so many steps of the run have been accepted.
+        """
+        span = self._span(self.spec.until if until is None else until, pause)
+        while True:
+            code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
+            if code == abi.NO_ROOM:
+                self.scheme = _with_room(self.scheme)
+            elif code == abi.CHOOSE:
+                choose_anew(self.compiled, self.state.w)  # what a scheme knows of its matrices depends on the rows
+                self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
+            else:
+                return code
+
+    def warm(self, outputs: Outputs) -> None:
+        """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
+        kept = self.save()
+        self.state.control[abi.STOP] = 1
+        self.enter(type(outputs)(*(array[:0] for array in outputs)))
+        self.restore(kept)
+
+    def save(self) -> dict[str, NDArray[Any]]:
+        """Return copies of all arrays that the run keeps, by name."""
+        from symgen.runtime.records import KEPT
+
+        found = {name: array for name, array in self.state._asdict().items() if name != "room"}
+        found |= {name: getattr(self.scheme, name) for name in KEPT if hasattr(self.scheme, name)}
+        return {name: array.copy() for name, array in found.items()}
+
+    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
+        """Take up what `save` returned, for the same model, method, integrator and limits."""
+        for name, array in saved.items():
+            if hasattr(self.state, name):
+                getattr(self.state, name)[:] = array
+            else:
+                self.scheme = self.scheme._replace(**{name: array.copy()})
+
+    def _span(self, until: float, pause: float) -> Span:
+        from symgen.runtime.records import Span
+
+        spec = self.spec
+        numbers = self.setup.step, spec.largest_step, until, spec.until, spec.rtol, spec.atol, spec.relative
+        return Span(*(float(number) for number in (*numbers, self.setup.safety, spec.max_steps, pause)))
 
 
-def _warm(call: LoopCall, outputs: tuple[Array, ...], watched: tuple[Any, ...]) -> None:
-    """Compile everything by a run that is told to stop before its first step, so that the clock sees the loop alone."""
-    gauges, control, events = (a.copy() for a in watched)
-    control[abi.STOP] = 1
-    before, after = (
-        tuple(a.copy() if isinstance(a, np.ndarray) else a for a in part) for part in (call.before, call.after)
+def choose_anew(compiled: CompiledModel, w: Array) -> bool:
+    """Choose the rows that stand for all at the position of `w`; return whether they are others than before."""
+    from symgen.runtime.redundancy import LARGEST, choose_rows
+
+    info, mask = compiled.info, compiled.section(w, "mask")
+    if info.m * info.nv > LARGEST:
+        return False
+    places = (info.sections[name][0] for name in ("jacobian", "gauge", "mask"))
+    room, kept = np.zeros(info.m * (info.nv + 1)), info.m - int(np.count_nonzero(mask))
+    return bool(compiled_form(choose_rows)(info.m, info.nv, kept, *entries_of(info), *places, w, room))
+
+
+def _shortest_row(compiled: CompiledModel, w: Array) -> str:
+    """Return the name of the row that is an angle and has lost most of its gradient."""
+    info, (entries, constants) = compiled.info, entries_of(compiled.info)
+    rows, columns, slots = entries.reshape(-1, 3).T
+    values = np.where(slots < 0, constants, compiled.section(w, "jacobian")[slots] if len(slots) else constants)
+    squares = np.bincount(rows, values**2 * compiled.section(w, "gauge")[columns], info.m)
+    left = squares * compiled.section(w, "row_weight")
+    return min((left[i], row.name) for i, row in enumerate(info.rows) if row.unit == "rad")[1]
+
+
+def sizes_of(compiled: CompiledModel) -> Sizes:
+    """Return what loops have to know of a model."""
+    from symgen.runtime.records import Sizes
+
+    info, sections = compiled.info, compiled.info.sections
+    names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
+    pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
+    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
+    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, abi.POWER)
+
+
+def share_of(sizes: Sizes) -> Array:
+    """Return 1 for elements of a state that take part in error control, else 0."""
+    share = np.zeros(sizes.width)
+    share[: sizes.nq + sizes.nv] = 1.0
+    return share
+
+
+def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
+    """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
+    metric = np.zeros(sizes.width)
+    metric[: sizes.nq] = lengths_of(info)
+    return metric
+
+
+def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
+    """Return what a run keeps, before it has a start.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    sizes : Sizes
+        From `sizes_of`.
+    memory, room : int
+        As in `symgen.runtime.integrator.Setup`.
+    """
+    from symgen.runtime.records import State
+
+    law = compiled.law
+    control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+    p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
+    return State(
+        *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
+        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
+        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
+        np.zeros(sizes.width + room),
     )
-    call.loop(*before, *(a[:0] for a in outputs), gauges, control, events, *after)
+
+
+def _with_room(scheme: Any) -> Any:
+    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
+    from symgen.runtime.sparse import enlarged
+
+    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
+        if hasattr(scheme, plan):
+            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
+            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
+    return scheme
 
 
 def _in_thread(
-    call: LoopCall,
-    watched: tuple[Any, ...],
-    gauges: Array,
-    control: Any,
-    progress: Callable[[float], None] | None,
-    budget: int | None,
+    simulation: Simulation, outputs: Outputs, progress: Callable[[float], None] | None, budget: int | None
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
@@ -295,11 +465,12 @@ def _in_thread(
     result: list[Any] = []
     interrupted = False
     finished = threading.Event()
+    clock, control = simulation.state.clock, simulation.state.control
 
     def work() -> None:
         began = time.perf_counter()
         try:
-            code = call.loop(*call.before, *watched, *call.after)
+            code = simulation.enter(outputs)
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)
@@ -314,7 +485,7 @@ def _in_thread(
                 if budget is not None and control[abi.EVALUATIONS] > budget:
                     control[abi.STOP] = 1
                 if progress is not None:
-                    progress(float(gauges[abi.TIME]))
+                    progress(float(clock[abi.TIME]))
             break
         except KeyboardInterrupt:
             interrupted = True
@@ -325,7 +496,9 @@ def _in_thread(
     return int(outcome[0]), float(outcome[1]), interrupted
 
 
-def end_reason(code: int, time: float, violations: tuple[float, ...], scale: float, spec: RunSpec) -> str:
+def end_reason(
+    code: int, time: float, violations: tuple[float, ...], scale: float, attempts: int, spec: RunSpec
+) -> str:
     """Return why a loop ended, empty where it reached the end.
 
     Parameters
@@ -338,6 +511,8 @@ def end_reason(code: int, time: float, violations: tuple[float, ...], scale: flo
         |Phi|, |D v - nu| and the largest coordinate and speed that they are judged by, at that time.
     scale : float
         Energy in motion [J].
+    attempts : int
+        At steps, accepted and rejected.
     spec : RunSpec
         The limits.
     """
@@ -352,6 +527,13 @@ def end_reason(code: int, time: float, violations: tuple[float, ...], scale: flo
         if spec.max_velocity_violation is not None:
             sentence = sentence.replace("max_violation", "the root of max_violation")
         return f"{sentence} ({drift:.3g} > {spec.velocity_limit:g} x {speed:.3g}){where}"
+    if code == abi.NO_PROGRESS:
+        more = "at the present rate the rest would take more than" if attempts < spec.max_steps else "that is all of"
+        return (
+            f"{sentence}: {attempts} attempts at a step brought it to t = {time:.6g} of {spec.until:g} s, and {more} "
+            f"max_steps = {spec.max_steps:g}; where the motion is stiff, an implicit integrator (radau5) takes longer "
+            "steps"
+        )
     if code == abi.ENERGY:
         return f"{sentence} ({spec.max_energy_error:g} of {scale:.3g} J){where}"
     return sentence + where

@@ -12,6 +12,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.runtime.bare import part
 from symgen.store.jit import jit
@@ -43,6 +44,8 @@ N_HEAD = 20
 #: Parts of the working memory, each as long as there are unknowns.
 _PLACE, _UPPER, _LOWER, _END, _FOUND, _MARK, _STACK, _NEXT, _PIVOT_ROW = range(9)
 
+#: In place of `KNOWN`: there was no room for the factors.
+_TOO_SMALL = -1
 #: A pivot below this belongs to a dependent equation (rows and columns are scaled to 1): its unknown is set to 0.
 SKIPPED = 1e-13
 #: The diagonal entry is the pivot if it is at least this part of the largest candidate: it keeps the fill low.
@@ -111,12 +114,23 @@ def assemble(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> None:
 
 
 @jit()
-def longer(array: Any, more: int) -> Any:
-    """Return a copy with `more` elements behind it."""
-    result = np.zeros(array.shape[0] + more, array.dtype)
-    for i in range(array.shape[0]):
-        result[i] = array[i]
-    return result
+def prepare(plan: Any, sources: Any, coefficients: Any, numbers: Any) -> int:
+    """Put a matrix together and factorise it; return the pivots that were skipped, -1 where `enlarged` has to help."""
+    assemble(plan, sources, coefficients, numbers)
+    skipped = factorise(plan, numbers)
+    if skipped < 0:
+        plan[KNOWN] = _TOO_SMALL
+    return int(skipped)
+
+
+def enlarged(plan: NDArray[np.int64], numbers: NDArray[np.float64]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+    """Return a plan and its numbers with room for twice the factors, where `prepare` found too little."""
+    if plan[KNOWN] != _TOO_SMALL:
+        return plan, numbers
+    more = int(plan[ROOM])  # factors stand at the end of both
+    plan, numbers = np.append(plan, np.zeros(more, dtype=np.int64)), np.append(numbers, np.zeros(more))
+    plan[KNOWN], plan[ROOM] = 0, 2 * more
+    return plan, numbers
 
 
 @jit()
@@ -131,8 +145,7 @@ def factorise(plan: Any, numbers: Any) -> int:
     Returns
     -------
     int
-        Pivots that were skipped; -1 if there is no room: plan and numbers have to be made longer by ``plan[ROOM]``,
-        which has to be doubled then, and everything begins anew with `assemble`.
+        Pivots that were skipped; -1 if there is no room.
 
     Notes
     -----
@@ -377,8 +390,17 @@ def stored_entries(plan: Any) -> int:
 
 
 @jit()
-def leave_out_rest(right: Any, first: int, n: int, width: int, m: int, w: Any, mask: int, k: Any, origin: int) -> None:
-    """Set the residuals of redundant rows to their multipliers, of the stage at `origin` in `k`: they shall be 0."""
-    for i in range(width, n):
-        if w[mask + (i - width) % m] > 0.0:
-            right[first + i] = k[origin + i]
+def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
+    """Set the residuals of redundant rows in the constraints of a stage to their multipliers: they shall be 0.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    w, k, right : Array
+        Scratch, and unknowns and residuals of the stage.
+    """
+    first = sizes.nq + sizes.nv
+    for i in range(first, sizes.unknowns):
+        if w[sizes.mask + (i - first) % sizes.m] > 0.0:
+            right[i] = k[i]

@@ -1,8 +1,7 @@
-"""Consistent starts of many runs in compiled code: what `symgen.runtime.assembly` does for one, without Python.
+"""The one start: the state and the scratch of a run made consistent; of one run, or of many in a loop.
 
-A run may hold coordinates at values of its own. Closing then begins at the described start and moves the held
-coordinates to their values in small steps, each closed by moving the others, so that the mechanism keeps the branch it
-was described in. What cannot be closed is a row with its reason, not an error.
+Single runs of large mechanisms and sweeps call the compiled functions, single runs of small mechanisms the same source
+as plain Python (`symgen.runtime.exact`). What cannot be closed is a code, not an error.
 """
 
 from __future__ import annotations
@@ -12,216 +11,223 @@ from typing import Any
 
 from numba import types
 
-from symgen.runtime import abi
+from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
-from symgen.runtime.closing import close_positions, complete_velocities, is_light, largest_of, mask_redundant
-from symgen.runtime.turning import choose_turns
-from symgen.store.jit import jit
+from symgen.runtime.closing import close_positions, complete_velocities, find_undetermined, is_light, mask_redundant
+from symgen.runtime.exact import exact
+from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, speed_of, weigh_rows
+from symgen.runtime.start_records import ASKED, INSTANT, LAYOUT, SOLVE, TURNS, WORK, Asked, Instant
 
-_F8, _I8 = types.float64, types.int64
+_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
+_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
+_REDUNDANT, _LIGHT = e.SUMMARY.index("redundant_rows"), e.SUMMARY.index("light")
 _A, _I = types.float64[::1], types.int64[::1]
 
-_NQ, _NV, _M, _NP, _NW, _LIGHT_CHECK = e.NQ, e.NV, e.M, e.NP, e.NW, e.LIGHT_CHECK
-_STRICT, _MASS, _RESIDUAL, _PIVOTS, _MASK, _ASSEMBLED = e.STRICT, e.MASS, e.RESIDUAL, e.PIVOTS, e.MASK, e.ASSEMBLED
-_UNDEFINED, _NO_MASS, _OPEN, _CONTRADICTION, _MOVED, _PROJECTED = (
-    e.UNDEFINED,
-    e.NO_MASS,
-    e.OPEN,
-    e.CONTRADICTION,
-    e.MOVED,
-    e.PROJECTED,
-)
-_N_SUMMARY, _STOP, _LENGTH, _SPEED = e.N_SUMMARY, abi.STOP, abi.LENGTH, abi.SPEED
-_S_START, _S_MOVED, _S_VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_S_WHERE, _S_SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
-_S_REDUNDANT, _S_LIGHT = e.SUMMARY.index("redundant_rows"), e.SUMMARY.index("light")
-_WINDINGS = e.WINDINGS
-#: Held coordinates go to their values in steps of at most this [m or rad], but in no more than so many steps.
-_STRIDE, _MOST_STRIDES = 0.1, 2000
 
-
-@jit(
-    _I8(
-        *(e.PREPARE, e.PREPARE, abi.MOVE, abi.MEASURE, abi.MEASURE, abi.MOVE, e.SOLVE, abi.RHS),
-        *(_I, _I, _A, _I, _I, _I, _I),
-        *(_A, _A, _A, _A, _A, _A, _A),
-        *(_I, _I, _I, _A),
+@exact(
+    types.int64(
+        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS),
+        *(LAYOUT, INSTANT, ASKED, WORK),
     )
 )
-def close_runs(
-    prepare_model: Any,
-    prepare_law: Any,
-    masses: Any,
+def close_row(
+    geometry: Any,
+    measure: Any,
+    move: Any,
+    spread: Any,
+    solve: Any,
+    turns: Any,
+    rhs: Any,
+    layout: Any,
+    now: Any,
+    asked: Any,
+    work: Any,
+) -> int:
+    """Make the start of a run consistent.
+
+    Positions are closed by shortest changes from those described; then the coordinates that are held go to their
+    values in small steps, each closed by moving the others, so that the mechanism keeps the branch it was described in.
+
+    Parameters
+    ----------
+    geometry, measure, move, spread, rhs : emitted functions
+        See `symgen.runtime.abi`.
+    solve, turns : compiled functions
+        Of `symgen.runtime.least_norm` and `symgen.runtime.turning`.
+    layout, now, asked, work : Layout, Instant, Asked, Work
+        See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
+        and masses are prepared, the pivots are 1.
+
+    Returns
+    -------
+    int
+        `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
+    """
+    y, w, summary = now.y, now.w, asked.summary
+    code = _check(layout, now, summary)
+    if code == e.ASSEMBLED:
+        measure_lengths(geometry, layout, now, work)
+    if code == e.ASSEMBLED and layout.windings > 0:
+        turns(geometry, measure, layout, now, work)
+    if code == e.ASSEMBLED:
+        code = _reach(geometry, measure, move, spread, solve, layout, now, asked, work)
+    if code == e.ASSEMBLED:
+        code = complete_velocities(spread, solve, layout, now, work, asked.given)
+    if code == e.PROJECTED:
+        summary[_VELOCITIES] = 1.0
+        code = e.ASSEMBLED
+    if code == e.ASSEMBLED:
+        undetermined = find_undetermined(spread, solve, layout, now, work)
+        if undetermined >= 0:
+            summary[_WHERE] = undetermined
+            code = e.UNDETERMINED
+    if code == e.ASSEMBLED:
+        summary[_REDUNDANT] = mask_redundant(geometry, measure, move, spread, solve, layout, now, work)
+        weigh_rows(layout, now)
+        w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
+        w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
+        if layout.ask_light != 0 and is_light(rhs, geometry, layout, now, work):
+            summary[_LIGHT] = 1.0
+    summary[_START] = code
+    return int(code)
+
+
+@exact()
+def _check(layout: Any, now: Any, summary: Any) -> int:
+    """Return whether numbers are finite and masses positive, those excepted that are described as 0."""
+    y, p, w, massless, finite = now.y, now.p, now.w, layout.massless, True
+    for i in range(layout.nq):
+        finite = finite and math.isfinite(y[i])
+    for j in range(layout.nv):
+        if finite and massless[j] == 0 and not w[layout.mass + j] > 0.0:
+            summary[_WHERE], summary[_SIZE] = j, w[layout.mass + j]
+            return int(e.NO_MASS)
+    for i in range(p.shape[0]):
+        finite = finite and math.isfinite(p[i])
+    return int(e.ASSEMBLED if finite else e.UNDEFINED)
+
+
+@exact()
+def _reach(
+    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, asked: Any, work: Any
+) -> int:
+    """Close the described positions, then positions with held coordinates on the way to their values."""
+    y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, asked.targets
+    strides = 0
+    for j in range(layout.nv):
+        scale[j] = free_scale(layout, now.w, j)
+    for i in range(layout.nq):
+        first[i] = y[i]
+    for k in range(decisions.MOST_STRIDES + 1):
+        for h in range(targets.shape[0] if k > 0 else 0):
+            i = held[2 * h]
+            y[i] = targets[h] if k == strides else first[i] + (k / strides) * (targets[h] - first[i])
+        if not close_positions(geometry, measure, move, spread, solve, layout, now, work):
+            return int(e.OPEN)
+        if k == 0:
+            moved = away = 0.0
+            length = larger(now.w[abi.LENGTH], extent_of(layout, y))
+            for i in range(layout.nq):
+                change = abs(y[i] - first[i])
+                if change > moved and change > decisions.MOVED * (length if layout.lengths[i] != 0.0 else 1.0):
+                    moved = change
+            asked.summary[_MOVED] = moved
+            for h in range(targets.shape[0]):
+                i = held[2 * h]
+                first[i] = y[i]
+                scale[held[2 * h + 1]] = 0.0
+                distance = abs(targets[h] - y[i]) / (length if layout.lengths[i] != 0.0 else 1.0)
+                away = distance if distance > away else away
+            if targets.shape[0] > 0:
+                strides = decisions.MOST_STRIDES
+                if away < decisions.STRIDE * strides:
+                    strides = math.ceil(away / decisions.STRIDE) if away > decisions.STRIDE else 1
+        if k == strides:
+            break
+    return int(e.ASSEMBLED)
+
+
+@exact(
+    types.int64(
+        *(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS),
+        *(LAYOUT, INSTANT, ASKED, WORK, _I, _I),
+    )
+)
+def close_rows(
     geometry: Any,
     measure: Any,
     move: Any,
     solve: Any,
+    turns: Any,
     rhs: Any,
-    sizes: Any,
-    table: Any,
-    constants: Any,
-    joints: Any,
-    massless: Any,
-    held: Any,
+    layout: Any,
+    all_of_now: Any,
+    all_asked: Any,
+    work: Any,
     selected: Any,
-    targets: Any,
-    q: Any,
-    v: Any,
-    ps: Any,
-    ys: Any,
-    ws: Any,
-    summary: Any,
-    iw: Any,
-    order: Any,
     control: Any,
-    room: Any,
 ) -> int:
-    """Close the starts of the selected rows; all arrays of rows are flat.
+    """Make the starts of many rows consistent.
 
     Parameters
     ----------
-    prepare_model, prepare_law, masses, geometry, measure, move, rhs : emitted functions
-        See `symgen.runtime.abi`.
-    solve : compiled function
-        `symgen.runtime.closing.correct`.
-    sizes : Array of int
-        See `symgen.runtime.ensemble_abi`.
-    table, constants : Array
-        Structural entries of D: (row, column, slot or -1) and constants, as `ModelInfo.jacobian`.
-    joints : Array of int, shape (m,)
-        Joint of each row.
-    massless : Array of int, shape (nv,)
-        1 where a mass of 0 was described.
-    held : Array of int
-        (coordinate, velocity, ...) of the coordinates that rows hold.
+    geometry, measure, move, solve, turns, rhs, layout, work
+        As for `close_row`.
+    all_of_now, all_asked : Instant, Asked
+        Of all rows, one behind the other.
     selected : Array of int
-        Rows to close.
-    targets : Array, shape (k, held coordinates)
-        Values of the held coordinates.
-    q, v : Array, shapes (k, nq), (k, nv)
-        Described coordinates, and given velocities; nan where they are to be completed.
-    ps : Array, shape (k, np)
-        Parameters; prepared on return.
-    ys, ws : Array, shapes (k, ny), (k, nw)
-        Starts: states and scratch.
-    summary : Array, shape (k, N_SUMMARY)
-        The columns of the start are set.
-    iw, order, control, room : Array
-        Counters, working memory for m integers, what the watching thread shares, working memory.
+        Rows to work on.
+    control : Array of int
+        What the watching thread shares.
 
     Returns
     -------
     int
         Rows that were worked on: all of them, unless the run was stopped.
     """
-    nq, n, m, nw, np_ = sizes[_NQ], sizes[_NV], sizes[_M], sizes[_NW], sizes[_NP]
-    ny = nq + n + 1
-    n_held = held.shape[0] // 2
-    ys, ps, ws, room, iw, order = bare(ys), bare(ps), bare(ws), bare(room), bare(iw), bare(order)
-    sizes, table, constants, summary = bare(sizes), bare(table), bare(constants), bare(summary)
-    vectors, scale = part(room, 0, n + m), part(room, n + m, n)
-    described = part(room, 2 * n + m, nq)
-    probe = part(room, 2 * n + m + nq, 2 * ny + nw)
-    dense = part(room, 2 * n + m + nq + 2 * ny + nw, m * n + m * min(m, n) + m + n)
+    layout, work, (ys, ps, ws), rest = bare(layout), bare(work), bare(all_of_now), bare(all_asked)
+    n, ny, h = layout.nv, layout.nq + layout.nv + 1, layout.held.shape[0] // 2
+    runs = ys.shape[0] // ny
+    n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs
     for s in range(selected.shape[0]):
-        if control[_STOP] != 0:
+        if control[abi.STOP] != 0:
             return int(s)
         r = selected[s]
-        y, p, w = part(ys, r * ny, ny), part(ps, r * np_, np_), part(ws, r * nw, nw)
-        row = part(summary, r * _N_SUMMARY, _N_SUMMARY)
-        for i in range(nw):
-            w[i] = 0.0
-        for i in range(m):
-            w[sizes[_PIVOTS] + i] = 1.0
-        for i in range(ny):
-            y[i] = 0.0
-        finite = True
-        for i in range(nq):
-            y[i] = q[r * nq + i]
-            described[i] = y[i]
-            finite = finite and math.isfinite(y[i])
-        prepare_model(p)
-        prepare_law(p)
-        masses(p, w)
-        code = _ASSEMBLED if finite else _UNDEFINED
-        for j in range(n):
-            if code == _ASSEMBLED and massless[j] == 0 and not w[sizes[_MASS] + j] > 0.0:
-                code = _NO_MASS
-                row[_S_WHERE], row[_S_SIZE] = j, w[sizes[_MASS] + j]
-        for i in range(np_):
-            if code == _ASSEMBLED and not math.isfinite(p[i]):
-                code = _UNDEFINED
-        for j in range(n):
-            scale[j] = 1.0
-        if code == _ASSEMBLED:
-            choose_turns(geometry, measure, y, p, w, sizes)
-        if code == _ASSEMBLED and not close_positions(
-            geometry, measure, move, solve, y, p, w, sizes, scale, table, constants, vectors, dense, order
-        ):
-            code = _OPEN
-        moved = 0.0
-        for i in range(nq):
-            moved = max(moved, abs(y[i] - described[i]))
-        row[_S_MOVED] = moved
-        if code == _ASSEMBLED and n_held > 0:
-            stride = 0.0
-            for i in range(n_held):
-                described[i] = y[held[2 * i]]
-                scale[held[2 * i + 1]] = 0.0
-                stride = max(stride, abs(targets[r * n_held + i] - described[i]))
-            strides = int(min(max(1.0, math.ceil(stride / _STRIDE)), _MOST_STRIDES))
-            for k in range(strides):
-                share = (k + 1.0) / strides
-                for i in range(n_held):
-                    y[held[2 * i]] = described[i] + share * (targets[r * n_held + i] - described[i])
-                    if k == strides - 1:
-                        y[held[2 * i]] = targets[r * n_held + i]
-                if sizes[_WINDINGS] > 0:
-                    measure(0.0, y, p, w)
-                if not close_positions(
-                    geometry, measure, move, solve, y, p, w, sizes, scale, table, constants, vectors, dense, order
-                ):
-                    code = _OPEN
-                    break
-        if code == _OPEN:
-            worst = -1.0
-            for i in range(m):
-                # all rows of a joint count, and the first joint wins a tie, as for a single run
-                size = 0.0
-                for k in range(m):
-                    if joints[k] == joints[i]:
-                        size = math.hypot(size, w[sizes[_RESIDUAL] + k])
-                if not math.isfinite(size):
-                    size = math.inf
-                if size > worst:
-                    worst = size
-                    row[_S_WHERE], row[_S_SIZE] = joints[i], size
-        if code == _ASSEMBLED:
-            given = part(v, r * n, n)
-            velocities = complete_velocities(solve, y, given, w, sizes, scale, table, constants, vectors, dense, order)
-            row[_S_VELOCITIES] = 1.0 if velocities == _PROJECTED else 0.0
-            if velocities == _CONTRADICTION:
-                code = _CONTRADICTION
-            elif sizes[_STRICT] == 1 and n_held == 0 and moved > 1e-9 * largest_of(q[r * nq : r * nq + nq], nq):
-                code = _MOVED
-            elif sizes[_STRICT] == 1 and velocities == _PROJECTED:
-                code = _PROJECTED
-        if code == _ASSEMBLED:
-            mask_redundant(
-                geometry, measure, move, solve, y, p, w, probe, sizes, scale, table, constants, vectors, dense, order
-            )
-            for i in range(m):
-                row[_S_REDUNDANT] += 0.0 if w[sizes[_MASK] + i] == 0.0 else 1.0
-            w[_LENGTH] = largest_of(y, nq)
-            w[_SPEED] = largest_of(part(y, nq, n), n)
-            if sizes[_LIGHT_CHECK] == 1 and is_light(rhs, geometry, y, p, w, probe, sizes, iw):
-                row[_S_LIGHT] = 1.0
-        row[_S_START] = code
+        now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
+        summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
+        asked = Asked(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
+        close_row(geometry, measure, move, move, solve, turns, rhs, layout, now, asked, work)
     return int(selected.shape[0])
 
 
-@jit(types.int64(_F8, _A, _A, _A))
+@exact(types.int64(e.PREPARE, e.PREPARE, abi.MOVE, _A, _A, _A, types.int64, _I))
+def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: Any, runs: int, selected: Any) -> int:
+    """Fill parameters and scratch of the selected ones of `runs` rows.
+
+    Parameters
+    ----------
+    model, law, masses : emitted functions
+        ``prepare`` of both, and ``masses``.
+    scratch : Array, shape (nw,)
+        What every row's scratch begins as.
+    ps, ws : Array
+        Parameters and scratch of all rows, one behind the other.
+    runs, selected : int, Array of int
+        How many rows there are, and which are filled.
+    """
+    scratch, nw, n_p = bare(scratch), scratch.shape[0], ps.shape[0] // runs
+    for s in range(selected.shape[0]):
+        p, w = part(ps, selected[s] * n_p, n_p), part(ws, selected[s] * nw, nw)
+        for i in range(nw):
+            w[i] = scratch[i]
+        model(p)
+        law(p)
+        masses(p, w)
+    return 0
+
+
+@exact(types.int64(types.float64, _A, _A, _A))
 def follow_nothing(t: float, y: Any, p: Any, w: Any) -> int:
     """Stand in for the emitted ``measure`` where no angle counts turns, so that it is not compiled."""
     return 0

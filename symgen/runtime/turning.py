@@ -1,94 +1,122 @@
-"""Whole turns of angles in space at starts, in compiled code: what `symgen.runtime.turns` does for a single run."""
+"""Whole turns of the angles in space at a start: those with which drivers, gears and threads are nearest to closed.
+
+An angle between directions is known up to whole turns only, and positions do not say how many there were. The section
+``winding`` remembers the angle; ``measure``, called after ``geometry`` at the same state, follows it from state to
+now. At a start it begins on the branch of (-pi, pi] and is shifted here by whole turns.
+"""
 
 from __future__ import annotations
 
 import math
 from typing import Any
 
-import numpy as np
+from numba import types
 
-from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.store.jit import jit
+from symgen.runtime import abi, decisions
+from symgen.runtime.exact import exact
+from symgen.runtime.scales import row_weight
+from symgen.runtime.start_records import INSTANT, LAYOUT, WORK
 
-_WINDING, _WINDINGS, _M, _RESIDUAL = abi.WINDING, e.WINDINGS, e.M, e.RESIDUAL
+_SIGNATURE = types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK)
 
 
-@jit()
-def choose_turns(geometry: Any, measure: Any, y: Any, p: Any, w: Any, sizes: Any) -> None:
+@exact(_SIGNATURE)
+def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
     """Shift the section ``winding`` by the whole turns with which the rows on angles are nearest to closed.
 
     Parameters
     ----------
     geometry, measure : emitted functions
         See `symgen.runtime.abi`.
-    y : Array
-        Described coordinates, not yet closed.
-    p, w : Array
-        Prepared parameters; scratch, whose section ``winding`` is set.
-    sizes : Array of int
-        See `symgen.runtime.ensemble_abi`.
+    layout, now, work : Layout, Instant, Work
+        See `symgen.runtime.start_records`; the coordinates are those described.
     """
-    count, m, first = sizes[_WINDINGS], sizes[_M], sizes[_RESIDUAL]
-    if count == 0:
-        return
+    m, count, w, residual = layout.m, layout.windings, now.w, layout.residual
+    rest, effects = work.right, work.numbers
     for i in range(count):
-        w[_WINDING + i] = 0.0
-    measure(0.0, y, p, w)
-    angles, rest, effects = np.zeros(count), np.zeros(m), np.zeros((m, count))
-    for i in range(count):
-        angles[i] = w[_WINDING + i]
-    geometry(0.0, y, p, w)
+        w[abi.WINDING + i] = 0.0
+    geometry(layout.t, now.y, now.p, w)
     finite = True
     for r in range(m):
-        rest[r] = w[first + r]
+        rest[r] = w[residual + r]
         finite = finite and math.isfinite(rest[r])
+    measure(layout.t, now.y, now.p, w)  # from here on the section of the residual may hold something else
     for i in range(count):
-        w[_WINDING + i] = angles[i] + math.tau
-        geometry(0.0, y, p, w)
-        w[_WINDING + i] = angles[i]
+        angle = w[abi.WINDING + i]
+        w[abi.WINDING + i] = angle + math.tau
+        geometry(layout.t, now.y, now.p, w)
+        w[abi.WINDING + i] = angle
         for r in range(m):
-            effect = w[first + r] - rest[r]
+            effect = w[residual + r] - rest[r]
             finite = finite and math.isfinite(effect)
-            effects[r, i] = effect if abs(effect) >= 1e-9 else 0.0
+            least = decisions.LEAST_EFFECT * w[abi.LENGTH] / row_weight(layout, w, r)
+            effects[r * count + i] = effect if abs(effect) >= least else 0.0
     if finite:
-        turns = _whole_turns(effects, rest)
+        turns = m * count
+        whole_turns(m, count, effects, rest, turns)
         for i in range(count):
-            w[_WINDING + i] = angles[i] + math.tau * turns[i]
+            w[abi.WINDING + i] += math.tau * effects[turns + i]
+    return 0
 
 
-@jit()
-def _whole_turns(effects: Any, rest: Any) -> Any:
-    """Return how many turns to add to each angle; rows that leave a single one free come first."""
-    m, count = effects.shape
-    turns = np.zeros(count)
-    free, waiting = np.zeros(count, dtype=np.bool_), np.zeros(m, dtype=np.bool_)
+@exact()
+def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None:
+    """Set how many turns to add to each angle.
+
+    Parameters
+    ----------
+    m, count : int
+        Rows and angles.
+    effects : Array, shape (m * count + 2 * count + m,)
+        What one turn of each angle adds to the residual of each row, row by row; then room for the result.
+    rest : Array, shape (m,)
+        The residual without any; on return with them.
+    turns : int
+        Where the result begins in `effects`.
+
+    Notes
+    -----
+    Rows are taken in turn, those first that leave a single angle to be shifted (drivers, then what gears tie to
+    them), among these the ones on which a turn has the largest effect. A row that leaves several is closed by the angle
+    that closes it best, and the others stay free for further rows.
+    """
+    free, waiting = turns + count, turns + 2 * count
+    for k in range(turns, waiting + m):
+        effects[k] = 0.0
     for r in range(m):
         for i in range(count):
-            if effects[r, i] != 0.0:
-                free[i] = waiting[r] = True
-    while True:
+            if effects[r * count + i] != 0.0:
+                effects[free + i] = effects[waiting + r] = 1.0
+    for _ in range(m):
         row, least, largest = -1, count + 1, 0.0
         for r in range(m):
-            if waiting[r]:
+            if effects[waiting + r] != 0.0:
                 choices, size = 0, 0.0
                 for i in range(count):
-                    choices += 1 if effects[r, i] != 0.0 and free[i] else 0
-                    size = max(size, abs(effects[r, i]))
+                    effect = abs(effects[r * count + i])
+                    choices += 1 if effect != 0.0 and effects[free + i] != 0.0 else 0
+                    size = effect if effect > size else size
                 if choices < least or (choices == least and size > largest):
                     row, least, largest = r, choices, size
         if row < 0:
-            return turns
-        waiting[row] = False
+            return
+        effects[waiting + row] = 0.0
         column, best, wanted = -1, math.inf, 0.0
         for i in range(count):
-            if effects[row, i] != 0.0 and free[i]:
-                number = np.rint(-rest[row] / effects[row, i])
-                left = abs(rest[row] + number * effects[row, i])
+            effect = effects[row * count + i]
+            if effect != 0.0 and effects[free + i] != 0.0:
+                number = round(-rest[row] / effect)
+                left = abs(rest[row] + number * effect)
                 if left < best:
                     column, best, wanted = i, left, number
         if column >= 0:
-            turns[column] = wanted
+            effects[turns + column] = wanted
+            effects[free + column] = 0.0
             for r in range(m):
-                rest[r] += wanted * effects[r, column]
-            free[column] = False
+                rest[r] += wanted * effects[r * count + column]
+
+
+@exact(_SIGNATURE)
+def choose_no_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
+    """Stand in for `choose_turns` where no angle counts turns, so that it is not compiled."""
+    return 0

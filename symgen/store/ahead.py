@@ -1,6 +1,6 @@
 """Loops compiled by a second process, while the first one still derives, emits and compiles a model.
 
-    python -m symgen.store.ahead symgen.runtime.explicit fixed_steps
+    python -m symgen.store.ahead symgen.runtime.schemes.explicit constant
 
 The two share nothing but the cache: the second process leaves its machine code there, where the first one finds it when
 it enters the loop. Numba compiles one function at a time in a process, so threads would not do. Whatever goes wrong

@@ -1,13 +1,12 @@
 """Emitted modules in the cache: pairs of ``X.py`` and ``X.json``, in one folder for each model.
 
-The Python file is written first and its description, which holds the digest, last. A kill at any moment therefore
-leaves a valid pair or something that does not count, and two processes that write the same pair do not disturb each
-other.
+The Python file is written first and its description last; the description holds a digest of both and of the place where
+they belong. A kill at any moment therefore leaves a valid pair or something that does not count, a bit that was changed
+anywhere makes a miss, and two processes that write the same pair do not disturb each other.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import re
 from collections.abc import Iterator, Mapping
@@ -18,9 +17,10 @@ from typing import Any
 
 from symgen.errors import SymgenError
 from symgen.store import private, upkeep
-from symgen.store.paths import ENVIRONMENT_VARIABLE, cache_root, private_folder
+from symgen.store.identity import digest
+from symgen.store.paths import ENVIRONMENT_VARIABLE, abandon, cache_root, private_folder
 
-FORMAT = 1
+FORMAT = 2
 
 _STEM = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,63}")
 
@@ -103,7 +103,8 @@ class Entries:
             What was given to `put`; None if there is no valid entry. An invalid one is made to count no more.
         """
         path = self.path(folder, stem)
-        metadata = _validated(path)
+        found = _validated(path)
+        metadata = None if found is None else found[1]
         if metadata is not None:
             private.touch(path.with_suffix(".json"))
         else:
@@ -114,6 +115,9 @@ class Entries:
 
     def put(self, folder: str, stem: str, source: str, metadata: Mapping[str, Any]) -> None:
         """Write an entry, over whatever is there.
+
+        Where the cache folder cannot be written, e.g. because the disk is full, a temporary one takes its place for
+        the rest of the process, and what the model's folder held moves there too.
 
         Parameters
         ----------
@@ -127,22 +131,41 @@ class Entries:
         Raises
         ------
         SymgenError
-            If the cache folder cannot be written.
+            If the temporary folder cannot be written either.
         """
         path = self.path(folder, stem)
-        content = source.encode()
-        description = {"format": FORMAT, "sha256": hashlib.sha256(content).hexdigest(), "metadata": dict(metadata)}
-        text = json.dumps(description, allow_nan=False, indent=1, sort_keys=True) + "\n"
+        content, text = source.encode(), _text(metadata)
         try:
-            private_folder(self.root)
-            private.write_own(path, content)
-            private.write_own(path.with_suffix(".json"), text.encode())
+            self._write(path, content, text)
         except OSError as error:
-            raise SymgenError(
-                f"The cache folder '{self.root}' cannot be written ({error.strerror or error}); "
-                f"set {ENVIRONMENT_VARIABLE} to another folder."
-            ) from error
-        upkeep.prune_sometimes(self.root)
+            self._abandon(folder, error)
+            try:
+                self._write(self.path(folder, stem), content, text)
+            except OSError as again:
+                raise self._error(again) from again
+
+    def _error(self, error: OSError) -> SymgenError:
+        return SymgenError(f"{_unwritable(self.root, error)}; set {ENVIRONMENT_VARIABLE} to another folder")
+
+    def _write(self, path: Path, content: bytes, text: str) -> None:
+        description = {"format": FORMAT, "sha256": _digest(path, content, text), "metadata": json.loads(text)}
+        private_folder(self.root)
+        private.write_own(path, content)
+        written = json.dumps(description, allow_nan=False, indent=1, sort_keys=True) + "\n"
+        private.write_own(path.with_suffix(".json"), written.encode())
+        upkeep.note_written(self.root, len(content) + len(written))
+
+    def _abandon(self, folder: str, error: OSError) -> None:
+        """Go on in a temporary folder, with the entries that the model's folder holds already."""
+        old = self.path(folder, "model").parent
+        found = {path: _validated(path) for path in sorted(old.glob("*.py")) if _STEM.fullmatch(path.stem)}
+        self.root = abandon(self.root, _unwritable(self.root, error))
+        try:
+            for path, entry in found.items():
+                if entry is not None:
+                    self._write(self.path(folder, path.stem), entry[0], _text(entry[1]))
+        except OSError as again:
+            raise self._error(again) from again
 
     @contextmanager
     def building(self, folder: str) -> Iterator[None]:
@@ -181,7 +204,18 @@ class Entries:
         return upkeep.prune(self.root, limit)
 
 
-def _validated(path: Path) -> dict[str, Any] | None:
+def _text(metadata: Mapping[str, Any]) -> str:
+    """Return metadata as the text that is digested."""
+    return json.dumps(dict(metadata), allow_nan=False, sort_keys=True)
+
+
+def _digest(path: Path, content: bytes, text: str) -> str:
+    """Return the digest of a pair at its place."""
+    return digest(path.parent.name, path.stem, content, text)
+
+
+def _validated(path: Path) -> tuple[bytes, dict[str, Any]] | None:
+    """Return source and metadata of a pair that is whole and in its place."""
     text = private.read_own(path.with_suffix(".json"))
     content = private.read_own(path)
     if text is None or content is None:
@@ -193,5 +227,14 @@ def _validated(path: Path) -> dict[str, Any] | None:
     if not isinstance(description, dict) or description.get("format") != FORMAT:
         return None
     metadata = description.get("metadata")
-    whole = description.get("sha256") == hashlib.sha256(content).hexdigest()
-    return metadata if whole and isinstance(metadata, dict) else None
+    if not isinstance(metadata, dict):
+        return None
+    try:
+        whole = description.get("sha256") == _digest(path, content, _text(metadata))
+    except ValueError:  # nan or infinity, which is never written
+        return None
+    return (content, metadata) if whole else None
+
+
+def _unwritable(root: Path, error: OSError) -> str:
+    return f"the cache folder '{root}' cannot be written ({error.strerror or error})"

@@ -57,7 +57,7 @@ def source_stamp(function: Any) -> str:
     try:
         files = sorted({inspect.getfile(reached) for reached in _reached(function, {})})
         # Contents without names: the same sources in another place give the same machine code.
-        return digest(*sorted(_file_digest(file) for file in files), _package_digest())
+        return digest(*sorted(_file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
     except (OSError, TypeError) as error:
         raise NotDescribable(str(error)) from error
 
@@ -179,7 +179,8 @@ def _file_digest(path: str) -> str:
 
 
 @functools.cache
-def _package_digest() -> str:
+def sources_digest(*folders: str) -> str:
+    """Return the digest of all sources in folders of symgen."""
     base = Path(__file__).parent.parent
-    files = sorted(path for folder in _SOURCE_FOLDERS for path in (base / folder).rglob("*.py"))
+    files = sorted(path for folder in folders for path in (base / folder).rglob("*.py"))
     return digest(*(text for path in files for text in (path.relative_to(base).as_posix(), path.read_bytes())))

@@ -100,7 +100,7 @@ def attach(dispatcher: Any, stamp: str | None = None) -> None:
     stamp : str, optional
         Digest of all sources the function depends on; by default that of symgen's runtime and of the function's file.
     """
-    if not isinstance(dispatcher, CPUDispatcher) or _unusable():
+    if not isinstance(dispatcher, CPUDispatcher) or unusable():
         return
     function = dispatcher.py_func
     try:
@@ -110,7 +110,7 @@ def attach(dispatcher: Any, stamp: str | None = None) -> None:
         return
     _name(function, identity)
     _listen()
-    dispatcher._cache = _MachineCode(function, stamp, identity)
+    dispatcher._cache = MachineCode(function, stamp, identity)
 
 
 def internals_changed() -> list[str]:
@@ -155,7 +155,7 @@ _INTERNALS: tuple[tuple[Any, str, list[str] | None], ...] = (
 
 
 @functools.cache
-def _unusable() -> bool:
+def unusable() -> bool:
     """Without the internals everything still works, only uncached."""
     return bool(internals_changed())
 
@@ -191,7 +191,7 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         """Whether signatures are neither compiled nor in the cache."""
         cache = self._eager._cache
         return not self._ready and not all(
-            isinstance(cache, _MachineCode) and cache.has(signature, self.targetctx) for signature in self._signatures
+            isinstance(cache, MachineCode) and cache.has(signature, self.targetctx) for signature in self._signatures
         )
 
     def open(self) -> bool:
@@ -234,15 +234,15 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         return super().get_compile_result(sig)
 
 
-class _MachineCode(_Cache):  # type: ignore[misc]  # Numba has no types
+class MachineCode(_Cache):  # type: ignore[misc]  # Numba has no types
     """The cache of one function, as Numba's dispatcher asks for it."""
 
     def __init__(self, function: Any, stamp: str, identity: str) -> None:
         self.stamp = stamp
         self._name = f"{function.__module__}.{function.__qualname__}"
         self._identity = identity
-        self._folder = _plain(function.__module__, 100)
-        self._stem = _plain(function.__qualname__, 60)
+        self._folder = plain_name(function.__module__, 100)
+        self._stem = plain_name(function.__qualname__, 60)
         self._enabled = True
 
     @property
@@ -323,7 +323,7 @@ class _MachineCode(_Cache):  # type: ignore[misc]  # Numba has no types
     def _place(self, sig: Any, codegen: Any) -> tuple[str, Path]:
         arguments, returned = sigutils.normalize_signature(sig)
         signature = ", ".join(type_text(argument) for argument in arguments) + f" -> {type_text(returned)}"
-        key = "\n".join((self._name, self._identity, signature, repr(codegen.magic_tuple()), _environment()))
+        key = "\n".join((self._name, self._identity, signature, repr(codegen.magic_tuple()), environment()))
         return key, Path(self.cache_path) / f"{self._stem}-{digest(key)[:32]}{private.SUFFIX}"
 
 
@@ -346,8 +346,30 @@ class _Compiling(event.Listener):  # type: ignore[misc]  # Numba has no types
     def on_end(self, event: Any) -> None:
         """Add the time if nothing is being compiled any more."""
         self._here.depth = self.depth() - 1
-        if not self.depth() and isinstance(getattr(event.data["dispatcher"], "_cache", None), _MachineCode):
+        if not self.depth() and isinstance(getattr(event.data["dispatcher"], "_cache", None), MachineCode):
             counters["compile_seconds"] += time.perf_counter() - self._here.started
+
+
+class Loading:
+    """Adds the time of what is done inside to `load_seconds`, unless something around it is timed already.
+
+    Attributes
+    ----------
+    loaded : bool
+        Set inside; time that nothing was loaded in does not count.
+    """
+
+    loaded = False
+
+    def __enter__(self) -> Loading:
+        self._started = time.perf_counter()
+        _Compiling._here.depth = _Compiling.depth() + 1
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        _Compiling._here.depth = _Compiling.depth() - 1
+        if self.loaded and not _Compiling.depth():
+            counters["load_seconds"] += time.perf_counter() - self._started
 
 
 @functools.cache
@@ -356,7 +378,7 @@ def _listen() -> None:
 
 
 @functools.cache
-def _environment() -> str:
+def environment() -> str:
     """Everything outside the function that the machine code depends on, apart from the processor."""
     settings = [f"{name}={getattr(config, name, None)}" for name in _SETTINGS]
     versions = (sys.version, numba.__version__, llvmlite.__version__, numpy.__version__)
@@ -378,5 +400,6 @@ def _name(function: types.FunctionType, identity: str) -> None:
         function.__qualname__ += f".{identity[:16]}"
 
 
-def _plain(name: str, length: int) -> str:
+def plain_name(name: str, length: int) -> str:
+    """Return the end of a name with characters that file systems know."""
     return re.sub(r"[^\w.-]", "_", name)[-length:]

@@ -199,18 +199,18 @@ def _execute(name: str, source: _Source, stamp: str) -> ModuleType:
         del sys.modules[name]
         raise
     setattr(sys.modules[package], last, module)
-    _attach(module, stamp)
+    _attach(module, stamp, source)
     return module
 
 
-def _attach(module: ModuleType, stamp: str) -> None:
+def _attach(module: ModuleType, stamp: str, source: _Source) -> None:
     own = [value for value in vars(module).values() if getattr(value, "py_func", None) is not None]
     if own:
-        from symgen.store.jit import attach
+        from symgen.store.emitted import EmittedFunction, Origin
 
         for value in own:
             if value.py_func.__module__ == module.__name__:
-                attach(value, stamp)
+                EmittedFunction.of(value, Origin(stamp, source.path, source.digest))
 
 
 def interpreted(function: Any) -> Any:

@@ -10,6 +10,8 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from symgen.errors import SymgenError
+
 ENVIRONMENT_VARIABLE = "SYMGEN_CACHE_DIR"
 
 _ATTEMPTS = 100
@@ -53,11 +55,36 @@ def cache_location() -> CacheLocation:
     CacheLocation
         The same object for every call, until ``SYMGEN_CACHE_DIR`` changes.
     """
-    wish = os.environ.get(ENVIRONMENT_VARIABLE) or None
-    key = (os.getpid(), wish)
+    key = _key()
     if key not in _known:
-        _known[key] = _locate(wish)
+        _known[key] = _locate(key[1])
     return _known[key]
+
+
+def _key() -> tuple[int, str | None]:
+    return os.getpid(), os.environ.get(ENVIRONMENT_VARIABLE) or None
+
+
+def abandon(root: Path, reason: str) -> Path:
+    """Return a temporary folder to use from now on in place of a cache folder that turned out to be unusable.
+
+    Parameters
+    ----------
+    root : Path
+        The folder; if it is the cache folder of this process, `cache_location` gives the new one afterwards.
+    reason : str
+        What is wrong with it, as a sentence.
+
+    Raises
+    ------
+    SymgenError
+        If there is no temporary folder either.
+    """
+    location = _temporary(reason)
+    key = _key()
+    if key in _known and _known[key].path == root:
+        _known[key] = location
+    return location.path
 
 
 def cache_root() -> Path:
@@ -154,7 +181,11 @@ def _make(path: Path) -> None:
 
 
 def _temporary(reason: str) -> CacheLocation:
-    path = Path(tempfile.mkdtemp(prefix="symgen-"))
+    try:
+        path = Path(tempfile.mkdtemp(prefix="symgen-"))
+    except OSError as error:
+        why = f"{reason}, and no temporary folder can be made ({error.strerror or error})"
+        raise SymgenError(f"{why}; set {ENVIRONMENT_VARIABLE} to a folder that can be written") from None
     atexit.register(_remove, path, os.getpid())
     return CacheLocation(path, persistent=False, reason=reason)
 

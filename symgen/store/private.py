@@ -22,8 +22,10 @@ _MAGIC = b"symgen private 1\n"
 _HEAD = len(_MAGIC) + hashlib.sha256().digest_size
 _ATTEMPTS = 100
 # Names that do not exist everywhere; without them the flags are simply not set.
-_READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
-_WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+_ANY = getattr(os, "O_CLOEXEC", 0) | getattr(os, "O_BINARY", 0)
+# A pipe in a file's place must be seen for one, not waited for.
+_READ = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | _ANY
+_WRITE = os.O_WRONLY | os.O_CREAT | os.O_EXCL | _ANY
 
 
 def read(path: Path, key: str) -> bytes | None:
@@ -98,6 +100,11 @@ def write(path: Path, key: str, data: bytes) -> bool:
         write_own(path, _head(key, data) + data)
     except OSError:
         return False
+    from symgen.store import upkeep  # which reads and removes through this module
+
+    root = upkeep.root_of(path)
+    if root is not None:
+        upkeep.note_written(root, _HEAD + len(data))
     return True
 
 

@@ -10,17 +10,21 @@ class CacheStats(TypedDict):
 
     `compile_seconds` holds translation by Numba, writing to the cache, and waiting for another process that does both,
     `load_seconds` reading from it. Functions that are compiled or loaded while another one is being compiled are
-    counted in `hits` and `misses`, and their seconds belong to the outer one, so no second is counted twice.
+    counted in `hits` and `misses`, and their seconds belong to the outer one, so no second is counted twice. Of the
+    functions of emitted modules, `translated` counts those whose machine code was made from their source, `foreign`
+    those that were left to Numba (`symgen.store.emitted`).
     """
 
     hits: int
     misses: int
+    translated: int
+    foreign: int
     compile_seconds: float
     load_seconds: float
 
 
 # One for the process: written only under Numba's compiler lock.
-counters = CacheStats(hits=0, misses=0, compile_seconds=0.0, load_seconds=0.0)
+counters = CacheStats(hits=0, misses=0, translated=0, foreign=0, compile_seconds=0.0, load_seconds=0.0)
 
 
 def cache_stats() -> CacheStats:

@@ -1,5 +1,8 @@
 """Size of the cache, and removal: of everything, or of what was not used for longest.
 
+The size is known from a tally: its first line says when everything was last counted and how much there was, every
+further line how much was written since. Where the sum passes the limit, and once a day, the cache is pruned.
+
 Only files that this package writes are ever removed, told by folder and by name, so that a cache folder that was
 pointed at something else by mistake loses nothing. A file that another process removes or writes meanwhile is left to
 it.
@@ -30,8 +33,10 @@ MODEL_FOLDER = re.compile(
     r"(?P<name>[A-Za-z0-9][A-Za-z0-9_-]{0,63})_(?P<digest>[0-9a-f]{16})_(?P<format>0|[1-9][0-9]{0,5})"
 )
 
-_NOTE = "pruned"
+_TALLY = "written"
 _DAY = 86400.0
+# Pruning leaves room: else every entry that is written would mean looking through all the others.
+_SHARE = 0.8
 # A temporary file older than this was left by a process that was killed.
 _ABANDONED = 3600.0
 
@@ -106,7 +111,8 @@ def clear(root: Path) -> CacheInfo:
         _tidy(root / name, 0.0)
     for name in (MODELS, NATIVE, BYTECODE):
         _remove_folder(root / name)
-    private.remove(root / _NOTE)
+    private.remove(root / LOCKS / _TALLY)
+    private.remove(root / "pruned")  # of earlier versions
     return info(root)
 
 
@@ -144,15 +150,45 @@ def prune(root: Path, limit: int = LIMIT) -> CacheInfo:
     return info(root)
 
 
-def prune_sometimes(root: Path) -> None:
-    """Prune if nobody did so for a day; looking at the date of one file is all that this costs otherwise."""
-    note = root / _NOTE
+def note_written(root: Path, size: int) -> None:
+    """Note that an entry of so many bytes was written, and prune if there is too much by now.
+
+    An entry that replaces another counts twice until everything is counted again.
+    """
     with suppress(OSError):
-        if note.exists() and time.time() - note.stat().st_mtime < _DAY:
-            return
-        note.touch(mode=0o600)
-        private.touch(note)
-        prune(root)
+        total = _tally(root)
+        if total is None or total + size > LIMIT:
+            _count(root, prune(root, LIMIT if total is None else int(_SHARE * LIMIT)).bytes)
+        else:
+            _append(root, f"{size}\n")
+
+
+def root_of(path: Path) -> Path | None:
+    """Return the cache folder that a file lies in, None where it lies in none."""
+    return next((folder.parent for folder in path.parents if folder.name in (MODELS, NATIVE, BYTECODE)), None)
+
+
+def _tally(root: Path) -> int | None:
+    """Return how much the cache holds, or None where it has to be counted."""
+    lines = (private.read_own(root / LOCKS / _TALLY) or b"").split(b"\n")
+    try:
+        when, *sizes = [int(word) for line in lines for word in line.split()]
+    except ValueError:
+        return None
+    return sum(sizes) if 0 <= time.time() - when < _DAY and all(size >= 0 for size in sizes) else None
+
+
+def _count(root: Path, total: int) -> None:
+    private.write_own(root / LOCKS / _TALLY, f"{int(time.time())} {total}\n".encode())
+
+
+def _append(root: Path, line: str) -> None:
+    """Append with one system call, so that lines of several processes do not mix."""
+    descriptor = os.open(root / LOCKS / _TALLY, os.O_WRONLY | os.O_APPEND | getattr(os, "O_NONBLOCK", 0))
+    try:
+        os.write(descriptor, line.encode())
+    finally:
+        os.close(descriptor)
 
 
 def folder_lock(root: Path, folder: str) -> BaseFileLock:

@@ -9,23 +9,25 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen import arguments
 from symgen.api import Model, load
 from symgen.describe.digest import digest
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import Plan, Settings, make_plan
+from symgen.plan import Plan, make_plan, multiples, output_size
+from symgen.result.points import Points
 from symgen.runtime import abi
+from symgen.runtime.timing import timed
+from symgen.settings import SHAPES, Settings, default
 from symgen.study.journal import Journal
 from symgen.study.kept import Kept
 from symgen.study.measured import measured
-from symgen.study.points import Points
 from symgen.study.prepare import Task, prepare
 from symgen.study.reference import Array, Reference, reference
 from symgen.study.rows import Row, Study, Trace, save_csv, with_ratios
 from symgen.study.solvers import AUTO, check_solver
-from symgen.study.timing import timed
 
 if TYPE_CHECKING:
     from symgen.model import CompiledModel
@@ -59,6 +61,10 @@ DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
 LARGEST_STRAIGHT = 120
 #: Stands for every method or integrator.
 ALL = "all"
+#: Processes at most.
+MOST_JOBS = 4096
+#: A run, the reference with the runs that it is made of, distances, and the times of every row take so much of a run.
+COPIES = 8.0
 
 
 def compare(
@@ -77,6 +83,9 @@ def compare(
     journal: Journal | None = None,
     reference_by: str = AUTO,
     shape: str = "auto",
+    max_violation: float = default("max_violation"),
+    max_energy_error: float = default("max_energy_error"),
+    max_steps: float | None = None,
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -98,7 +107,7 @@ def compare(
     output_step : float, optional
         Time between the outputs that are compared [s].
     parameters, options : mapping
-        As for `symgen.plan.Settings`.
+        As for `symgen.Settings`.
     progress : callable, optional
         Called with what is being done, how far it is, and how much there is in all.
     jobs : int
@@ -112,6 +121,8 @@ def compare(
     shape : str
         Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
         times compare methods and not shapes.
+    max_violation, max_energy_error, max_steps : float
+        As for `symgen.Settings`.
 
     Returns
     -------
@@ -123,8 +134,9 @@ def compare(
     InputError
         If a name or number is wrong; nothing has been run then.
     """
-    arguments = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
-    return compare_all([model], *arguments, progress, jobs, journal, reference_by, shape)[0]
+    asked = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
+    further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps)
+    return compare_all([model], *asked, *further)[0]
 
 
 @dataclass
@@ -181,6 +193,9 @@ def compare_all(
     journal: Journal | None = None,
     reference_by: str = AUTO,
     shape: str = "auto",
+    max_violation: float = default("max_violation"),
+    max_energy_error: float = default("max_energy_error"),
+    max_steps: float | None = None,
 ) -> list[Study]:
     """Compare on several models; arguments and errors as for `compare`.
 
@@ -189,17 +204,34 @@ def compare_all(
     list of Study
         One a model, in order; after an interruption those up to the interrupted one, which comes last.
     """
+    asked = Settings(
+        until=until,
+        output_step=output_step,
+        parameters=parameters or {},
+        options=options or {},
+        max_violation=max_violation,
+        max_energy_error=max_energy_error,
+        max_steps=max_steps,
+        repeat=repeat,
+    )
     check_solver(reference_by)
-    asked = Settings(parameters=parameters or {}, options=options or {}, repeat=repeat)
+    arguments.one_of("shape", shape, SHAPES)
+    methods, integrators = arguments.words("methods", methods), arguments.words("integrators", integrators)
+    steps = arguments.numbers("step", steps, positive=True)
+    rtols = arguments.numbers("rtol", rtols, positive=True)
+    jobs = arguments.whole("jobs", jobs, 1, MOST_JOBS)
+    arguments.function("progress", progress)
+    if journal is not None:
+        arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
     works = []
     for model in models:
-        chosen = model if isinstance(model, Model) else load(model)
-        end = _end(chosen, until)
-        times = _times(chosen, end, output_step)
+        chosen = load(model)
+        end = _end(chosen, asked.until)
+        times = _times(chosen, end, asked.output_step)
         small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
-        base = replace(asked, shape="straight" if shape == "auto" and small else shape)
+        base = replace(asked, output_step=None, shape="straight" if shape == "auto" and small else shape)
         settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
-        plans = [make_plan(chosen, s) for s in settings]  # refuses what is wrong before anything is run
+        plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         works.append(
             _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
         )
@@ -280,7 +312,7 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
                 runs = timed(compiled, plan.tableau, start, plan.spec, s.repeat, None, AT_LEAST)
                 interrupted = runs.outcome.interrupted
                 if runs.outcome.code != abi.STOPPED:
-                    found = measured(s, plan, runs, work.known, points)
+                    found = measured(plan, runs, work.known, points)
                     work.kept.add_row(s, *found)
             if found is not None:
                 rows.append(found[0])
@@ -317,18 +349,13 @@ def _end(model: Model, until: float | None) -> float:
 
 def _times(model: Model, end: float, output_step: float | None) -> Array:
     """Return the common output times: multiples of the asked or the mechanism's step, at most about `OUTPUTS`."""
-    if not (np.isfinite(end) and end > 0.0):
-        raise InputError("until", "a finite number above 0", f"{end:g}")
-    every = output_step if output_step is not None else model.mechanism.defaults.output_step
-    if every is None:
+    own = model.mechanism.defaults.output_step
+    size = COPIES * output_size(model.mechanism)
+    if output_step is not None:
+        return multiples(output_step, end, size)
+    if own is None:
         return np.asarray(np.linspace(0.0, end, OUTPUTS + 1), dtype=np.float64)
-    if not (np.isfinite(every) and every > 0.0):
-        raise InputError("output_step", "a finite number above 0", f"{every:g}")
-    if output_step is None:
-        every *= max(1, round(end / every / OUTPUTS))
-    count = int(end / every * (1.0 + 1e-12))
-    times: Array = np.arange(count + 1, dtype=np.float64) * every
-    return np.minimum(times, end) if end - times[-1] <= 1e-9 * every else np.append(times, end)
+    return multiples(own * max(1, round(end / own / OUTPUTS)), end, size)
 
 
 def _combinations(
@@ -350,7 +377,7 @@ def _combinations(
                 for rtol in rtols or RTOLS:
                     yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
             else:
-                for step in steps or [own * factor for factor in STEP_FACTORS]:
+                for step in steps or [h for h in (own * f for f in STEP_FACTORS) if h <= end] or [end]:
                     yield replace(common, step=step)
 
 

@@ -90,7 +90,7 @@ def predicted(plan: Plan, decay: float) -> float:
         Of constant steps their number, one evaluation a stage; of an explicit adaptive run what stability asks for at
         the start, over `HOPELESS`, as the decay may fall later; 0 where nothing is known.
     """
-    stages, spec = float(getattr(plan.tableau, "stages", 1)), plan.spec
+    stages, spec = float(plan.tableau.stages), plan.spec
     if not spec.adaptive:
         return 0.0 if spec.step is None else spec.until / spec.step * stages
     if is_implicit(plan):

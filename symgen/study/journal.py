@@ -1,8 +1,9 @@
 """What a long study has done, kept in a file: one line of JSON a finished cell, appended and never changed.
 
 A cell is known by the digest of everything that determines it, so a journal may serve several studies and outlives
-changes of any of them. A line that a kill tore is dropped when the file is opened again; a file that is no journal is
-refused and left as it is; one process at a time writes to it.
+changes of any of them. A line that a kill tore is dropped when the file is opened again. A line that has changed since
+it was written, told by its digest, stays and its cell is computed again. A file that is no journal is refused and left
+as it is. One process at a time writes to it.
 """
 
 from __future__ import annotations
@@ -176,7 +177,8 @@ class Journal:
         """
         if key in self._done:
             raise ValueError(f"cell {key} is in the journal already")
-        line = json.dumps({"key": key, "outcome": dict(outcome)}, allow_nan=False).encode()
+        entry = {"key": key, "outcome": dict(outcome)}
+        line = json.dumps(entry | {"sha256": _digest(entry)}, allow_nan=False).encode()
         kept: Outcome = json.loads(line)["outcome"]
         if self._file is not None:
             try:
@@ -214,9 +216,7 @@ class Journal:
             content = _content(path)
             whole, ended, torn = content.rpartition(b"\n")
             keep = len(whole) + len(ended)
-            for number, line in enumerate(whole.split(b"\n")[1:] if ended else (), 2):
-                key, outcome = _parsed(line, path, number)
-                self._done[key] = outcome
+            self._done.update(filter(None, map(_parsed, whole.split(b"\n")[1:] if ended else ())))
             self._file = path.open("ab", buffering=0)
             if torn or (content and not ended):
                 self._file.truncate(keep)
@@ -228,28 +228,33 @@ class Journal:
 
 def _content(path: Path) -> bytes:
     """Return the bytes of a journal, none where there is no file yet."""
+    if path.exists() and not path.is_file():
+        raise InputError(f"journal '{path}'", "a file", "a folder, a pipe or a device")
     try:
         content = path.read_bytes() if path.exists() else b""
     except OSError as error:
         raise _unusable(path, error) from None
     if not content.startswith(HEADER) and not HEADER.startswith(content):
-        raise _foreign(path, 1)
+        got = "something else in line 1"
+        raise InputError(f"journal '{path}'", "a journal of symgen", got, "it was left as it is; name another file")
     return content
 
 
-def _parsed(line: bytes, path: Path, number: int) -> tuple[str, Outcome]:
+def _parsed(line: bytes) -> tuple[str, Outcome] | None:
+    """Return key and outcome of a line, None of one that is damaged."""
     try:
         entry = json.loads(line)
-    except (ValueError, RecursionError):
-        raise _foreign(path, number) from None
-    if not (isinstance(entry, dict) and isinstance(entry.get("key"), str) and isinstance(entry.get("outcome"), dict)):
-        raise _foreign(path, number)
-    return entry["key"], entry["outcome"]
+        digest = entry.pop("sha256", None)  # lines of earlier versions have none
+        if set(entry) != {"key", "outcome"} or digest not in (None, _digest(entry)):
+            return None
+    except (ValueError, RecursionError, AttributeError, TypeError):
+        return None
+    fits = isinstance(entry["key"], str) and isinstance(entry["outcome"], dict)
+    return (entry["key"], entry["outcome"]) if fits else None
 
 
-def _foreign(path: Path, number: int) -> InputError:
-    got = f"something else in line {number}"
-    return InputError(f"journal '{path}'", "a journal of symgen", got, "it was left as it is; name another file")
+def _digest(entry: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(entry, allow_nan=False, sort_keys=True).encode()).hexdigest()[:32]
 
 
 def _unusable(path: Path, error: OSError) -> InputError:

@@ -6,8 +6,8 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from symgen.describe.mechanism import Mechanism
-from symgen.plan import Settings
 from symgen.result.result import finite
+from symgen.settings import Settings
 from symgen.study.journal import Journal, cell_key, code_identity, mechanism_identity
 from symgen.study.machine import machine_class, versions
 from symgen.study.prepare import as_entry, from_entry
@@ -43,15 +43,7 @@ class Kept:
         shared = {"until": settings.until, "times": times, "parameters": dict(settings.parameters)}
         if what == "reference":
             return cell_key(what=what, **self._base, **shared)
-        own = {
-            "method": settings.method,
-            "integrator": settings.integrator,
-            "step": settings.step,
-            "rtol": settings.rtol,
-            "atol": settings.atol,
-            "repeat": settings.repeat,
-            "options": dict(settings.options),
-        }
+        own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in (*shared, "shape")}
         return cell_key(what=what, **self._base, **shared, **own)
 
     def _get(self, settings: Settings, what: str) -> dict[str, Any] | None:

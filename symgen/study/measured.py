@@ -12,10 +12,10 @@ from symgen.runtime import abi
 from symgen.study.rows import Row, Trace
 
 if TYPE_CHECKING:
-    from symgen.plan import Plan, Settings
-    from symgen.study.points import Points
+    from symgen.plan import Plan
+    from symgen.result.points import Points
+    from symgen.runtime.timing import Timed
     from symgen.study.reference import Reference
-    from symgen.study.timing import Timed
 
 Array = NDArray[np.float64]
 
@@ -23,12 +23,12 @@ Array = NDArray[np.float64]
 LONGEST = 400
 
 
-def measured(settings: Settings, plan: Plan, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
+def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
     """Judge and measure one run.
 
     Parameters
     ----------
-    settings, plan : Settings, Plan
+    plan : Plan
         What was run.
     runs : Timed
         What it gave, and how long it took.
@@ -39,7 +39,7 @@ def measured(settings: Settings, plan: Plan, runs: Timed, known: Reference | Non
     """
     outcome = runs.outcome
     nq, count = outcome.compiled.info.nq, len(outcome.times)
-    verdict = judge(settings, plan, outcome.compiled, outcome)
+    verdict = judge(plan, outcome.compiled, outcome, None, asked=False)
     distances = None if known is None else points.distances(outcome.states[:, :nq], known.q[:count])
     error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
     accelerations = outcome.acceleration_violations if count else np.zeros(0)

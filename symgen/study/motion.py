@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism, Table
 from symgen.errors import SimulationError
+from symgen.result.points import Points
 from symgen.store.jit import jit
 from symgen.study.independent import CUTOFF, IndependentEquations
-from symgen.study.points import Points
 from symgen.study.reference import Reference
 from symgen.study.stiff import OverBudgetError, by_radau, is_stiff
 

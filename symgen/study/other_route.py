@@ -17,13 +17,14 @@ from numpy.typing import NDArray
 from symgen.api import Model
 from symgen.errors import SimulationError
 from symgen.model import CompiledModel
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.result.points import Points
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
-from symgen.runtime.probe import call_measure
+from symgen.runtime.probe import Ready
 from symgen.runtime.run import integrate
+from symgen.settings import Settings
 from symgen.study.effort import LARGEST_IMPLICIT_REFERENCE, coordinates, explicit_budget, implicit_budget
-from symgen.study.points import Points
 from symgen.study.reference import Reference
 
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ class EmittedGeometry:
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array]:
         """Return Phi, D and nu at a state."""
         w, y = self.start.w.copy(), np.concatenate([q, v, [0.0]])
-        call_measure(self.compiled.model.geometry, t, y, self.start.p, w)
+        Ready(self.compiled.model.geometry, abi.MEASURE)(t, y, self.start.p, w)
         section = self.compiled.section
         return section(w, "residual").copy(), self.compiled.jacobian(w), section(w, "nu").copy()
 
@@ -119,7 +120,7 @@ def _agreed(
             parameters=parameters,
             shape="straight" if routes is STIFF_ROUTES else "looped",
         )
-        plan = make_plan(model, settings)
+        plan = make_plan(model.mechanism, settings)
         compiled, start = model.ready(plan, parameters)
         outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=budget))
         if outcome.interrupted:

@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
+from symgen.result.agreement import agreement
 
 if TYPE_CHECKING:
+    from symgen.result.points import Points
     from symgen.study.independent import IndependentEquations
-    from symgen.study.points import Points
 
 Array = NDArray[np.float64]
 
@@ -31,10 +32,8 @@ NEAR = 1e-2
 PHASES = (1.0, 0.93, 0.81, 1.11, 0.71, 0.62)
 #: What evaluations far off the constraints end with.
 FAILURES = (ArithmeticError, ValueError, np.linalg.LinAlgError)
-#: Two runs that differ by less, as a fraction of the largest coordinate (at least 1), are not doubted further.
+#: Two runs that differ by less, as a share of the mechanism's size, are not doubted further.
 GOOD = 1e-9
-#: Two runs that differ by more have parted: another branch, not an inaccuracy. As for ``--verify``.
-AGREEMENT = 1e-6
 
 
 class Watch:
@@ -87,7 +86,7 @@ class Passage:
     difference : float
         Largest distance between the two [m].
     parted : float or None
-        First output time at which they differ by more than `AGREEMENT` [s]; None if they agree.
+        First output time at which they do not agree (`symgen.result.agreement`) [s]; None if they do.
     runs : int
         How many were made.
     step : float
@@ -138,15 +137,14 @@ def pass_through(
         except SimulationError as error:
             failures.append(str(error))
             continue
-        size = max(1.0, float(np.abs(motion).max(initial=0.0)))
         for other in motions:
-            apart = points.distances(other, motion)
-            difference = float(apart.max(initial=0.0))
-            if best is None or difference < best.difference:
-                away = np.flatnonzero(apart > AGREEMENT * size)
-                best = Passage(other, difference, float(times[away[0]]) if len(away) else None, i + 1, step)
+            found = agreement(points, other, motion)
+            if best is None or found.apart < best.difference:
+                best = Passage(
+                    other, found.apart, None if found.parts is None else float(times[found.parts]), i + 1, step
+                )
         motions.append(motion)
-        if best is not None and best.difference < GOOD * size:
+        if best is not None and best.difference < GOOD * points.size(motion):
             break
     if best is None:
         raise SimulationError(failures[0])

@@ -16,7 +16,8 @@ import numpy as np
 from symgen.api import Model
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SymgenError
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.settings import Settings
 from symgen.study.journal import Journal
 from symgen.study.reference import Array, Reference, reference
 from symgen.study.runner import Cell, run_cells
@@ -65,7 +66,7 @@ class Task:
                 warm(model, settings)
             return None
         settings = self.settings[0]
-        compiled, start = model.ready(make_plan(model, settings), settings.parameters)
+        compiled, start = model.ready(make_plan(model.mechanism, settings), settings.parameters)
         nq, nv = compiled.info.nq, compiled.info.nv
         values = model.parameters(settings.parameters)
         q, v = start.y[:nq], start.y[nq : nq + nv]
@@ -86,7 +87,7 @@ def warm(model: Model, settings: Settings) -> None:
     """Compile everything that a run with these settings calls, by one that is over at once."""
     from symgen.runtime.run import integrate
 
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan, settings.parameters)
     spec = replace(plan.spec, until=1e-9, times=np.zeros(1))
     outcome = integrate(compiled, plan.tableau, start, spec)

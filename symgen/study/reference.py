@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
+from symgen.result.agreement import AGREEMENT
+from symgen.result.points import Points
 from symgen.study.closed_space import CLOSED_SPACE
-from symgen.study.passing import AGREEMENT, FAILURES, Watch, pass_through
-from symgen.study.points import Points
+from symgen.study.passing import FAILURES, Watch, pass_through
 from symgen.study.solvers import AUTO, SOLVERS, check_solver, in_one_go, jacobian_for
 
 if TYPE_CHECKING:
@@ -282,7 +283,7 @@ def _through(
     note = ""
     if found.parted is not None:
         note = (
-            f"the two reference runs that agree best part by more than {AGREEMENT:g} of the largest coordinate at "
+            f"the two reference runs that agree best part by more than {AGREEMENT:g} of the mechanism's size at "
             f"t = {found.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
             "motion takes, and errors are distances to one of them"
         )

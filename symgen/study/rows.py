@@ -9,7 +9,9 @@ from pathlib import Path
 from statistics import median
 from typing import Any, cast
 
+from symgen.arguments import path as argument_path
 from symgen.errors import InputError
+from symgen.files import check_writable, write_csv
 from symgen.result.result import FAILED, finite
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
@@ -33,7 +35,7 @@ class Row:
     status, reason
         As of a result; a failed run stays a row.
     error : float or None
-        Largest distance to the reference [m] over bodies, output times and points (`symgen.study.points`); None for a
+        Largest distance to the reference [m] over bodies, output times and points (`symgen.result.points`); None for a
         run that failed, and where there is no reference.
     below_reference : bool
         The error is below what the reference itself may be off, so it says no more than that.
@@ -229,25 +231,13 @@ class Study:
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the rows to a CSV file; it appears whole or not at all."""
-        return save_csv([self], Path(path))
+        return save_csv([self], argument_path("save", path))
 
 
 def save_csv(studies: Sequence[Study], path: Path) -> Path:
     """Write the rows of studies to one CSV file, with the mechanism in the first column."""
-    import csv
-
-    from symgen.result.export import check_writable, write_whole
-
     if path.suffix.lower() != ".csv":
         raise InputError("save", "a file ending in .csv", f"'{path}'")
     check_writable("save", path)
-
-    def write(file: Path) -> None:
-        with file.open("w", newline="", encoding="utf-8") as handle:
-            writer = csv.writer(handle)
-            writer.writerow(["mechanism", *(f.name for f in fields(Row))])
-            for study in studies:
-                for row in study.rows:
-                    writer.writerow([study.mechanism, *row.texts()])
-
-    return write_whole(path, write)
+    heading = ["mechanism", *(f.name for f in fields(Row))]
+    return write_csv(path, heading, [[study.mechanism, *row.texts()] for study in studies for row in study.rows])

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError, SimulationError, nearest
+from symgen.arguments import one_of
+from symgen.errors import SimulationError
 
 if TYPE_CHECKING:
     from symgen.study.independent import IndependentEquations
@@ -40,10 +41,7 @@ def check_solver(name: str) -> str:
     InputError
         If there is no such way; says the nearest one.
     """
-    known = (AUTO, *SOLVERS)
-    if name not in known:
-        raise InputError("--reference", "one of " + ", ".join(known), f"'{name}'", nearest(name, known))
-    return name
+    return one_of("--reference", name, (AUTO, *SOLVERS))
 
 
 def in_one_go(

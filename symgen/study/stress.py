@@ -4,21 +4,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from symgen import arguments
 from symgen.auto import AUTO
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.settings import Settings
 from symgen.study.bench import Base, Level, NotApplicable
 from symgen.study.cases import CASES, Family
 from symgen.study.effort import BUDGET, LeftOut, left_out
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
 from symgen.study.runner import Cell, Status, run_cells
-from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress_cells import WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
 from symgen.study.stress_reference import without_reference
 from symgen.study.stress_rows import Limit, Row, Stress
 
@@ -71,6 +73,9 @@ def stress(
     jobs: int = 1,
     progress: Progress | None = None,
     compilation: float = math.inf,
+    max_violation: float = WATCHED.max_violation,
+    max_energy_error: float = WATCHED.max_energy_error,
+    max_steps: float | None = None,
 ) -> Stress:
     """Run methods on families of stiff and extreme cases.
 
@@ -93,6 +98,8 @@ def stress(
     compilation : float
         Expected seconds of compilation that a model's pairs without a looped shape may take together [s]; pairs beyond
         are left out and listed.
+    max_violation, max_energy_error, max_steps : float
+        As for `symgen.Settings`; the first two are of the cases whose runs watch themselves.
 
     Returns
     -------
@@ -104,6 +111,16 @@ def stress(
     InputError
         If a name is wrong; nothing has been run then.
     """
+    asked = Settings(max_violation=max_violation, max_energy_error=max_energy_error, max_steps=max_steps)
+    limits = Limits(asked.max_violation, asked.max_energy_error, asked.max_steps)
+    cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
+    quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
+    if compilation != math.inf:
+        arguments.number("compilation", compilation, positive=True)
+    arguments.function("progress", progress)
+    if journal is not None:
+        arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
+    models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
     wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
@@ -114,7 +131,7 @@ def stress(
     found = list(_cases(bases, chosen, quick, skipped))
     say = progress or (lambda what, status: None)
     kept = Journal() if journal is None else journal
-    return _Study(bases, found, wanted, quick, tuple(skipped), kept, jobs, say, compilation).run()
+    return _Study(bases, found, wanted, quick, tuple(skipped), kept, jobs, say, compilation, limits).run()
 
 
 def _cases(
@@ -146,6 +163,7 @@ class _Study:
     jobs: int
     say: Progress
     compilation: float
+    limits: Limits
 
     @cached_property
     def left_out(self) -> dict[str, tuple[LeftOut, ...]]:
@@ -214,9 +232,9 @@ class _Study:
             for method, integrator in self._pairs(case.level):
                 if self._is_left_out(case, method, integrator):
                     continue
-                task = RunTask(case.level, method, integrator, _crashed_or(motions[reference.key]))
+                task = RunTask(case.level, method, integrator, _crashed_or(motions[reference.key]), self.limits)
                 parts = {"kind": "run", "code": code_identity(), "method": method, "integrator": integrator}
-                key = cell_key(**parts, reference=reference.key, **_parts(case.level))
+                key = cell_key(**parts, limits=asdict(self.limits), reference=reference.key, **_parts(case.level))
                 yield (
                     Cell(key, f"{case.level.mechanism.name} {method}", task, _cost(case.level, integrator)),
                     case,

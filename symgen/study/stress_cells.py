@@ -7,35 +7,48 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.api import Model
-from symgen.auto import AUTO, resolve, settle
+from symgen.auto import AUTO, resolve
+from symgen.describe.evaluate import parameter_values
 from symgen.errors import AssemblyError, InputError
 from symgen.lower.looped.law import is_loopable
-from symgen.plan import Plan, Settings, make_plan
+from symgen.plan import Plan, make_plan
+from symgen.result.agreement import settle
 from symgen.result.judge import judge
-from symgen.result.result import INTERRUPTED, OK, UNVERIFIED
+from symgen.result.points import Points
+from symgen.result.result import INTERRUPTED
 from symgen.runtime import abi
 from symgen.runtime.run import Outcome, integrate
+from symgen.settings import Settings, default
 from symgen.study import outcome as judged
 from symgen.study.bench import Level
 from symgen.study.effort import budget_of, further_budget, predicted
 from symgen.study.known import KnownModel
 from symgen.study.other_route import EmittedGeometry
 from symgen.study.outcome import Run, classify, largest_error
-from symgen.study.points import Points
 from symgen.study.stress_reference import equations_of, reference_of, times_of, without_reference
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
 
-#: Limits of a run that does not watch itself, and the usual ones.
-UNWATCHED, WATCHED = 1e30, Settings()
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of a run, as in `symgen.Settings`."""
+
+    max_violation: float = default("max_violation")
+    max_energy_error: float = default("max_energy_error")
+    max_steps: float | None = None
+
+
+#: Of a run that watches itself, by default, and of one that does not.
+WATCHED, UNWATCHED = Limits(), Limits(1e30, 1e30)
 #: How a loop ends that stopped itself although it could have gone on.
 WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
 #: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
@@ -51,12 +64,16 @@ class ReferenceTask:
 
 @dataclass(frozen=True)
 class RunTask:
-    """Run a case with a method and an integrator; `reference` is the outcome of its `ReferenceTask`."""
+    """Run a case with a method and an integrator; `reference` is the outcome of its `ReferenceTask`.
+
+    `limits` are those of a run that watches itself.
+    """
 
     level: Level
     method: str
     integrator: str
     reference: Fields
+    limits: Limits = WATCHED
 
 
 @dataclass(frozen=True)
@@ -74,7 +91,7 @@ def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
     if isinstance(task, ReferenceTask):
         return reference_of(task.level)
     if isinstance(task, RunTask):
-        return _run(task.level, task.method, task.integrator, task.reference).to_json()
+        return _run(task.level, task.method, task.integrator, task.reference, task.limits).to_json()
     return _limit(task)
 
 
@@ -106,12 +123,13 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
     return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
 
 
-def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields:
+def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limits = WATCHED) -> RunFields:
     """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
     why = without_reference(known)
     if why is not None:
         return _nothing(judged.UNJUDGED, why)
     model = KnownModel(level.mechanism)
+    watched = limits if level.watched else replace(UNWATCHED, max_steps=limits.max_steps)
     parameters = {**level.parameters, **known.get("parameters", {})}
     settings = Settings(
         method=method,
@@ -121,11 +139,9 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
         times=times_of(level),
         parameters=parameters,
         options=level.options,
-        max_violation=WATCHED.max_violation if level.watched else UNWATCHED,
-        max_energy_error=WATCHED.max_energy_error if level.watched else UNWATCHED,
+        **asdict(watched),
     )
     try:
-        asked = settings
         settings, plan = _planned(model, settings)
         budget = budget_of(plan, level.mechanism)
         chosen = f"{plan.choice.method.name}, {plan.tableau.name}" if method == AUTO else ""
@@ -138,18 +154,16 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
         return _nothing(judged.REFUSED, str(error))
     plan = replace(plan, spec=replace(plan.spec, max_evaluations=budget))
     outcome = integrate(compiled, plan.tableau, start, plan.spec)
-    doubt = None
+    second = None
     if method == AUTO:
-        settled = settle(model, asked, plan, compiled, outcome)
-        plan, outcome, doubt = settled.plan, settled.outcome, settled.doubt
+        second = settle(model.mechanism, parameters, plan, compiled, outcome, free=True)
+        plan, outcome = second.plan, second.outcome
     if outcome.interrupted:
         raise KeyboardInterrupt
     if outcome.evaluations > budget or outcome.code == abi.STOPPED:
         return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
-    verdict = judge(settings, plan, compiled, outcome)
+    verdict = judge(plan, compiled, outcome, second, asked=False)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
-    if doubt is not None and verdict.status == OK:
-        verdict = replace(verdict, status=UNVERIFIED, reason=doubt)
     run, note = _compared(level, parameters, outcome, known), ""
     found = classify(run)
     if outcome.code != abi.DONE:
@@ -157,7 +171,8 @@ def _run(level: Level, method: str, integrator: str, known: Fields) -> RunFields
     if outcome.code in WATCHES and found == judged.DIVERGED:
         # it stopped itself before its error could be seen: what would have become of it says what it was
         most = further_budget(budget, outcome.evaluations)
-        spec = replace(plan.spec, max_violation=UNWATCHED, max_energy_error=UNWATCHED, max_evaluations=most)
+        violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
+        spec = replace(plan.spec, max_violation=violation, max_energy_error=energy, max_evaluations=most)
         further = integrate(compiled, plan.tableau, start, spec)
         if further.interrupted:
             raise KeyboardInterrupt
@@ -184,24 +199,28 @@ def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
 
     The shape is looped where a method has one: it compiles once for all mechanisms, and the runs of a study are short.
     """
-    settings, _ = resolve(model, replace(settings, shape="looped"))
+    settings, _ = resolve(model.mechanism, replace(settings, shape="looped"))
     settings = replace(settings, shape="straight")
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     if plan.spec.adaptive and settings.step is not None:
         settings = replace(settings, step=None)
-        plan = make_plan(model, settings)
+        plan = make_plan(model.mechanism, settings)
     if is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
         plan = replace(plan, choice=replace(plan.choice, shape="looped"))
     return settings, plan
 
 
+def _points(level: Level, parameters: Mapping[str, float]) -> Points:
+    return Points.of(level.mechanism, parameter_values(level.mechanism, parameters))
+
+
 def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, known: Fields) -> Run:
     """Return what classification asks for."""
-    values = Model(level.mechanism).parameters(parameters)
+    values, points = parameter_values(level.mechanism, parameters), _points(level, parameters)
     nq, count = outcome.compiled.info.nq, len(outcome.times)
     states = outcome.states[:, :nq]
     with np.errstate(all="ignore"):
-        errors = Points.of(level.mechanism, values).distances(states, np.array(known["q"])[:count])
+        errors = points.distances(states, np.array(known["q"])[:count])
     violation = 0.0
     if not np.all(errors <= judged.ACCURATE):  # the equations are compiled only where it matters
         violation = math.inf

@@ -13,11 +13,13 @@ from symgen.auto import linearised
 from symgen.describe.digest import digest
 from symgen.describe.load import load as load_mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.result.points import Points
+from symgen.runtime.assembly import state_scales
+from symgen.settings import Settings
 from symgen.study.bench import FREE_LENGTH, Level
 from symgen.study.known import KnownModel
 from symgen.study.outcome import ACCURATE, TRUSTED
-from symgen.study.points import Points
 from symgen.study.reference import closed_form
 
 if TYPE_CHECKING:
@@ -46,7 +48,7 @@ def _moved(level: Level) -> Fields:
     model = KnownModel(level.mechanism)
     parameters = model.parameters(level.parameters)
     settings = Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step, shape="looped")
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan, parameters)
     nq, nv = compiled.info.nq, compiled.info.nv
     q, v = start.y[:nq].copy(), start.y[nq : nq + nv].copy()
@@ -63,7 +65,7 @@ def _moved(level: Level) -> Fields:
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
     how, estimated, moved = _closed(level, parameters, q, times)
-    falling = fastest_decay(compiled, start)
+    falling = fastest_decay(compiled, start, level.until)
     if moved is None:
         try:
             found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
@@ -98,9 +100,9 @@ def without_reference(known: Mapping[str, Any]) -> str | None:
     return None
 
 
-def fastest_decay(compiled: CompiledModel, start: Start) -> float:
+def fastest_decay(compiled: CompiledModel, start: Start, until: float) -> float:
     """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
-    jacobian = linearised(compiled, start)
+    jacobian = linearised(compiled, start, state_scales(compiled, start.w, until))
     if not np.all(np.isfinite(jacobian)):
         return 0.0
     return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))

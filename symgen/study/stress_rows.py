@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, cast
 
+from symgen.files import check_writable, write_csv
 from symgen.result.result import finite
 from symgen.study.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.outcome import ACCURATE, counts, false_success
@@ -149,18 +150,6 @@ class Stress:
 
 def save_csv(study: Stress, path: Path) -> Path:
     """Write the rows of a study to a CSV file; it appears whole or not at all."""
-    import csv
-
-    from symgen.result.export import check_writable, write_whole
-
     check_writable("csv", path)
-
-    def write(file: Path) -> None:
-        with file.open("w", newline="", encoding="utf-8") as handle:
-            writer = csv.writer(handle)
-            writer.writerow([f.name for f in fields(Row)])
-            for row in study.rows:
-                values = asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)}
-                writer.writerow(["" if x is None else x for x in values.values()])
-
-    return write_whole(path, write)
+    rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
+    return write_csv(path, [f.name for f in fields(Row)], [list(row.values()) for row in rows])

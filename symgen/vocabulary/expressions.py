@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 
 import msgspec
 
+from symgen.vocabulary.functions import ELEMENTARY
+
 
 class Number(msgspec.Struct, frozen=True, tag="number"):
     """A literal; folded into the emitted code as a constant."""
@@ -46,19 +48,8 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
     "div": (2, lambda a, b: a / b),
     "pow": (2, lambda a, b: a**b),
     "neg": (1, lambda a: -a),
-    "sqrt": (1, math.sqrt),
-    "exp": (1, math.exp),
-    "log": (1, math.log),
-    "sin": (1, math.sin),
-    "cos": (1, math.cos),
-    "tan": (1, math.tan),
-    "asin": (1, math.asin),
-    "acos": (1, math.acos),
-    "atan": (1, math.atan),
+    **{name: (1, function.evaluate) for name, function in ELEMENTARY.items()},
     "atan2": (2, math.atan2),
-    "sinh": (1, math.sinh),
-    "cosh": (1, math.cosh),
-    "tanh": (1, math.tanh),
     "abs": (1, abs),
     "sign": (1, lambda a: float((a > 0) - (a < 0))),
     "min": (2, min),

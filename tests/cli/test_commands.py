@@ -113,12 +113,29 @@ def test_generate_writes_modules_that_stand_alone(cli, tmp_path):
     folder = tmp_path / "out"
     code, out, err = cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)
     assert code == 0 and err == ""
-    names = {"model", "lagrange", "direct_correction"}
+    laws = {name: json.loads((folder / f"{name}.json").read_text()) for name in ("lagrange", "direct_correction")}
+    names = {"model", *laws, *(part for law in laws.values() for part in law["modules"])}
     assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")}
-    assert len(out.splitlines()) == 6
+    assert len(out.splitlines()) == 2 * len(names)
     first = {p.name: p.read_bytes() for p in folder.iterdir()}
     assert cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)[0] == 0
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == first
+
+
+def test_generate_removes_parts_that_no_law_names_any_more(cli, tmp_path):
+    folder = tmp_path / "out"
+    assert cli("generate", "pendulum", "--method", "lagrange", "--method", "baumgarte", "-o", folder)[0] == 0
+    first = {p.name for p in folder.iterdir()}
+    law = json.loads((folder / "lagrange.json").read_text())
+    for stem, part in {"rhs_direct_0123456789abcdef": True, "notes": False}.items():
+        law["modules"].append(stem)
+        for extension in (".py", ".json"):
+            (folder / f"{stem}{extension}").write_text("[]")
+        assert part or not re.search("[0-9a-f]{16}", stem)
+    (folder / "lagrange.json").write_text(json.dumps(law))
+    (folder / "broken.json").write_text("{")
+    assert cli("generate", "pendulum", "--method", "lagrange", "-o", folder)[0] == 0
+    assert {p.name for p in folder.iterdir()} == first | {"broken.json", "notes.py", "notes.json"}
 
 
 def test_generate_takes_structural_options(cli, tmp_path):

@@ -59,7 +59,7 @@ def test_json_stays_alone_on_standard_output(cli, tmp_path):
         ("-o report.pdf", "--output: expected a file ending in .html, .md, got 'report.pdf'"),
         ("-o nowhere/report.html", "--output: expected a file in a folder that exists"),
         ("--resume nowhere/rows.journal", "expected a file in a folder that exists"),
-        ("--jobs 0", "--jobs: expected a finite number above 0, got 0"),
+        ("--jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),
         ("--reference scipy-bfd", "did you mean 'scipy-bdf'?"),
         ("--output", "requires an argument"),
         ("--integrators nope", "expected an integrator, got 'nope'"),
@@ -96,7 +96,7 @@ def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, m
     report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
     arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "-o", report, "--json", "--journal", journal)
     code, out, err = cli(*arguments)
-    assert code == 130 and err.splitlines()[-1].startswith("symgen: interrupted; the rows that were done are shown")
+    assert code == 130 and "symgen: interrupted; the rows that were done are shown" in err
     assert len(json.loads(out)["rows"]) == 2 and json.loads(out)["interrupted"] is True
     assert "This study was interrupted: rows are missing." in report.read_text()
     code, out, _ = cli(*arguments)
@@ -131,11 +131,11 @@ def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_
     process = subprocess.Popen(
         [sys.executable, "-c", SCRIPT, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=dict(os.environ)
     )
-    deadline = time.monotonic() + 240.0
+    deadline = time.monotonic() + 600
     while rows_of(journal) < 3 and process.poll() is None and time.monotonic() < deadline:  # the reference and two rows
         time.sleep(0.02)
     process.send_signal(how)
-    process.communicate(timeout=60)
+    process.communicate(timeout=600)
     assert process.returncode == (130 if how == signal.SIGINT else -signal.SIGKILL)
     done = rows_of(journal)
     assert 3 <= done < 5

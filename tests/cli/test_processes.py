@@ -27,7 +27,7 @@ def imported(*arguments):
         [sys.executable, "-c", SCRIPT.format(heavy=HEAVY), *arguments],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=600,
         check=True,
     )
     facts = json.loads(found.stderr.splitlines()[-1])
@@ -59,7 +59,7 @@ def test_list_needs_neither_numpy_nor_sympy():
 
 def test_importing_symgen_imports_nothing_heavy():
     script = f"import symgen, sys, json; dir(symgen); print(json.dumps([m for m in {HEAVY!r} if m in sys.modules]))"
-    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=60)
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True, timeout=600)
     assert json.loads(found.stdout) == []
 
 
@@ -67,7 +67,7 @@ def test_importing_symgen_imports_nothing_heavy():
 
 
 def interrupt(arguments, ready, tmp_path):
-    """Start a command, interrupt it when `ready` returns; give exit code, both outputs, and seconds until it ended."""
+    """Start a command, interrupt it when `ready` returns; give exit code and both outputs."""
     out, err = tmp_path / "out.txt", tmp_path / "err.txt"
     with out.open("w") as o, err.open("w") as e:
         # in the background of some shells SIGINT is ignored, and that is inherited
@@ -79,17 +79,16 @@ def interrupt(arguments, ready, tmp_path):
         )
         try:
             ready(process)
-            began = time.monotonic()
             process.send_signal(signal.SIGINT)
-            process.wait(timeout=60)
+            process.wait(timeout=600)
         finally:
             process.kill()
-    return process.returncode, out.read_text(), err.read_text(), time.monotonic() - began
+    return process.returncode, out.read_text(), err.read_text()
 
 
 def integrating(process):
     """Wait until the process has a second busy thread: the loop."""
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 600
     while time.monotonic() < deadline and process.poll() is None:
         names = []
         for task in os.listdir(f"/proc/{process.pid}/task"):
@@ -109,7 +108,7 @@ def test_an_interrupted_run_writes_what_it_has(tmp_path):
     assert imported("run", "pendulum", "--until", "0.1", "--json")[0] == 0
     saved = tmp_path / "run.csv"
     arguments = ("run", "pendulum", "--until", "1e5", "--output-step", "10", "--json", "--save", saved)
-    code, out, err, _ = interrupt(arguments, integrating, tmp_path)
+    code, out, err = interrupt(arguments, integrating, tmp_path)
     assert code == 130
     found = json.loads(out)
     assert found["status"] == "failed" and found["reason"] == "interrupted"
@@ -122,7 +121,7 @@ def test_an_interrupted_run_writes_what_it_has(tmp_path):
 @pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs /proc")
 def test_an_interrupted_study_prints_its_rows(tmp_path):
     words = ("--methods", "lagrange", "--integrators", "rk4", "--steps", "1e-2,1e-7", "--until", "50")
-    code, out, err, _ = interrupt(("compare", "pendulum", *words, "--json"), integrating, tmp_path)
+    code, out, err = interrupt(("compare", "pendulum", *words, "--json"), integrating, tmp_path)
     assert code == 130
     assert err.splitlines()[-1] == (
         "symgen: interrupted; the rows that were done are shown; --resume FILE would have kept them for another time"
@@ -135,7 +134,7 @@ def test_an_interrupted_study_prints_its_rows(tmp_path):
 
 def test_a_closed_pipe_is_no_error():
     command = f"{sys.executable} -c 'from symgen.cli import main; raise SystemExit(main())' inspect n-four-bar:8"
-    found = subprocess.run(["bash", "-c", f"{command} | head -1"], capture_output=True, text=True, timeout=120)
+    found = subprocess.run(["bash", "-c", f"{command} | head -1"], capture_output=True, text=True, timeout=600)
     assert found.stderr == "" and "n-four-bar-8" in found.stdout
 
 
@@ -153,7 +152,7 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
     os.close(follower)
     shown = b""
     while True:
-        ready, _, _ = select.select([leader], [], [], 60)
+        ready, _, _ = select.select([leader], [], [], 600)
         try:
             part = os.read(leader, 65536) if ready else b""
         except OSError:
@@ -161,7 +160,7 @@ def test_a_long_run_shows_progress_on_a_terminal_only():
         if not part:
             break
         shown += part
-    out, _ = process.communicate(timeout=60)
+    out, _ = process.communicate(timeout=600)
     os.close(leader)
     assert process.returncode == 0
     assert json.loads(out)["status"] == "ok"

@@ -53,7 +53,7 @@ def wrong(method):
 @pytest.mark.parametrize(("method", "code"), [("auto", 1), ("lagrange", 0)])
 def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
     study = Stress(("four-bar",), (wrong(method),), (), (), ())
-    monkeypatch.setattr(module, "stress", lambda *a: study)
+    monkeypatch.setattr(module, "stress", lambda *a, **k: study)
     found, _, err = cli("stress", "--jobs", "1")
     assert found == code
     assert ("auto reports success with an error above 1e-3 m in 1 cell" in err) == bool(code)
@@ -61,7 +61,7 @@ def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
 
 def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path):
     study = Stress(("four-bar",), (wrong("lagrange"),), (), (), (), interrupted=True)
-    monkeypatch.setattr(module, "stress", lambda *a: study)
+    monkeypatch.setattr(module, "stress", lambda *a, **k: study)
     code, out, err = cli("stress", "--json", "-o", tmp_path / "stress.html")
     assert code == 130 and json.loads(out)["interrupted"] and "the cells that were done are kept" in err
     assert "This study was interrupted" in (tmp_path / "stress.html").read_text()
@@ -74,7 +74,7 @@ def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path):
         ("stress --cases stifness", "--cases: expected a family of cases, got 'stifness'; did you mean 'stiffness'?"),
         ("stress --cases stiffness,,", "--cases: expected words separated by commas"),
         ("stress --methods lagrang", "did you mean 'lagrange'?"),
-        ("stress --jobs 0", "--jobs: expected a finite number above 0, got 0"),
+        ("stress --jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),
         ("stress --csv nowhere/cells.csv", "--csv: expected a file in a folder that exists"),
         ("stress -o stress.pdf", "--output: expected"),
         ("stress --resume nowhere/journal", "expected a file in a folder that exists"),
@@ -95,7 +95,7 @@ def test_the_whole_catalogue_and_a_time_of_compilation(cli, monkeypatch):
 
     asked = []
 
-    def study(*arguments):
+    def study(*arguments, **limits):
         asked.append(arguments)
         return Stress(arguments[0], (), (), (), ())
 

@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from symgen.describe.evaluate import evaluate
@@ -223,19 +223,16 @@ def named(draw, function, arguments):
     return Call(function, tuple(arguments))
 
 
-@settings(deadline=None)
 @given(trees())
 def test_printed_formula_is_read_back_as_the_same_tree(expression):
     assert read(to_text(expression)) == expression
 
 
-@settings(deadline=None)
 @given(trees())
 def test_printing_is_stable(expression):
     assert to_text(read(to_text(expression))) == to_text(expression)
 
 
-@settings(deadline=None)
 @given(st.text(st.sampled_from("ab t.12()+-*/<>,e \n\"'_[]sinif"), max_size=40))
 def test_any_text_is_read_or_refused_with_an_input_error(text):
     try:
@@ -246,7 +243,6 @@ def test_any_text_is_read_or_refused_with_an_input_error(text):
         assert read(to_text(result)) == result
 
 
-@settings(deadline=None)
 @given(st.text(max_size=30))
 def test_any_unicode_is_read_or_refused(text):
     try:

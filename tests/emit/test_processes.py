@@ -9,11 +9,13 @@ import numpy as np
 from support.emitted import Emitted
 
 from symgen.api import load
+from symgen.ir.program import SCALES, STATUS
 
 EMIT_ALL = """
 import hashlib, sys
 from symgen.api import load
 from symgen.catalogue import names
+from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.pipeline import choose_method, generate
 
@@ -21,9 +23,19 @@ for name in names():
     for method in METHODS if name == "four-bar" else ("lagrange", "baumgarte", "direct-correction"):
         options = [{}] + [{o.name: v} for o in METHODS.get(method).options for v in o.values]
         choices = tuple({c.stem: c for c in (choose_method(method, o) for o in options)}.values())
-        made = generate(load(name).mechanism, choices)
-        for stem, (source, metadata) in made.modules.items():
-            print(made.folder, stem, hashlib.sha256(source.encode() + repr(metadata).encode()).hexdigest())
+        made = [generate(load(name).mechanism, choices)]
+        explicit = bool({"ode", "one-step"} & set(METHODS.get(method).forms))
+        forms = [False] * explicit + [True] * bool(set(METHODS.get(method).forms) - {"ode", "one-step"})
+        loops = [choose_method(method, o, implicit) for o in options for implicit in forms]
+        loops = tuple(c for c in loops if is_loopable(c.method, c.options, c.implicit))
+        made.append(generate(load(name).mechanism, loops, "looped"))
+        if method in ("lagrange", "baumgarte", "direct-correction"):
+            made.append(generate(load(name).mechanism, choices[:1], target="lanes"))
+            made.append(generate(load(name).mechanism, choices[:1], target="cuda"))
+        for modules in made:
+            for stem, (source, metadata) in modules.modules.items():
+                text = source + repr(metadata)
+                print(modules.folder, stem, hashlib.sha256(text.encode()).hexdigest())
 """
 
 
@@ -40,13 +52,16 @@ def start(script, arguments=(), cwd=None, **variables):
 
 
 def finished(process) -> str:
-    out, errors = process.communicate(timeout=240)
+    out, errors = process.communicate(timeout=600)
     assert process.returncode == 0, errors
     return out
 
 
 def test_the_whole_catalogue_is_emitted_byte_for_byte_alike(tmp_path):
-    """All methods for the four-bar. Two processes that differ in hash seed, user, home, folder, zone and language."""
+    """Straight, looped with tables, in lanes and for CUDA; all methods for the four-bar.
+
+    Two processes that differ in hash seed, user, home, folder, zone and language.
+    """
     here = start(EMIT_ALL, PYTHONHASHSEED="0")
     there = start(
         EMIT_ALL,
@@ -61,7 +76,10 @@ def test_the_whole_catalogue_is_emitted_byte_for_byte_alike(tmp_path):
     )
     first, second = finished(here), finished(there)
     assert first == second
-    assert len(first.splitlines()) >= 6 * 5
+    stems = {tuple(line.split()[:2]) for line in first.splitlines()}
+    for stem in ("model", "model_lanes", "model_cuda", "lagrange", "direct_correction_lanes", "machine", "mechanism"):
+        assert sum(name == stem for _, name in stems) >= (1 if stem in ("machine", "mechanism") else 16), stem
+    assert any(name.startswith("form_") for _, name in stems)
 
 
 #: Evaluates every function of an emitted package at given states; imports nothing of symgen.
@@ -69,7 +87,7 @@ EVALUATE = """
 import json, sys
 import numpy as np
 sys.path.insert(0, sys.argv[1])
-from package import law, model
+from package import direct_correction_mass as law, model
 
 case = json.load(open(sys.argv[2]))
 result = []
@@ -79,8 +97,8 @@ for t, state in case["states"]:
     p[: len(case["parameters"])] = case["parameters"]
     p[case["offset"] : case["offset"] + len(case["own"])] = case["own"]
     rate, out = np.zeros(len(y)), np.zeros(64)
-    w[6] = w[7] = 1.0  # scales
-    w[case["pivots"][0] : case["pivots"][1]] = 1.0  # of rows whose pivots never change
+    for first, last in case["ones"]:  # scales, and pivots of rows that never change theirs
+        w[first:last] = 1.0
     model.prepare(p)
     law.prepare(p)
     flags = [law.rhs(t, y, p, w, iw, rate), law.confirm(t, y, p, w, iw, rate), law.accept(t, y, p, w, iw)]
@@ -97,7 +115,7 @@ def write_package(folder, emitted):
     package.mkdir()
     (package / "__init__.py").write_text("")
     for stem, (source, _) in emitted.generated.modules.items():
-        (package / f"{'model' if stem == 'model' else 'law'}.py").write_text(source)
+        (package / f"{stem}.py").write_text(source)
 
 
 def test_emitted_files_stand_alone_and_compute_the_same_without_compilation(tmp_path):
@@ -113,7 +131,8 @@ def test_emitted_files_stand_alone_and_compute_the_same_without_compilation(tmp_
         "np": law.parameter_offset + len(law.parameters) + law.hoisted,
         "parameters": list(model.parameters().values()),
         "offset": law.parameter_offset,
-        "pivots": np.cumsum(emitted.info.sections["pivot"]).tolist(),
+        "ones": [np.cumsum(emitted.info.sections[name]).tolist() for name in ("pivot", "gauge", "row_weight")]
+        + [[STATUS.index(name), STATUS.index(name) + 1] for name in SCALES],
         "own": [default for _, default in law.parameters],
     }
     (tmp_path / "case.json").write_text(json.dumps(case))

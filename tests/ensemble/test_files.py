@@ -2,6 +2,7 @@
 
 import json
 import os
+import random
 import signal
 import subprocess
 import sys
@@ -82,20 +83,72 @@ def test_a_folder_can_be_continued_and_is_complete_then(tmp_path):
     whole = symgen.sweep("four-bar", **FEW)
     folder = tmp_path / "results"
     symgen.sweep("four-bar", **FEW, output=folder)
-    done = (folder / DONE).read_text().split()
+    done = (folder / DONE).read_text().splitlines()
     assert len(done) == len(set(done)) == -(-12 // whole.ensemble.chunk)
     # as a kill leaves it: some chunks not listed, one line torn, and rows of an unlisted chunk half written
-    (folder / DONE).write_text("".join(f"{index}\n" for index in done[:4]) + done[4][:0] + "7")
+    (folder / DONE).write_text("".join(f"{line}\n" for line in done[:4]) + "7")
     values = np.load(folder / "values.npy", mmap_mode="r+")
-    values[int(done[5])] = 1e99
+    values[int(done[5].split()[0])] = 1e99
     values.flush()
     again = symgen.sweep("four-bar", **FEW, output=folder, resume=True)
     np.testing.assert_array_equal(again.values, whole.values)
     np.testing.assert_array_equal(again.summary, whole.summary)
-    assert sorted((folder / DONE).read_text().split()) == sorted(done)
+    assert sorted((folder / DONE).read_text().splitlines()) == sorted(done)
     before = (folder / DONE).read_bytes()
     symgen.sweep("four-bar", **FEW, output=folder, resume=True)  # nothing is left to do
     assert (folder / DONE).read_bytes() == before
+
+
+def test_bits_that_changed_in_a_folder_are_computed_again_or_refused(tmp_path):
+    whole = symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02)
+    folder = tmp_path / "results"
+    symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02, output=folder)
+    kept = {path.name: path.read_bytes() for path in folder.iterdir()}
+    chance, refused = random.Random(3), 0
+    for name in [*("values.npy", "summary.npy", DONE) * 12, *["sweep.json"] * 6]:
+        for each, content in kept.items():
+            (folder / each).write_bytes(content)
+        changed = bytearray(kept[name])
+        bit = chance.randrange(8 * len(changed))
+        changed[bit // 8] ^= 1 << bit % 8
+        (folder / name).write_bytes(changed)
+        try:
+            again = symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02, output=folder, resume=True)
+        except InputError:
+            assert name == "sweep.json" and (folder / name).read_bytes() == changed
+            refused += 1
+            continue
+        np.testing.assert_array_equal(again.values, whole.values)
+        np.testing.assert_array_equal(again.summary, whole.summary)
+        assert {line.split()[0] for line in (folder / DONE).read_text().splitlines()} == set(map(str, range(9)))
+    assert refused
+
+
+@pytest.mark.parametrize("name", ["values.npy", "summary.npy", DONE])
+@pytest.mark.parametrize("damage", ["missing", "truncated", "head", "another shape", "empty"])
+def test_damaged_files_of_a_folder_are_made_again(tmp_path, name, damage):
+    folder = tmp_path / "results"
+    whole = symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02)
+    symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02, output=folder)
+    content, log = (folder / name).read_bytes(), sorted((folder / DONE).read_text().splitlines())
+    if damage == "missing":
+        (folder / name).unlink()
+    elif damage == "another shape":
+        np.save(folder / name if name.endswith(".npy") else folder / "x.npy", np.zeros(3))
+        (folder / "x.npy").unlink(missing_ok=True)
+    else:
+        changed = {"truncated": content[:-9], "head": b"\x93NUMPX" + content[6:], "empty": b""}[damage]
+        (folder / name).write_bytes(changed)
+    again = symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.02, output=folder, resume=True)
+    np.testing.assert_array_equal(again.values, whole.values)
+    np.testing.assert_array_equal(again.summary, whole.summary)
+    assert sorted((folder / DONE).read_text().splitlines()) == log
+
+
+def test_a_pipe_among_the_files_of_a_folder_is_refused(tmp_path):
+    os.mkfifo(tmp_path / DONE)
+    with pytest.raises(InputError, match=f"got one with '{DONE}' in it"):
+        symgen.sweep("pendulum", {"bob.vy": [0.0]}, until=0.02, output=tmp_path)
 
 
 def test_a_folder_of_another_sweep_is_refused_and_left_alone(tmp_path):
@@ -137,11 +190,11 @@ def test_two_processes_cannot_write_to_one_folder(tmp_path):
     with FolderTable(folder, ensemble.description, ensemble.sizes, True):
         words = ("four-bar", "--vary", "crank_mass=lin(1,3,6)", "--vary", "crank.omega=values(0,2)", "--until", "0.05")
         process = start(*words, "--quantity", "q", "-o", folder, "--resume")
-        _, err = process.communicate(timeout=250)
+        _, err = process.communicate(timeout=600)
         assert process.returncode == 2 and "expected one that no other process uses, got one in use" in err
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
     process = start(*words, "--quantity", "q", "-o", folder, "--resume")  # and the words are those of this sweep
-    process.communicate(timeout=250)
+    process.communicate(timeout=600)
     assert process.returncode == 0
 
 
@@ -173,9 +226,9 @@ def start(*arguments):
 
 
 def wait_for_chunks(log, count, process):
-    deadline = time.monotonic() + 250
+    deadline = time.monotonic() + 600
     while time.monotonic() < deadline and process.poll() is None:
-        if log.exists() and len(log.read_bytes().split()) >= count:
+        if log.exists() and len(log.read_bytes().splitlines()) >= count:
             return
         time.sleep(0.01)
     raise AssertionError(f"no {count} chunks: {process.communicate()}")
@@ -190,7 +243,7 @@ def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill)
     try:
         wait_for_chunks(log, 3, process)
         process.send_signal(kill)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=600)
     finally:
         process.kill()
     before = log.read_text().splitlines()
@@ -199,7 +252,7 @@ def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill)
         assert process.returncode == 130
         assert "interrupted; " in err and "--resume goes on from there" in err.splitlines()[-1]
     process = start(*LONG, "-o", path, "--resume", "--json")
-    out, err = process.communicate(timeout=250)
+    out, err = process.communicate(timeout=600)
     assert process.returncode == 0, err
     assert json.loads(out)["status"]["ok"] == 200
     assert [p.name for p in tmp_path.iterdir()] == ["long.nc"]

@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import symgen
@@ -137,7 +137,6 @@ def emitted():
     return compile_model(symgen.load("four-bar").mechanism, choose_method("lagrange"), target="lanes").model
 
 
-@settings(deadline=None)
 @given(st.floats(-1e5, 1e5))
 def test_emitted_sines_are_good_to_the_last_place(x):
     module = emitted()

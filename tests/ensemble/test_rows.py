@@ -64,7 +64,6 @@ def test_every_quantity_of_every_run_is_that_of_a_single_run():
         model, {"crank_mass": "lin(1, 3, 2)", "rocker_mass": [4.0, 6.0]}, quantities=EVERYTHING, **settings
     )
     assert found.counts["ok"] == 4
-    # described closed, so that the starts are the same numbers: then every bit is
     compare(found, model, 0.0, **settings)
 
 
@@ -83,19 +82,13 @@ def test_without_output_times_only_the_end_is_kept():
 
 
 @pytest.mark.parametrize(
-    ("method", "tolerance"),
-    [
-        ("coordinate-partitioning", 1e-11),
-        ("baumgarte", 1e-11),
-        # their iterations end at a tolerance, which the rounding of the start meets one sooner or later
-        ("augmented-hamiltonian", 1e-8),
-        ("augmented-lagrangian", 1e-8),
-    ],
+    "method", ["coordinate-partitioning", "baumgarte", "augmented-hamiltonian", "augmented-lagrangian"]
 )
-def test_methods_that_remember_or_iterate(method, tolerance):
+def test_methods_that_remember_or_iterate(method):
+    """Iterations end at a tolerance, which other rounding would meet one sooner or later: starts are the same bits."""
     model, settings = symgen.load("slider-crank"), {"method": method, "until": 0.1, "output_step": 0.05}
     found = symgen.sweep(model, {"rod_mass": [0.5, 1.5]}, quantities=("q", "v", "lam"), **settings)
-    compare(found, model, tolerance, **settings)
+    compare(found, model, 0.0, **settings)
 
 
 def open_four_bar():
@@ -114,7 +107,7 @@ def test_open_and_contradictory_starts_are_closed_and_projected_as_for_single_ru
     model, settings = open_four_bar(), {"until": 0.02, "times": (0.0, 0.02)}
     found = symgen.sweep(model, {"lift": [-0.2, 0.0, 0.4, 1.0]}, quantities=("q", "v", "lam"), **settings)
     assert np.all(found["start_moved"] > 1e-3) and np.all(found["start_velocities"] == 1.0)
-    compare(found, model, 1e-10, **settings)
+    compare(found, model, 0.0, **settings)
     strict = symgen.sweep(model, {"lift": [0.0]}, until=0.02, strict=True)
     assert strict.status[0] == "failed"
     assert "initial state: expected a consistent start (--strict), got positions that closing moves" in strict.reason[0]
@@ -131,8 +124,7 @@ def test_a_start_that_stays_open_is_a_failed_row_in_the_words_of_a_single_run():
     assert list(found.status) == ["ok", "failed", "ok"]
     with pytest.raises(AssemblyError) as caught:
         model.simulate(until=0.01, parameters={"reach": 16.0})
-    said, told = found.reason[1], str(caught.value)
-    assert said.partition("stays open by ")[0] == told.partition("stays open by ")[0]
+    assert found.reason[1] == str(caught.value)
     assert np.isnan(found["crank.x"][1]).all() and np.isfinite(found["crank.x"][[0, 2]]).all()
 
 
@@ -151,7 +143,7 @@ def test_light_bodies_get_the_other_solver_where_they_are_light():
     model, settings = symgen.load("four-bar"), {"until": 0.05, "times": (0.05,)}
     found = symgen.sweep(model, {"coupler_mass": [8.0, 1e-9, 4.0]}, quantities=("q", "v"), **settings)
     assert list(found["light"]) == [0.0, 1.0, 0.0]
-    compare(found, model, 1e-9, **settings)
+    compare(found, model, 0.0, **settings)
 
 
 @pytest.mark.parametrize("method", ["direct-correction", "lagrange"])
@@ -164,7 +156,7 @@ def test_singular_passages_are_judged_as_single_runs_are(method):
     found = symgen.sweep(model, {"end_mass": [1.0, 1.5]}, quantities=("energy",), **settings)
     assert np.all(found["rank_event_count"] > 0)
     assert set(found.status) == {"ok"} if method == "direct-correction" else "ok" not in found.status
-    compare(found, model, 1e-9, **settings)
+    compare(found, model, 0.0, **settings)
 
 
 def test_redundant_rows_in_space():
@@ -180,7 +172,7 @@ def test_redundant_rows_in_space():
         one = symgen.load(mechanism_of(description)).simulate(**settings)
         assert found.status[i] == one.status == "ok"
         for name in (*one.q.names, *one.v.names):
-            np.testing.assert_allclose(found[name][i], one[name], atol=1e-10, err_msg=name)
+            np.testing.assert_array_equal(found[name][i], one[name], err_msg=name)
         assert np.isnan(found["lam.P1." + one.lam.names[6].partition(".")[2]][i]).all()
 
 
@@ -284,6 +276,6 @@ def test_without_compilation_the_numbers_are_the_same(tmp_path):
     for disabled in ("0", "1"):
         path = tmp_path / f"{disabled}.npy"
         environment = os.environ | {"NUMBA_DISABLE_JIT": disabled}
-        subprocess.run([sys.executable, "-c", script, str(path)], check=True, timeout=280, env=environment)
+        subprocess.run([sys.executable, "-c", script, str(path)], check=True, timeout=600, env=environment)
         values.append(np.load(path))
     np.testing.assert_allclose(values[0], values[1], rtol=0, atol=1e-11)

@@ -6,7 +6,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.describe.evaluate import evaluate
-from symgen.ensemble.starts import evaluate_all, make_rows
+from symgen.ensemble.starts import Columns, make_rows
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
 
@@ -19,22 +19,26 @@ C = np.array([1.0, 0.0, -3.0, 0.5, 0.0, 1.0, 2.0])
 def test_functions_are_those_of_single_runs(function):
     names = [Name(x) for x in "abc"[: FUNCTIONS[function][0]]]
     formula = Call("add", (Call(function, tuple(names)), Name("a")))
-    found = np.broadcast_to(evaluate_all(formula, {"a": A, "b": B, "c": C}), A.shape)
+    found = np.broadcast_to(Columns({"a": A, "b": B, "c": C}).value(formula), A.shape)
     for i in range(len(A)):
         try:
             expected = evaluate(formula, {"a": A[i], "b": B[i], "c": C[i]})
         except InputError:
             expected = np.nan
-        np.testing.assert_allclose(found[i], expected, rtol=1e-14, err_msg=f"{function} of {A[i]}, {B[i]}, {C[i]}")
+        np.testing.assert_array_equal(found[i], expected, err_msg=f"{function} of {A[i]}, {B[i]}, {C[i]}")
 
 
 def test_what_is_undefined_inside_stays_undefined_unless_it_is_left_aside():
     inverse = Call("div", (Name("b"), Name("a")))
-    values = {"a": np.array([0.0, 2.0]), "b": np.array([1.0, 1.0])}
+    columns = Columns({"a": np.array([0.0, 2.0]), "b": np.array([1.0, 1.0]), "zero": 0.0})
+    one = Columns({"a": 0.0, "b": 1.0, "zero": 0.0})
     for formula in (Call("atan", (inverse,)), Call("lt", (inverse, Name("b"))), Call("pow", (inverse, Name("zero")))):
-        assert np.isnan(evaluate_all(formula, {**values, "zero": np.array(0.0)})[0])
+        assert np.isnan(columns.value(formula)[0]) and np.isfinite(columns.value(formula)[1])
+        assert np.isnan(one.value(formula))
     chosen = Call("where", (Call("gt", (Name("a"), Name("zero"))), inverse, Name("b")))
-    np.testing.assert_array_equal(evaluate_all(chosen, {**values, "zero": np.array(0.0)}), [1.0, 0.5])
+    np.testing.assert_array_equal(columns.value(chosen), [1.0, 0.5])
+    assert one.value(chosen) == 1.0
+    assert np.isnan(one.value(Call("where", (inverse, Name("b"), Name("b")))))
 
 
 ORIENTATIONS = {
@@ -85,8 +89,8 @@ def test_rows_are_the_described_starts_of_single_runs(description):
     rows = make_rows(model.mechanism, model.parameters(), {"k": values}, {}, {})
     for i, k in enumerate(values):
         q, v = model.initial_state(model.parameters({"k": k}))
-        np.testing.assert_allclose(rows.q[i], q, rtol=1e-14, atol=1e-15)
-        np.testing.assert_allclose(rows.v[i], [np.nan if x is None else x for x in v], rtol=1e-14)
+        np.testing.assert_array_equal(rows.q[i], q)
+        np.testing.assert_array_equal(rows.v[i], [np.nan if x is None else x for x in v])
         assert rows.parameters[i, 0] == k
 
 

@@ -1,14 +1,9 @@
 """Angles in space whose turns are counted: drivers whose values vary by whole turns."""
 
-import math
-
 import numpy as np
-import pytest
 from support.emitted import mechanism_of
 
 import symgen
-from symgen.runtime.turning import _whole_turns
-from symgen.runtime.turns import whole_turns
 
 
 def geared():
@@ -57,13 +52,3 @@ def test_starts_whole_turns_away_and_turns_between_outputs():
             np.testing.assert_allclose(found[name][i], one[name], atol=1e-10, err_msg=name)
         for name in one.lam.names:
             np.testing.assert_allclose(found[f"lam.{name}"][i], one.lam[name], atol=1e-8, err_msg=name)
-
-
-@pytest.mark.parametrize("seed", range(20))
-def test_turns_are_chosen_as_for_single_runs(seed):
-    random = np.random.default_rng(seed)
-    m, count = int(random.integers(1, 7)), int(random.integers(1, 5))
-    effects = math.tau * random.integers(-2, 3, size=(m, count)) * (random.random((m, count)) < 0.5)
-    residual = random.uniform(-60.0, 60.0, m)
-    expected = whole_turns(effects, residual)
-    np.testing.assert_array_equal(_whole_turns(effects.copy(), residual.copy()), expected)

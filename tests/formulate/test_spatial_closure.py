@@ -9,6 +9,7 @@ from support.emitted import mechanism_of
 from support.graph_values import node_values, state_inputs
 from support.space import rotation, skew, triad, unit
 
+from symgen.describe.evaluate import scalars
 from symgen.describe.orientation import from_matrix
 from symgen.formulate.formulate import formulate
 
@@ -76,7 +77,10 @@ class Pair:
         turned, shift, coordinates = self.motion(a, s)
         matrix = self.turned @ self.frames[0] @ turned @ self.frames[1].T
         place = self.place + self.turned @ (self.at[0] + self.frames[0] @ shift) - matrix @ self.at[1]
-        poses = [[*p, *from_matrix(tuple(map(tuple, m)))] for p, m in ((self.place, self.turned), (place, matrix))]
+        poses = [
+            [*p, *from_matrix(tuple(map(tuple, m)), scalars({}))]
+            for p, m in ((self.place, self.turned), (place, matrix))
+        ]
         return [float(x) for pose in poses for x in pose], coordinates
 
     def values(self, q):

@@ -9,7 +9,8 @@ from symgen.api import load
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.settings import Settings
 
 ALL = [(m, i) for m in METHODS.names for i in INTEGRATORS.names]
 
@@ -23,7 +24,7 @@ def test_a_plan_is_made_for_exactly_the_pairs_of_the_table():
     model, made = load("pendulum"), []
     for method, integrator in ALL:
         try:
-            plan = make_plan(model, Settings(method=method, integrator=integrator))
+            plan = make_plan(model.mechanism, Settings(method=method, integrator=integrator))
         except InputError as refusal:
             assert "these do: " in str(refusal)
             continue

@@ -14,7 +14,7 @@ from scipy.integrate import solve_ivp
 
 from symgen.api import load
 from symgen.describe.builder import MechanismBuilder
-from symgen.study.points import Points
+from symgen.result.points import Points
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
 MASSES = (1.0, 0.5)

@@ -90,7 +90,11 @@ def test_packed_coefficients_are_the_same_scheme(name):
     found = np.zeros((rows, len(a)))
     for r in range(rows):
         found[r, column[start[r] : start[r + 1]]] = value[start[r] : start[r + 1]]
-    np.testing.assert_array_equal(found, a)
+    np.testing.assert_array_equal(found[: len(a)], a)
+    assert len(found) == len(a) + len(tableau.errors)
+    for row, weights in zip(found[len(a) :], tableau.errors, strict=True):
+        np.testing.assert_array_equal(row[: len(weights)], weights)
+        assert not row[len(weights) :].any()
     np.testing.assert_allclose(nodes, a.sum(axis=1), atol=1e-13)
     np.testing.assert_allclose(stage_weights(((),), a), nodes, atol=1e-13)
 

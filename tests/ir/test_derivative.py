@@ -146,7 +146,7 @@ def test_every_operation(op, exponent):
 
 def test_no_operation_is_left_out():
     """A function that is added to the graph needs a rule, and a place here."""
-    constant = {"lt", "le", "gt", "ge", "and", "or", "not", "floor"}
+    constant = {"lt", "le", "gt", "ge", "and", "or", "not", "floor", "defined"}
     assert constant | set(UNARY) | set(BINARY) >= FUNCTIONS
 
 

@@ -62,7 +62,7 @@ def test_generated_loops_stand_alone(cli, tmp_path):
     assert (code, err) == (0, "")
     stems = {p.stem for p in folder.glob("*.py")}
     assert {"machine", "model", "law_lagrange", "mechanism"} < stems
-    assert len(out.splitlines()) == 2 * len(stems) == 14
+    assert len(out.splitlines()) == 2 * len(stems) == 22
     for path in folder.glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text())):
             if isinstance(node, ast.Import):

@@ -9,21 +9,22 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.checks import RANDOM
 
 from symgen import auto
 from symgen.api import load
 from symgen.errors import InputError
 from symgen.looped import generate_looped, law_stem, shared_folder
-from symgen.lower.factor import minimum_degree
 from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import is_loopable, refuse_dense
-from symgen.lower.looped.pattern import Elimination, eliminate
+from symgen.lower.looped.pattern import Elimination
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
 from symgen.pipeline import MethodChoice, choose_method, generator_digest
-from symgen.plan import Settings, make_plan
-from symgen.runtime import large
+from symgen.plan import make_plan
+from symgen.runtime import decisions
+from symgen.settings import Settings
 from symgen.shapes import choose_shape
 from symgen.store.entries import Entries
 from symgen.store.jit import cache_stats
@@ -34,28 +35,20 @@ DATA = Path(__file__).parents[1] / "data"
 # -- elimination -------------------------------------------------------------------------------------------------------
 
 
-@st.composite
-def patterns(draw):
-    n = draw(st.integers(1, 14))
-    pairs = draw(st.sets(st.tuples(st.integers(0, n - 1), st.integers(0, n - 1))))
-    near = [set() for _ in range(n)]
-    for i, j in pairs:
-        if i != j:
-            near[i].add(j)
-            near[j].add(i)
-    return [frozenset(s) for s in near]
+def pattern(rng: np.random.Generator) -> list[frozenset[int]]:
+    """A random symmetric pattern: for each row the others it has an entry with."""
+    entries = rng.random((n := int(rng.integers(1, 15)), n)) < rng.random() * 0.7
+    return [frozenset(int(j) for j in np.flatnonzero(row) if j != i) for i, row in enumerate(entries | entries.T)]
 
 
-@given(patterns())
-def test_the_order_is_that_of_straight_code(neighbours):
-    assert tuple(eliminate(neighbours)[0]) == minimum_degree(neighbours)
-
-
-@given(patterns(), st.integers(0, 10**6))
-def test_panels_hold_a_factor(neighbours, seed):
+@RANDOM
+@given(st.integers(0, 10**6))
+def test_panels_hold_a_factor(seed):
     """Read as their table says, the panels factorise a matrix: checked against NumPy's solution."""
+    rng = np.random.default_rng(seed)
+    neighbours = pattern(rng)
     n = len(neighbours)
-    values = np.random.default_rng(seed).uniform(-1.0, 1.0, (n, n))
+    values = rng.uniform(-1.0, 1.0, (n, n))
     matrix = np.diag([n + 1.0] * n)
     for i, near in enumerate(neighbours):
         for j in near:
@@ -119,7 +112,7 @@ def test_numbers_are_data_and_zeros_are_kinds():
 
 
 def test_a_new_mechanism_of_known_kinds_compiles_nothing():
-    load("n-four-bar:2").simulate(method="lagrange", until=0.01, shape="looped")
+    load("n-four-bar:4").simulate(method="lagrange", until=0.01, shape="looped")
     before = cache_stats()["misses"]
     result = load("n-four-bar:5").simulate(method="lagrange", until=0.01, shape="looped")
     assert result.status == "ok"
@@ -150,14 +143,14 @@ class Weighed(MultiplierMethod):
     summary = reference = "a method of a test"
 
     def target(self, system):
-        return system.gamma - system.heavy_penalty * system.phi
+        return system.gamma - system.D @ system.minv(system.D.transposed(system.phi))
 
 
 def test_constraints_that_ask_for_more_than_their_joint_have_straight_code():
     method = Weighed()
     options = method.complete_options({})
     assert not is_loopable(method, options, True)
-    with pytest.raises(InputError, match="'weighed', whose constraints ask for 'heavy_penalty'"):
+    with pytest.raises(InputError, match=r"'weighed', whose constraints ask for '(transposed|minv)'"):
         refuse_dense(method, options, True)
     choice = MethodChoice(method, options, True)
     assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).shape == "straight"
@@ -213,13 +206,13 @@ def test_dense_methods_have_no_loops_and_a_largest_size(method, tmp_path):
 
 
 def test_implicit_integrators_have_both_shapes_at_any_size():
-    assert make_plan(load("four-bar"), Settings(integrator="radau5", shape="looped")).choice.shape == "looped"
-    assert make_plan(load("n-four-bar:250"), Settings(integrator="radau5")).choice.shape == "looped"
+    assert make_plan(load("four-bar").mechanism, Settings(integrator="radau5", shape="looped")).choice.shape == "looped"
+    assert make_plan(load("n-four-bar:250").mechanism, Settings(integrator="radau5")).choice.shape == "looped"
 
 
 def test_unknown_shapes_are_refused():
     with pytest.raises(InputError, match="one of auto, straight, looped, got 'lopped'"):
-        make_plan(load("four-bar"), Settings(shape="lopped"))
+        make_plan(load("four-bar").mechanism, Settings(shape="lopped"))
 
 
 class Smooth(MultiplierMethod):
@@ -234,19 +227,19 @@ class Smooth(MultiplierMethod):
 
 
 class Picky(Smooth):
-    """Takes the first element out of a vector."""
+    """Asks for gamma at other velocities than the state's."""
 
     name = "picky"
 
     def target(self, system):
-        return replace(system.gamma, nodes=(system.graph.zero, *system.gamma.nodes[1:]))
+        return system.at_velocity(system.gamma, system.zeros("nv"))
 
 
 def test_a_method_from_outside_has_both_shapes_if_its_formula_is_one_on_vectors():
     smooth, picky = Smooth(), Picky()
-    assert is_loopable(smooth, smooth.complete_options({}), False)
+    assert is_loopable(smooth, smooth.complete_options({}), True)
     assert not is_loopable(picky, picky.complete_options({}), False)
-    with pytest.raises(InputError, match="'picky', whose formula asks for single elements"):
+    with pytest.raises(InputError, match="'picky', whose formula asks for 'at_velocity'; the straight shape is for it"):
         refuse_dense(picky, picky.complete_options({}), False)
 
 
@@ -255,7 +248,7 @@ def test_auto_takes_large_mechanisms_without_their_eigenvalues(monkeypatch):
         raise AssertionError("eigenvalues of a large mechanism were asked for")
 
     monkeypatch.setattr(auto, "linearised", refused)
-    settings, reasons = auto.resolve(load("n-four-bar:60"), Settings(method="auto", integrator="auto"))
+    settings, reasons = auto.resolve(load("n-four-bar:60").mechanism, Settings(method="auto", integrator="auto"))
     assert (settings.method, settings.integrator) == ("direct-correction", "dop853")
     assert "with 1088 unknowns a stage nobody looked whether the motion is stiff" in reasons[-1]
 
@@ -278,7 +271,7 @@ def test_sparse_starts_are_the_dense_ones(monkeypatch, given_velocities):
         model = replace(model, mechanism=structs_replace(mechanism, bodies=tuple(bodies)))
     compiled = model.compile("lagrange", shape="looped")
     dense = model.assemble(compiled)
-    monkeypatch.setattr(large, "LARGEST_DENSE", 0)
+    monkeypatch.setattr(decisions, "LARGEST_DENSE", 0)
     sparse = model.assemble(compiled)
     np.testing.assert_allclose(sparse.y, dense.y, atol=1e-10)
     assert (sparse.rank, sparse.redundant_rows) == (dense.rank, dense.redundant_rows)
@@ -297,7 +290,7 @@ def test_sparse_starts_find_lasting_redundancy(monkeypatch):
     model = load(mechanism_of(parallelogram()))
     compiled = model.compile("direct-correction", shape="looped")
     dense = model.assemble(compiled)
-    monkeypatch.setattr(large, "LARGEST_DENSE", 0)
+    monkeypatch.setattr(decisions, "LARGEST_DENSE", 0)
     sparse = model.assemble(compiled)
     assert len(dense.redundant_rows) == 1
     assert sparse.redundant_rows == dense.redundant_rows

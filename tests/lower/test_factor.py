@@ -42,7 +42,7 @@ def test_factor_and_solve(seed, n, density, literal):
     rng = np.random.default_rng(seed)
     a, b, graph = random_matrix(rng, n, density), rng.normal(size=n), Graph()
     matrix, values = nodes_of(graph, a, rng.random((n, n)) < literal)
-    order = minimum_degree(neighbours(a != 0.0))
+    order, _ = minimum_degree(neighbours(a != 0.0))
     factor = factorise(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
     right = [graph.input("b", i) for i in range(n)]
     found = node_values(graph, factor.solve(graph, right), values | {("b", i): x for i, x in enumerate(b)})
@@ -63,10 +63,27 @@ def test_factor_and_solve(seed, n, density, literal):
 @given(seed=st.integers(0, 10**6), n=st.integers(1, 40), density=st.floats(0.0, 0.4))
 def test_minimum_degree_is_a_permutation_and_the_same_again(seed, n, density):
     pattern = random_matrix(np.random.default_rng(seed), n, density) != 0.0
-    order = minimum_degree(neighbours(pattern))
+    order, below = minimum_degree(neighbours(pattern))
     assert sorted(order) == list(range(n))
     shuffled = [frozenset(sorted(s, reverse=True)) for s in neighbours(pattern)]
-    assert minimum_degree(shuffled) == order
+    assert minimum_degree(shuffled) == (order, below)
+
+
+@RANDOM
+@given(seed=st.integers(0, 10**6), n=st.integers(1, 25), density=st.floats(0.0, 0.6))
+def test_each_pivot_has_the_fewest_rows_left_and_waits_least(seed, n, density):
+    """The order by its definition, searched among all rows at every pivot; and the rows below each."""
+    near = neighbours(random_matrix(np.random.default_rng(seed), n, density) != 0.0)
+    graph, level, expected, rows = [set(s) for s in near], [0] * n, [], []
+    while len(expected) < n:
+        pivot = min(set(range(n)) - set(expected), key=lambda i: (len(graph[i]), level[i], i))
+        expected.append(pivot)
+        rows.append(graph[pivot])
+        for i in graph[pivot]:
+            graph[i] = (graph[i] | graph[pivot]) - {i, pivot}
+            level[i] = max(level[i], level[pivot] + 1)
+    order, below = minimum_degree(near)
+    assert list(order) == expected and [set(s) for s in below] == rows
 
 
 @RANDOM
@@ -84,7 +101,7 @@ def fill(pattern: np.ndarray) -> int:
     """Entries of L beyond those of the lower triangle."""
     graph = Graph()
     matrix = {(int(i), int(j)): graph.input("a", min(i, j) * len(pattern) + max(i, j)) for i, j in np.argwhere(pattern)}
-    order = minimum_degree(neighbours(pattern))
+    order, _ = minimum_degree(neighbours(pattern))
     factor = factorise(graph, matrix, order, lambda _, pivot, __: graph.div(graph.one, pivot))
     return sum(map(len, factor.lower.values())) - (len(matrix) - len(pattern)) // 2
 
@@ -94,14 +111,14 @@ def test_an_arrow_is_eliminated_from_its_tips(n):
     pattern = np.eye(n, dtype=bool)
     pattern[0, :] = pattern[:, 0] = True
     assert fill(pattern) == 0
-    assert minimum_degree(neighbours(pattern))[-1] in (0, n - 1)
+    assert minimum_degree(neighbours(pattern))[0][-1] in (0, n - 1)
 
 
 def test_a_skipped_row_gets_zero_and_the_others_their_own_solution():
     rng = np.random.default_rng(3)
     a, b, graph = random_matrix(rng, 6, 0.7), rng.normal(size=6), Graph()
     matrix, values = nodes_of(graph, a)
-    order = minimum_degree(neighbours(a != 0.0))
+    order, _ = minimum_degree(neighbours(a != 0.0))
     factor = factorise(
         graph, matrix, order, lambda row, pivot, _: graph.zero if row == 2 else graph.div(graph.one, pivot)
     )

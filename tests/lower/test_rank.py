@@ -11,11 +11,13 @@ from support.graph_values import node_values
 
 from symgen.formulate.equations import ConstraintRow, Equations, MassBlock, Quantity
 from symgen.ir.graph import Graph
-from symgen.lower.algebra import SUSPICIOUS, System
+from symgen.ir.numerics import SUSPICIOUS
+from symgen.lower.scalar import Scalars
+from symgen.methods._recorder import Recorder
 
 
-def system_of(d: np.ndarray, masses: np.ndarray) -> tuple[System, dict]:
-    """A system with the entries of D as inputs, and their values; a mask of zeros."""
+def equations_of(d: np.ndarray, masses: np.ndarray) -> tuple[Equations, dict]:
+    """Equations with the entries of D as inputs, and their values; a mask of zeros."""
     graph, (m, n) = Graph(), d.shape
     values = {("d", i * n + j): float(d[i, j]) for i, j in np.argwhere(d != 0.0)} | {("mask", i): 0.0 for i in range(m)}
     rows = tuple(
@@ -43,7 +45,7 @@ def system_of(d: np.ndarray, masses: np.ndarray) -> tuple[System, dict]:
         omissions=(),
         dropped_rows=(),
     )
-    return System(equations), values
+    return equations, values
 
 
 def _entries(graph, row, first):
@@ -57,15 +59,26 @@ def random_rows(rng, m: int, n: int) -> np.ndarray:
     return d
 
 
-def corrected(system: System, values, d, b, weight=None):
+def laid_out(equations: Equations, formula):
+    """What a formula over a system gives, element by element."""
+    system = Recorder(())
+    ends = formula(system)
+    scalars = Scalars(equations, tuple(system.tape.operations))
+    scalars.run(range(len(system.tape.operations)))
+    return scalars, [scalars.values[end.index] for end in ends]
+
+
+def corrected(equations: Equations, values, d, b, weight=None):
     """D^+ b as the emitted code computes it: y from the factor of D W D^T, then W D^T y."""
-    g = system.graph
-    factor = (
-        system.gram_factor()
-        if weight is None
-        else system.factor_with(system.gram_factor(), system.gram(system.inverse_mass))
-    )
-    y = node_values(g, factor.solve(g, [g.constant(float(x)) for x in b]), values)
+
+    def formula(system):
+        rank = system.rank_factor()
+        right = system.variable("right", "m")
+        return [system.solve(rank if weight is None else system.weighted_factor(rank, "mass"), right)]
+
+    scalars, (nodes,) = laid_out(equations, formula)
+    known = values | {("right", i): float(x) for i, x in enumerate(b)}
+    y = node_values(scalars.graph, nodes, known)
     return (np.ones(d.shape[1]) if weight is None else weight) * (d.T @ y), np.array(y)
 
 
@@ -82,20 +95,20 @@ def test_corrections_are_those_of_the_pseudoinverse(seed, independent, repeated)
     mixing[independent:][~mixing[independent:].any(axis=1), 0] = 1
     d = (mixing @ base)[rng.permutation(independent + repeated)]
     masses = rng.uniform(0.5, 4.0, n)
-    system, values = system_of(d, masses)
+    equations, values = equations_of(d, masses)
     b = d @ rng.normal(size=n)
-    found, y = corrected(system, values, d, b)
+    found, y = corrected(equations, values, d, b)
     np.testing.assert_allclose(found, np.linalg.pinv(d) @ b, rtol=0, atol=1e-9)
     assert np.count_nonzero(y) <= independent
     weighted = np.linalg.pinv(d / np.sqrt(masses)) @ b / np.sqrt(masses)
-    np.testing.assert_allclose(corrected(system, values, d, b, 1 / masses)[0], weighted, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(corrected(equations, values, d, b, 1 / masses)[0], weighted, rtol=0, atol=1e-9)
 
 
 def test_the_row_eliminated_last_is_the_one_that_is_skipped():
     d = np.array([[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 2.0, 1.0]])
-    system, values = system_of(d, np.ones(3))
-    factor = system.gram_factor()
-    reciprocal = node_values(system.graph, [factor.reciprocal[k] for k in system.order], values)
+    equations, values = equations_of(d, np.ones(3))
+    scalars, (factor,) = laid_out(equations, lambda system: [system.rank_factor()])
+    reciprocal = node_values(scalars.graph, [factor.reciprocal[k] for k in scalars.order], values)
     assert [x == 0.0 for x in reciprocal] == [False, False, True]
 
 
@@ -109,12 +122,12 @@ def test_masked_rows_are_as_if_they_were_not_there(seed, m):
     kept = [i for i in range(m) if i != masked]
     if np.linalg.svd(d[kept], compute_uv=False)[-1] < 0.1:
         return
-    system, values = system_of(d, masses)
+    equations, values = equations_of(d, masses)
     values["mask", masked] = math.inf
     f, gamma = rng.normal(size=n), rng.normal(size=m)
     values |= {("f", j): float(x) for j, x in enumerate(f)} | {("gamma", i): float(x) for i, x in enumerate(gamma)}
-    multipliers = system.solve_schur(system.D @ system.minv(system.f) - system.gamma)
-    found = node_values(system.graph, multipliers.nodes, values)
+    scalars, (multipliers,) = laid_out(equations, lambda s: [s.solve_schur(s.D @ s.minv(s.f) - s.gamma)])
+    found = node_values(scalars.graph, multipliers, values)
     s = d[kept] @ np.diag(1 / masses) @ d[kept].T
     expected = np.zeros(m)
     expected[kept] = np.linalg.solve(s, d[kept] @ (f / masses) - gamma[kept])
@@ -125,9 +138,8 @@ def test_masked_rows_are_as_if_they_were_not_there(seed, m):
 def test_nearly_parallel_rows_raise_the_flag(angle, suspicious):
     """The pivot is the squared sine of the angle between the rows."""
     d = np.array([[1.0, 0.0, 0.3], [math.cos(angle), math.sin(angle), 0.3 * math.cos(angle)]])
-    system, values = system_of(d, np.ones(3))
-    assert system.schur.order
-    flag = node_values(system.graph, [system.flag()], values)[0]
-    assert bool(flag) == suspicious == (math.sin(angle) ** 2 < SUSPICIOUS)
-    values["mask", system.order[-1]] = math.inf
-    assert node_values(system.graph, [system.flag()], values)[0] == 0.0, "a masked row is no suspect"
+    equations, values = equations_of(d, np.ones(3))
+    scalars, (_, flag) = laid_out(equations, lambda s: [s.solve_schur(s.gamma), s.flag()])
+    assert bool(node_values(scalars.graph, [flag], values)[0]) == suspicious == (math.sin(angle) ** 2 < SUSPICIOUS)
+    values["mask", scalars.order[-1]] = math.inf
+    assert node_values(scalars.graph, [flag], values)[0] == 0.0, "a masked row is no suspect"

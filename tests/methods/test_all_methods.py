@@ -9,7 +9,7 @@ from benchmarks import all_orders
 from benchmarks.motions import motion, second_order
 from symgen.api import load
 from symgen.methods import METHODS
-from symgen.study.points import Points
+from symgen.result.points import Points
 
 #: Model -> end [s], step of integrators of order 4 and more, step of those of order 2, which are extrapolated [s].
 CASES = {

@@ -68,14 +68,16 @@ def test_no_dependent_coordinate_follows_faster_than_an_independent_one(name):
     emitted, model = Emitted(describe(name), "coordinate-partitioning"), load(name)
     values = model.parameters()
     q, p = np.asarray(model.initial_state(values)[0]), emitted.parameters(values)
+    part = next(m for m in emitted.modules.values() if hasattr(m, "choose") and hasattr(m, "DEPENDENT"))
+    dependents = slice(part.DEPENDENT, part.DEPENDENT + emitted.info.nv)
     rng = np.random.default_rng(len(name))
     for _ in range(5):
         w, iw = emitted.scratch(), np.zeros(len(COUNTERS), dtype=np.int64)
         y = np.concatenate([q + rng.uniform(-0.5, 0.5, len(q)), np.zeros(emitted.info.nv + 1)])
-        w[emitted.law.DEPENDENT : emitted.law.DEPENDENT + emitted.info.nv] = 1.0
+        w[dependents] = 1.0
         emitted.call(emitted.law, "geometry", 0.0, y, p, w)
-        emitted.call(emitted.law, "choose", p, w, iw)
-        dependent = w[emitted.law.DEPENDENT : emitted.law.DEPENDENT + emitted.info.nv] == 1.0
+        emitted.call(part, "choose", p, w, iw)
+        dependent = w[dependents] == 1.0
         d = emitted.dense(w)
         assert dependent.sum() == emitted.info.m
         assert np.abs(np.linalg.solve(d[:, dependent], d[:, ~dependent])).max() <= 1.01 + 1e-9

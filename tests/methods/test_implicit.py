@@ -9,7 +9,7 @@ from pathlib import Path
 import msgspec
 import numpy as np
 import pytest
-from support.emitted import listed, mechanism_of
+from support.emitted import law_source, listed, mechanism_of
 from support.models import EVERYTHING
 
 from benchmarks import stiff
@@ -17,7 +17,8 @@ from symgen.api import load
 from symgen.errors import InputError
 from symgen.model import LawInfo, ModelInfo
 from symgen.pipeline import choose_method, generate
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.settings import Settings
 
 #: Every joint kind, the weld among them, and every force kind.
 ALL_KINDS = listed(EVERYTHING) | {
@@ -51,7 +52,7 @@ class Stage:
         modules = generated().modules
         self.info = msgspec.convert(modules["model"][1], ModelInfo)
         self.law = msgspec.convert(modules[stem][1], LawInfo)
-        source = modules[stem][0].replace("from .model import", "# from .model import")
+        source = law_source(modules, stem, "prepare", "form")
         self.module = types.ModuleType(stem)
         exec(compile(source, stem, "exec"), self.module.__dict__)
         self.complex = types.ModuleType(f"{stem}_complex")
@@ -130,7 +131,7 @@ def test_unsuitable_pairs_are_refused_with_those_that_fit(method, integrator):
     from benchmarks.pairs import allowed_pairs
 
     with pytest.raises(InputError) as refusal:
-        make_plan(load("four-bar"), Settings(method=method, integrator=integrator))
+        make_plan(load("four-bar").mechanism, Settings(method=method, integrator=integrator))
     sentence = str(refusal.value)
     assert f"integrator '{integrator}'" in sentence and method in sentence
     fitting = [i for m, i in allowed_pairs() if m == method]
@@ -142,7 +143,7 @@ def test_unsuitable_pairs_are_refused_with_those_that_fit(method, integrator):
 def test_generalized_alpha_without_damping_is_refused(rho):
     settings = Settings(method="generalized-alpha", options={"integrator.rho": rho})
     with pytest.raises(InputError, match=r"option integrator\.rho.*0\.999"):
-        make_plan(load("four-bar"), settings)
+        make_plan(load("four-bar").mechanism, settings)
 
 
 @pytest.mark.parametrize(
@@ -197,7 +198,9 @@ def test_velocities_of_generalized_alpha_are_an_error_of_order_two_and_judged_as
     assert errors[0] / errors[1] == pytest.approx(4.0, rel=0.05) == errors[1] / errors[2]
     # the same over a longer time: an error of the discretisation, not drift
     assert model.simulate(step=1e-3, **keys | {"until": 12.0}).velocity_violation_max <= 1.5 * errors[1]
-    assert all(f"off their constraints by up to {e:.3g}" in r.warnings[-1] for r, e in zip(runs, errors, strict=True))
+    told = [(r.warnings[-1], e) for r, e in zip(runs, errors, strict=True) if r.warnings]
+    assert told and all(f"off their constraints by up to {e:.3g}" in warning for warning, e in told)
+    assert bool(runs[0].warnings), "the coarsest step is off by more than other methods may be"
     assert all(r.position_violation_max < 1e-13 for r in runs)
     fine = model.simulate(step=1e-4, **keys | {"until": 0.5})
     assert fine.status == "ok" and not fine.warnings
@@ -208,9 +211,11 @@ def test_velocities_of_generalized_alpha_are_an_error_of_order_two_and_judged_as
 
 
 def test_other_methods_have_no_such_licence():
-    spec = make_plan(load("four-bar"), Settings(method="lagrange")).spec
+    spec = make_plan(load("four-bar").mechanism, Settings(method="lagrange")).spec
     assert spec.velocity_limit == spec.max_violation == 1e-6
-    assert make_plan(load("four-bar"), Settings(method="generalized-alpha")).spec.velocity_limit == pytest.approx(1e-3)
+    assert make_plan(
+        load("four-bar").mechanism, Settings(method="generalized-alpha")
+    ).spec.velocity_limit == pytest.approx(1e-3)
 
 
 def test_scipy_agrees_on_the_stiff_case():

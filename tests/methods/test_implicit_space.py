@@ -10,7 +10,7 @@ import types
 import msgspec
 import numpy as np
 import pytest
-from support.emitted import mechanism_of
+from support.emitted import law_source, mechanism_of
 from support.random_space import make
 from support.space import STEP, angle_of
 
@@ -48,7 +48,7 @@ class Stage:
         stem = choose_method(method, None, True).stem
         self.info = msgspec.convert(modules["model"][1], ModelInfo)
         self.law = msgspec.convert(modules[stem][1], LawInfo)
-        source = modules[stem][0].replace("from .model import", "# from .model import")
+        source = law_source(modules, stem, "prepare", "form")
         self.real, self.complex = types.ModuleType(stem), types.ModuleType(f"{stem}_complex")
         for module in (self.real, self.complex):
             exec(compile(source, stem, "exec"), module.__dict__)

@@ -115,7 +115,7 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
             text=True,
             cwd=tmp_path,
             env={**environment, **settings},
-            timeout=280,
+            timeout=600,
             check=False,
         )
         assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"

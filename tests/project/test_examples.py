@@ -24,7 +24,7 @@ SYMGEN = Path(sys.executable).with_name("symgen")
 
 def run(*command: str | Path, cwd: Path) -> str:
     """Run a command that must succeed; return its standard output."""
-    done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=280, check=False, env=os.environ)
+    done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=600, check=False, env=os.environ)
     assert done.returncode == 0, done.stderr
     return done.stdout
 

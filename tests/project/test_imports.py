@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import ast
 import os
+import re
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -21,6 +23,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 ALLOWED = {
     "__init__": set(),
     "api": {"numpy"},
+    "arguments": set(),
     "auto": {"numpy"},
     "catalogue": {"msgspec"},
     "cli": {"click", "msgspec", "numpy", "rich"},
@@ -28,6 +31,7 @@ ALLOWED = {
     "emit": {"jinja2"},
     "ensemble": {"distributed", "filelock", "numba", "numpy", "xarray"},
     "errors": set(),
+    "files": set(),
     "forces": {"msgspec"},
     "formulate": {"sympy"},
     "integrators": {"numpy"},
@@ -36,14 +40,18 @@ ALLOWED = {
     "looped": {"msgspec"},
     "loops": {"numpy"},
     "lower": {"msgspec"},
+    "memory": set(),
     "methods": set(),
     "model": {"msgspec", "numpy"},
+    "native": {"llvmlite", "msgspec", "numba"},
     "pipeline": set(),
     "plan": {"numpy"},
     "registry": set(),
     "report": {"jinja2", "matplotlib", "numpy"},
     "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},
-    "runtime": {"numba", "numpy"},
+    "run_setup": {"numpy"},
+    "runtime": {"llvmlite", "numba", "numpy"},
+    "settings": set(),
     "shapes": set(),
     "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
     "study": {"numpy", "pandas", "scipy"},
@@ -87,6 +95,21 @@ def test_a_file_imports_only_the_libraries_of_its_package(path: Path) -> None:
     assert found <= ALLOWED[owner(path)] | FURTHER.get(path.relative_to(PACKAGE).as_posix(), set())
 
 
+def test_benchmarks_import_what_their_page_says() -> None:
+    """Libraries of symgen itself, those of the extras that the page names, and peers in files of their own."""
+    root = PACKAGE.parent
+    project = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    page = (root / "benchmarks" / "README.md").read_text(encoding="utf-8")
+    named = re.search(r"pip install -e '\.\[([\w,]+)\]'", page)
+    assert named is not None
+    wanted = [*project["dependencies"], *(x for e in named[1].split(",") for x in project["optional-dependencies"][e])]
+    known = {re.split(r"[<>=\[]", text)[0] for text in wanted} | {"symgen", "benchmarks"}
+    for path in sorted((root / "benchmarks").rglob("*.py")):
+        if path.parent.name != "peers":  # these run in an environment of their own
+            found = {name.partition(".")[0] for name in imported(path)} - set(sys.stdlib_module_names)
+            assert found <= known, path
+
+
 def test_every_package_has_its_list() -> None:
     assert {owner(path) for path in SOURCES} == set(ALLOWED)
 
@@ -108,7 +131,7 @@ def loaded(code: str, cache: Path, *arguments: str) -> set[str]:
         [sys.executable, "-c", text, *arguments],
         capture_output=True,
         text=True,
-        timeout=280,
+        timeout=600,
         check=False,
         env=environment,
     )

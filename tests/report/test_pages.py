@@ -214,6 +214,37 @@ def test_markdown_says_the_same_with_pictures_beside_it(tmp_path):
     assert "\\|Φ\\|" in content  # bars within a cell
 
 
+@pytest.mark.parametrize(
+    "title",
+    [
+        "<script>alert(1)</script> and <b>bold</b>",
+        "[a link](https://example.org) and ![a picture](x.png), [another][x]",
+        "`code`, *stress*, _stress_, __strong__, a_name_ and 2*3*4 &amp; &#33;",
+        "# no heading",
+        "- no list",
+        "1. no list",
+        "> no quotation, a | b, \\ and ~~gone~~",
+    ],
+)
+def test_a_title_is_text_in_every_page(title):
+    document = comparison([study(title=title)])
+    shown = title.rstrip(".") + "."
+    tokens = MarkdownIt("commonmark").enable(["table", "strikethrough"]).parse(markdown(document, "x"))
+    inline = [token for token in tokens if token.type == "inline"]
+    assert [t.children for t in inline if "".join(c.content for c in t.children) == shown] != []
+    plain = next(t for t in inline if "".join(c.content for c in t.children) == shown)
+    assert {child.type for child in plain.children} == {"text"}
+    assert not [token for token in tokens if token.type in ("html_block", "blockquote_open", "ordered_list_open")]
+    found = Page(html(document))
+    assert shown in "".join(found.text) and not found.all("script")
+
+
+def test_a_command_stays_in_its_fence():
+    text = markdown(comparison([study()], "symgen compare '```\n# x'"), "x")
+    tokens = MarkdownIt("commonmark").parse(text)
+    assert [t.content for t in tokens if t.type == "fence"] == ["symgen compare '```\n# x'\n"]
+
+
 def test_what_a_pipe_in_a_cell_does():
     assert markdown(comparison([study()]), "x").count("max \\|Φ\\| |") == 1
 

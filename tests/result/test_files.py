@@ -95,16 +95,3 @@ def test_a_missing_library_says_how_to_get_it(result, tmp_path, monkeypatch):
     monkeypatch.setattr(export, "find_spec", lambda name: None if name == "h5netcdf" else real(name))
     with pytest.raises(InputError, match=r"the library h5netcdf, got none; pip install 'symgen\[data\]' installs it"):
         result.save(tmp_path / "run.nc")
-
-
-def test_nothing_is_left_of_a_file_that_fails(result, tmp_path):
-    (tmp_path / "run.csv").write_text("old")
-
-    def write(path):
-        path.write_text("half")
-        raise OSError(28, "No space left on device")
-
-    with pytest.raises(InputError, match="No space left on device"):
-        export.write_whole(tmp_path / "run.csv", write)
-    assert [p.name for p in tmp_path.iterdir()] == ["run.csv"]
-    assert (tmp_path / "run.csv").read_text() == "old"

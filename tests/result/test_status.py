@@ -6,18 +6,29 @@ import numpy as np
 import pytest
 
 import symgen
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
+from symgen.result.agreement import settle
 from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
+from symgen.result.points import Points
 from symgen.runtime.run import RankEvent, integrate
+from symgen.settings import Settings
+from symgen.study.reference import reference
 
 
 def outcome_of(model, method="direct-correction", **changes):
-    """An honest run with some of what its loop saw replaced."""
+    """An honest run with some of what its loop saw replaced, as `judge` takes it."""
     settings = Settings(method=method, until=0.05)
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     compiled = model.compile(method)
     start = model.assemble(compiled)
-    return settings, plan, compiled, replace(integrate(compiled, plan.tableau, start, plan.spec), **changes)
+    outcome = replace(integrate(compiled, plan.tableau, start, plan.spec), **changes)
+    return plan, compiled, outcome
+
+
+def judged(plan, compiled, outcome, model=None):
+    """The verdict, with a second run of `model` where it is given."""
+    second = None if model is None else settle(model.mechanism, {}, plan, compiled, outcome)
+    return judge(plan, compiled, outcome, second, asked=model is not None)
 
 
 @pytest.fixture(scope="module")
@@ -34,12 +45,12 @@ PASSAGE = {
 
 
 def test_a_plain_run_is_ok(four_bar):
-    verdict = judge(*outcome_of(four_bar))
+    verdict = judged(*outcome_of(four_bar))
     assert (verdict.status, verdict.reason, verdict.warnings) == ("ok", None, ())
 
 
 def test_a_corrected_run_past_a_singular_position_is_ok_with_a_warning(four_bar):
-    verdict = judge(*outcome_of(four_bar, **PASSAGE))
+    verdict = judged(*outcome_of(four_bar, **PASSAGE))
     assert verdict.status == "ok"
     assert verdict.warnings == (
         "passed near a singular position at t = 0.01 s: smallest pivot 3e-09; "
@@ -49,14 +60,14 @@ def test_a_corrected_run_past_a_singular_position_is_ok_with_a_warning(four_bar)
 
 @pytest.mark.parametrize("method", ["lagrange", "baumgarte"])
 def test_an_uncorrected_one_is_unverified(four_bar, method):
-    verdict = judge(*outcome_of(four_bar, method, **PASSAGE))
+    verdict = judged(*outcome_of(four_bar, method, **PASSAGE))
     assert verdict.status == "unverified"
     assert "t = 0.01 s: smallest pivot 3e-09" in verdict.reason
     assert verdict.warnings
 
 
 def test_a_small_pivot_without_event_counts_too(four_bar):
-    verdict = judge(*outcome_of(four_bar, "lagrange", smallest_pivot=5e-5))
+    verdict = judged(*outcome_of(four_bar, "lagrange", smallest_pivot=5e-5))
     assert verdict.status == "unverified"
 
 
@@ -65,38 +76,88 @@ def test_a_small_pivot_without_event_counts_too(four_bar):
     [(JUMP_WARNING / 2, "ok", 1), (JUMP_WARNING * 2, "ok", 2), (JUMP_FAILURE * 2, "failed", 1)],
 )
 def test_energy_jumps_over_a_passage(four_bar, share, status, warnings):
-    verdict = judge(*outcome_of(four_bar, **PASSAGE, energy_jump=share * 10.0))
+    verdict = judged(*outcome_of(four_bar, **PASSAGE, energy_jump=share * 10.0))
     assert (verdict.status, len(verdict.warnings)) == (status, warnings)
     if status == "failed":
         assert verdict.reason == "energy jumped by 0.02 J, 0.002 of the energy in motion, over a singular passage"
 
 
 def test_light_bodies_are_said(four_bar):
-    _, _, _, outcome = found = outcome_of(four_bar)
+    *found, outcome = outcome_of(four_bar)
     counters = {**outcome.counters, "light": 7}
-    verdict = judge(*found[:3], replace(outcome, counters=counters))
+    verdict = judged(*found, replace(outcome, counters=counters))
     assert verdict.status == "ok"
     assert "light bodies made D M^-1 D^T ill-conditioned in 7 evaluations" in verdict.warnings[0]
 
 
 def test_a_second_run_that_agrees_settles_it(four_bar):
-    settings, plan, compiled, outcome = outcome_of(four_bar, "lagrange", **PASSAGE)
-    verdict = judge(replace(settings, verify=True), plan, compiled, outcome)
+    verdict = judged(*outcome_of(four_bar, "lagrange", **PASSAGE), four_bar)
     assert verdict.status == "ok" and verdict.reason is None
-    assert "verified: a rerun with step = 0.0009 s agrees within" in verdict.notes[0]
+    assert "verified: a run with step = 0.0005 s agrees within" in verdict.notes[0]
 
 
-def test_a_second_run_that_differs_does_not(four_bar):
-    settings, plan, compiled, outcome = outcome_of(four_bar, **PASSAGE)
-    wrong = replace(outcome, states=outcome.states + 1e-3)
-    verdict = judge(replace(settings, verify=True), plan, compiled, wrong)
+@pytest.mark.parametrize("seen", [PASSAGE, {}])
+def test_a_second_run_that_differs_does_not(four_bar, seen):
+    plan, compiled, outcome = outcome_of(four_bar, **seen)
+    shift = np.zeros(outcome.states.shape[1])
+    shift[3] = 1e-3  # the coupler, by a millimetre
+    wrong = replace(outcome, states=outcome.states + shift)
+    verdict = judged(plan, compiled, wrong, four_bar)
     assert verdict.status == "unverified"
-    assert "a rerun with step = 0.0009 s differs by 0.001 in a coordinate" in verdict.reason
+    assert verdict.reason == "a run with step = 0.0005 s differs by 0.001 m"
 
 
-def test_nothing_to_verify_is_said(four_bar):
-    result = four_bar.simulate(until=0.05, verify=True)
-    assert result.ok and "nothing to verify" in result.notes[0]
+# -- the error -----------------------------------------------------------------------------------------------------
+
+
+def error_of(model, result):
+    """The distance from SciPy's solution of independently derived equations."""
+    q, v = result.q.values, result.v.values
+    known = reference(model.mechanism, model.parameters(), q[0], v[0], result.t)
+    return Points.of(model.mechanism, model.parameters()).distance(q, known.q)
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"integrator": "rk4", "step": 0.02},
+        {"integrator": "heun", "step": 2e-3},
+        {"integrator": "euler", "step": 1e-4, "max_energy_error": 1.0},
+        {"method": "baumgarte", "integrator": "trapezoidal", "step": 1e-3, "max_violation": 1.0},
+        {"integrator": "dopri5", "rtol": 1e-6, "atol": 1e-8},
+        {"method": "auto", "integrator": "rk4", "step": 0.02},
+    ],
+)
+def test_the_estimated_error_is_about_the_error(four_bar, changes):
+    result = four_bar.simulate(until=1.0, output_step=0.1, verify=True, **changes)
+    actual = error_of(four_bar, result)
+    assert 0.3 * actual < result.error_estimate < 3.0 * actual
+    assert result.to_json()["error_estimate"] == result.error_estimate
+    assert f"error about {result.error_estimate:.2g} m, from a run with " in repr(result)
+    assert "error about" in result._repr_html_()
+
+
+def test_an_error_that_nothing_estimates_is_said(four_bar):
+    result = four_bar.simulate(until=0.05)
+    assert result.ok and result.error_estimate is None and result.to_json()["error_estimate"] is None
+    said = "ok (error not estimated: --verify runs again with half the step)"
+    assert said in repr(result) and said in result._repr_html_()
+    adaptive = repr(four_bar.simulate(until=0.05, integrator="dopri5"))
+    assert "ok (local errors within rtol 1e-08; global error not estimated: --verify runs again" in adaptive
+
+
+def test_a_wrong_motion_within_all_watches_is_unverified_where_it_is_verified(four_bar):
+    asked = {"integrator": "rk4", "step": 0.05, "until": 10.0, "max_energy_error": 1.0}
+    assert four_bar.simulate(**asked).ok
+    result = four_bar.simulate(**asked, verify=True)
+    assert result.status == "unverified" and result.reason.startswith("a run with step = 0.025 s differs by ")
+    assert result.error_estimate > 1e-3
+
+
+def test_a_failed_run_is_not_verified(four_bar):
+    result = four_bar.simulate(method="lagrange", step=0.2, until=10.0, verify=True)
+    assert result.status == "failed" and result.error_estimate is None
+    assert "error not estimated" not in repr(result)
 
 
 def test_uncorrected_runs_through_singular_positions_never_end_ok():

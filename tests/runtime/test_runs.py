@@ -16,9 +16,10 @@ from symgen.api import load
 from symgen.catalogue import raw
 from symgen.integrators import INTEGRATORS as SCHEMES
 from symgen.methods import METHODS as KNOWN
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
 from symgen.runtime import abi
 from symgen.runtime.run import integrate
+from symgen.settings import Settings
 from symgen.store.stats import cache_stats
 
 
@@ -183,7 +184,7 @@ def test_an_interrupt_keeps_what_was_computed(integrator):
         method="lagrange", integrator=integrator, step=1e-4, until=2e5, output_step=1.0, max_violation=1e9, rtol=1e-13,
         atol=1e-13, max_energy_error=1e9,
     )  # fmt: skip
-    plan = make_plan(model, settings)
+    plan = make_plan(model.mechanism, settings)
     compiled = model.compile("lagrange")
     calls = []
 
@@ -248,7 +249,7 @@ def test_everything_runs_without_compilation():
             [sys.executable, "-c", SCRIPT],
             capture_output=True,
             text=True,
-            timeout=240,
+            timeout=600,
             env=os.environ | {"NUMBA_DISABLE_JIT": disabled},
             check=False,
         )

@@ -7,7 +7,8 @@ import pytest
 from support.emitted import mechanism_of
 
 from symgen.api import load
-from symgen.runtime.turns import whole_turns
+from symgen.runtime.exact import plain_form
+from symgen.runtime.turning import whole_turns
 
 
 def wheel(position=(0.0, 0.0, 0.0), angle=0.0, **keys):
@@ -113,11 +114,42 @@ def test_multipliers_between_outputs_far_apart_know_the_turns():
     np.testing.assert_allclose(result["d.driver"], 0.0, atol=1e-3)
 
 
+def turns_of(effects, residual):
+    """What `whole_turns` says, with its arrays laid out for it."""
+    (m, count), rest = np.shape(effects), np.array(residual, dtype=np.float64)
+    numbers = np.concatenate([np.ravel(effects), np.full(2 * count + m, np.nan)])
+    plain_form(whole_turns)(m, count, numbers, rest, m * count)
+    turns = numbers[m * count : m * count + count]
+    np.testing.assert_allclose(rest, residual + effects @ turns, atol=1e-12)
+    return turns
+
+
 def test_turns_of_gear_trains():
     turn = math.tau
     # a row of one angle decides first, even if it stands last; then the row it shares with another one
     effects = np.array([[2.0 * turn, turn], [turn, 0.0]])
-    np.testing.assert_array_equal(whole_turns(effects, np.array([4.0 * turn + 0.3, -3.0 * turn - 0.2])), [3.0, -10.0])
+    np.testing.assert_array_equal(turns_of(effects, np.array([4.0 * turn + 0.3, -3.0 * turn - 0.2])), [3.0, -10.0])
     # alone, the angle that closes the row best is shifted; the other one is left
-    np.testing.assert_array_equal(whole_turns(np.array([[2.0 * turn, turn]]), np.array([-3.0 * turn])), [0.0, 3.0])
-    np.testing.assert_array_equal(whole_turns(np.array([[0.0, 0.0]]), np.array([50.0])), [0.0, 0.0])
+    np.testing.assert_array_equal(turns_of(np.array([[2.0 * turn, turn]]), np.array([-3.0 * turn])), [0.0, 3.0])
+    np.testing.assert_array_equal(turns_of(np.array([[0.0, 0.0]]), np.array([50.0])), [0.0, 0.0])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_turns_leave_every_row_as_near_to_closed_as_its_last_angle_can(seed):
+    """Integers found by the definition: rows in turn, those with the fewest free angles first."""
+    random = np.random.default_rng(seed)
+    m, count = int(random.integers(1, 7)), int(random.integers(1, 5))
+    effects = math.tau * random.integers(-2, 3, size=(m, count)) * (random.random((m, count)) < 0.5)
+    residual = random.uniform(-60.0, 60.0, m)
+    expected, free, rows = np.zeros(count), set(range(count)), set(range(m))
+    while rows:
+        choices = {r: [i for i in sorted(free) if effects[r, i]] for r in rows}
+        row = min(rows, key=lambda r: (len(choices[r]), -np.abs(effects[r]).max(), r))
+        rows.remove(row)
+        rest = residual[row] + effects[row] @ expected
+        left = {i: abs(math.remainder(rest, effects[row, i])) for i in choices[row]}
+        if left:
+            best = min(left, key=lambda i: (round(left[i], 9), i))
+            expected[best] = round(-rest / effects[row, best])
+            free.remove(best)
+    np.testing.assert_array_equal(turns_of(effects, residual), expected)

@@ -8,7 +8,7 @@ from support.spatial_runs import columns, run
 
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.study.points import Points
+from symgen.result.points import Points
 
 TIMES = np.linspace(0.0, 0.3, 7)
 #: Of second order, or with an error of its own as the penalty has: they need more room [m].

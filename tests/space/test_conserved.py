@@ -6,7 +6,7 @@ from scipy.special import ellipj, ellipkinc
 from support.spatial_runs import centre, columns, energy, inertia, momentum, run, spin, start_of, turned, velocity
 
 import symgen
-from symgen.study.points import Points
+from symgen.result.points import Points
 from symgen.study.reference import integrated
 
 

@@ -5,8 +5,8 @@ import pytest
 from support.spatial_runs import columns, run, start_of
 
 import symgen
+from symgen.result.points import Points
 from symgen.study.closed_space import flyball_governor
-from symgen.study.points import Points
 from symgen.study.reference import integrated
 
 #: Largest stable step of RK4 [s]: 2.785 over the rate of the dampers.

@@ -5,8 +5,8 @@ import pytest
 from support.emitted import Emitted
 
 from symgen.describe import load
-from symgen.describe.evaluate import evaluate, orientation
-from symgen.describe.orientation import matrix
+from symgen.describe.evaluate import scalars
+from symgen.describe.start import described_start
 
 #: Entry -> bodies, coordinates, velocities, rows, rank.
 SIZES = {
@@ -23,22 +23,12 @@ SIZES = {
 }
 
 
-def described(mechanism, values):
-    """Coordinates as the file describes them: centres of mass and Euler parameters."""
-    q = []
-    for body in mechanism.bodies:
-        position, offset = ([evaluate(e, values) for e in vector] for vector in (body.position, body.centre_of_mass))
-        e = orientation(body, values, mechanism.name)
-        q += [*(position + np.array(matrix(e)) @ offset), *e]
-    return np.array(q)
-
-
 @pytest.mark.parametrize("name", SIZES)
 def test_sizes_and_ranks(name):
     mechanism = load(name)
     emitted = Emitted(mechanism)
     values = {p.name: p.value for p in mechanism.parameters}
-    q = described(mechanism, values)
+    q = np.array(described_start(mechanism, scalars(values))[0])
     found = emitted.at(0.0, q, np.zeros(emitted.info.nv), emitted.parameters(values), law=False)
     values = np.linalg.svd(found.d, compute_uv=False) if len(found.d) else np.zeros(0)
     rank = int(np.sum(values > 1e-9))

@@ -6,7 +6,7 @@ from support.spatial_runs import columns, point, run, start_of
 
 from symgen.describe import load
 from symgen.describe.evaluate import evaluate
-from symgen.study.points import Points
+from symgen.result.points import Points
 from symgen.study.reference import integrated
 
 

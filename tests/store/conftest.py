@@ -112,7 +112,7 @@ def python(tmp_path: Path) -> Callable[..., Any]:
             env={**os.environ, "PYTHONPATH": path, **environment},
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=600,
             check=False,
         )
         assert result.returncode == 0, result.stderr

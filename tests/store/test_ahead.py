@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
 from symgen import load
-from symgen.integrators._base import State
-from symgen.plan import Settings, make_plan
-from symgen.runtime.abi import N_COUNTERS
+from symgen.plan import make_plan
+from symgen.settings import Settings
 from symgen.store import ahead
 
 METHODS = {"generalized-alpha": "generalized-alpha"}
@@ -61,9 +59,7 @@ def test_starts_nothing_without_gain(cache, generated, python, tmp_path):
 @pytest.mark.parametrize("integrator", ["rk4", "dopri5", "abm", "rkmk4", "radau5", "generalized-alpha"])
 def test_integrators_name_the_loop_that_they_enter(integrator):
     model = load("pendulum")
-    plan = make_plan(model, Settings(integrator=integrator, method=METHODS.get(integrator, "lagrange")))
+    plan = make_plan(model.mechanism, Settings(integrator=integrator, method=METHODS.get(integrator, "lagrange")))
     compiled, start = model.ready(plan)
-    call = plan.tableau.call(
-        compiled, plan.spec, State(start.y, start.p, start.w, np.zeros(N_COUNTERS, dtype=np.int64))
-    )
-    assert plan.tableau.loop(plan.spec) is call.loop
+    setup = plan.tableau.setup(compiled, plan.spec, start.w)
+    assert plan.tableau.loop(plan.spec.adaptive) is setup.loop

@@ -51,7 +51,7 @@ def test_a_missing_internal_is_named_and_means_uncached(monkeypatch, cache):
         "CPUDispatcher has no 'gone' any more",
         "CPUDispatcher.compile should take (self, types), but takes (self, sig)",
     ]
-    monkeypatch.setattr(jit, "_unusable", lambda: True)
+    monkeypatch.setattr(jit, "unusable", lambda: True)
     double = numba.njit(lambda x: 2 * x)
     jit.attach(double)
     assert double(2) == 4

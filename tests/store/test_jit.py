@@ -245,7 +245,7 @@ class TestDecorator:
             return x if odd is None else 2 * x
 
         closes_jitted = jit.jit()(lambda x: 2 * x)
-        assert type(closes_jitted._cache).__name__ == "_MachineCode"
+        assert type(closes_jitted._cache).__name__ == "MachineCode"
         assert type(jit.jit()(closes)._cache).__name__ == "NullCache"
 
     def test_recompile_forgets_and_works(self, cache):
@@ -326,7 +326,7 @@ class TestIdentity:
         for path in (None, "runtime/a.py", "integrators/a.py", "integrators/new.py"):
             if path is not None:
                 (tmp_path / path).write_text("a = 2")
-            stamps.add(identity._package_digest.__wrapped__())
+            stamps.add(identity.sources_digest.__wrapped__("runtime", "integrators"))
         assert len(stamps) == 4
 
 

@@ -34,7 +34,7 @@ def test_the_name_comes_from_folder_and_file(generated):
     assert law.__file__ == str(generated / "lagrange.py")
     assert law.geometry is sys.modules[f"symgen_generated.{FOLDER}.model"].geometry
     assert rate(law) == pytest.approx(-9.81 * np.sin(1.0))
-    assert {type(law.rhs._cache).__name__, type(law.geometry._cache).__name__} == {"_MachineCode"}
+    assert {type(law.rhs._cache).__name__, type(law.geometry._cache).__name__} == {"MachineCode"}
     assert sorted(path.name for path in generated.iterdir()) == ["lagrange.py", "model.py"]  # nothing written there
 
 

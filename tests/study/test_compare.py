@@ -85,7 +85,7 @@ def test_options_go_to_those_they_are_meant_for():
     [
         ({"methods": ["lagrang"]}, "did you mean 'lagrange'?"),
         ({"integrators": ["rk"]}, "expected an integrator, got 'rk'"),
-        ({"steps": [-1.0]}, "step: expected a number above 0"),
+        ({"steps": [-1.0]}, "step: expected a finite number above 0"),
         ({"until": float("nan")}, "until: expected a finite number above 0, got nan"),
         ({"repeat": 0}, "repeat: expected a whole number from 1 to 1000, got 0"),
         ({"options": {"lagrange.alpha": 1.0}}, "option lagrange.alpha"),

@@ -15,12 +15,12 @@ import pytest
 
 import symgen
 from symgen.errors import InputError, SimulationError
+from symgen.result.points import Points
 from symgen.study.bench import Base
 from symgen.study.cases import CASES
 from symgen.study.findings import largest_root
 from symgen.study.journal import Journal
 from symgen.study.motion import CompiledEquations, motion
-from symgen.study.points import Points
 from symgen.study.reference import integrated
 from symgen.study.stiff import decay
 from symgen.study.stress import pairs, stress
@@ -35,10 +35,11 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def start_of(mechanism, parameters):
-    from symgen.plan import Settings, make_plan
+    from symgen.plan import make_plan
+    from symgen.settings import Settings
 
     model = symgen.load(mechanism)
-    compiled, start = model.ready(make_plan(model, Settings(method="lagrange")), parameters)
+    compiled, start = model.ready(make_plan(model.mechanism, Settings(method="lagrange")), parameters)
     return start.y[: compiled.info.nq], start.y[compiled.info.nq : compiled.info.nq + compiled.info.nv]
 
 
@@ -232,20 +233,23 @@ def test_what_is_too_slow_is_told_without_a_clock():
 def test_a_measured_budget_stops_a_run():
     from dataclasses import replace
 
-    from symgen.plan import Settings, make_plan
+    from symgen.plan import make_plan
     from symgen.runtime import abi
     from symgen.runtime.run import integrate
+    from symgen.settings import Settings
 
     model = symgen.load("four-bar")
-    plan = make_plan(model, Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3))
+    plan = make_plan(
+        model.mechanism, Settings(method="lagrange", integrator="rk4", step=1e-6, until=1e3, output_step=1e3)
+    )
     compiled, start = model.ready(plan)
     outcome = integrate(compiled, plan.tableau, start, replace(plan.spec, max_evaluations=1000, max_violation=1e30))
     assert outcome.code == abi.STOPPED and outcome.evaluations > 1000 and not outcome.interrupted
 
 
 def test_a_run_that_stops_itself_is_judged_by_what_it_was_doing():
-    """A redundant bar makes lagrange drift off its constraints although its motion is still right."""
-    study = stress(["four-bar"], ["redundancy"], ["lagrange"], quick=True)
+    """With a tight limit lagrange drifts off its constraints although its motion is still right."""
+    study = stress(["four-bar"], ["redundancy"], ["lagrange"], quick=True, max_violation=1e-13)
     (row,) = study.rows
     assert row.status == "failed" and row.outcome in ("inaccurate", "diverged")
     assert row.note.startswith("ended at t = ")
@@ -319,7 +323,7 @@ def test_killed_and_resumed(tmp_path):
     )
     environment = {**os.environ, "PYTHONPATH": f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
     process = subprocess.Popen([sys.executable, "-c", script], env=environment)
-    end = time.monotonic() + 120.0
+    end = time.monotonic() + 600
     while not (journal.exists() and journal.read_bytes().count(b"\n") >= 12):
         assert process.poll() is None and time.monotonic() < end
         time.sleep(0.002)

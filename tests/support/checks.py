@@ -3,15 +3,13 @@
 import os
 
 import numpy as np
-from hypothesis import HealthCheck, Phase, settings
+from hypothesis import Phase, settings
 
 #: Random inputs are drawn anew by every run; a failure prints the case. SYMGEN_EXAMPLES asks for more of them.
 RANDOM = settings(
     max_examples=int(os.environ.get("SYMGEN_EXAMPLES", "12")),
-    deadline=None,
     database=None,
     phases=[Phase.explicit, Phase.generate, Phase.shrink],
-    suppress_health_check=list(HealthCheck),
 )
 
 

@@ -1,6 +1,7 @@
 """Emitted modules of a mechanism, evaluated as plain Python or compiled, in numbers that tests can compare."""
 
 import itertools
+import re
 import sys
 import types
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ import numpy as np
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
-from symgen.ir.program import COUNTERS, STATUS
+from symgen.ir.program import COUNTERS, SCALES, STATUS
 from symgen.model import LawInfo, ModelInfo
 from symgen.pipeline import choose_method, generate
 
@@ -56,6 +57,12 @@ class Interpreted:
 
     def __call__(self, *arguments: Any) -> Any:
         return self.py_func(*arguments)
+
+
+def law_source(modules, stem: str, *roles: str) -> str:
+    """The source of those parts of a law whose stems begin with `roles`, without what they import of siblings."""
+    parts = [modules[part][0] for part in modules[stem][1]["modules"] if part.split("_")[0] in roles]
+    return "\n".join(re.sub(r"(?m)^from \..*$", "", part) for part in parts)
 
 
 class Emitted:
@@ -124,7 +131,9 @@ class Emitted:
 
     def scratch(self) -> np.ndarray:
         w = np.zeros(self.law_info.nw)
-        self.section(w, "pivot")[:] = 1.0
+        for name in ("pivot", "gauge", "row_weight"):
+            self.section(w, name)[:] = 1.0
+        w[[STATUS.index(name) for name in SCALES]] = 1.0
         return w
 
     def dense(self, w: np.ndarray) -> np.ndarray:

@@ -25,6 +25,7 @@ _OPERATIONS: dict[str, Callable] = {
     "step": lambda a, b: float(a > b),
     "sign": lambda a: float((a > 0) - (a < 0)),
     "where": lambda c, a, b: a if c else b,
+    "defined": lambda a: a == a,
     "div": lambda a, b: a / b if b else math.copysign(math.inf, a),
 }
 

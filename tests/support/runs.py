@@ -3,14 +3,15 @@
 import numpy as np
 
 from symgen.api import Model
-from symgen.plan import Settings, make_plan
+from symgen.plan import make_plan
 from symgen.runtime.run import Outcome, integrate
+from symgen.settings import Settings
 
 
 def run(model: Model, **settings) -> Outcome:
     """The outcome of a run, not judged."""
     chosen = Settings(**settings)
-    plan = make_plan(model, chosen)
+    plan = make_plan(model.mechanism, chosen)
     compiled = model.compile(plan.choice.method.name, plan.choice.options)
     start = model.assemble(compiled, chosen.parameters, plan.method_parameters, chosen.strict)
     return integrate(compiled, plan.tableau, start, plan.spec)

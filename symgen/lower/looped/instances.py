@@ -14,15 +14,17 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
+from symgen.describe.repeats import without_repeats
 from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, call, names
 from symgen.vocabulary.measures import GROUND, Bearing, Direction, Effort, Marker, Measure, Sum, Turn
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
-#: Fields that are names for people.
-_LABELS = frozenset(("label", "unit"))
-_UNITS = (Number(0.0), Number(1.0), Number(-1.0))
+#: Fields that are names for people; of a unit only counts whether it is that of an angle.
+_LABELS = frozenset(("label",))
+_UNITS = (0.0, 1.0, -1.0)
 
 
 @dataclass(frozen=True)
@@ -65,36 +67,19 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
     mechanism : Mechanism
         A validated mechanism.
     """
-    bodies = {b.name: b for b in mechanism.bodies}
-    parameters = frozenset(p.name for p in mechanism.parameters)
-    tables = {t.name: t for t in mechanism.tables}
-    found: list[Instance] = []
-    for body in mechanism.bodies:
-        found.append(_Rewriting(mechanism, bodies, parameters, tables).body(body))
-    for joint in kept_rows(mechanism)[0]:
-        found.append(_Rewriting(mechanism, bodies, parameters, tables).element("joint", joint))
-    for force in mechanism.forces:
-        found.append(_Rewriting(mechanism, bodies, parameters, tables).element("force", force))
-    return tuple(found)
-
-
-def kept_rows(mechanism: Mechanism) -> tuple[tuple[Joint, ...], tuple[str, ...]]:
-    """Return the joints without rows that repeat another one, and the repeated ones as ``ROW = ROW``."""
-    seen: dict[object, str] = {}
-    joints: list[Joint] = []
-    dropped: list[str] = []
-    for joint in mechanism.joints:
-        rows = []
-        for row in joint.rows:
-            content = msgspec.structs.replace(row, label="", unit="")
-            name = f"{joint.name}.{row.label}"
-            if content in seen:
-                dropped.append(f"{name} = {seen[content]}")
-            else:
-                seen[content] = name
-                rows.append(row)
-        joints.append(joint if len(rows) == len(joint.rows) else msgspec.structs.replace(joint, rows=tuple(rows)))
-    return tuple(joints), tuple(dropped)
+    mechanism, _ = without_repeats(mechanism)
+    known = _Known(
+        mechanism,
+        Formulas(mechanism),
+        {b.name: b for b in mechanism.bodies},
+        frozenset(p.name for p in mechanism.parameters),
+        {t.name: t for t in mechanism.tables},
+    )
+    return (
+        *(_Rewriting(known).body(body) for body in mechanism.bodies),
+        *(_Rewriting(known).element("joint", joint) for joint in mechanism.joints),
+        *(_Rewriting(known).element("force", force) for force in mechanism.forces),
+    )
 
 
 def _angles(element: Joint | Force) -> tuple[Measure, ...]:
@@ -114,13 +99,26 @@ def _angles(element: Joint | Force) -> tuple[Measure, ...]:
     return tuple(found)
 
 
+@dataclass(frozen=True)
+class _Known:
+    """A mechanism, its formulas as nodes, and its bodies, parameters and tables by name."""
+
+    mechanism: Mechanism
+    formulas: Formulas
+    bodies: Mapping[str, Any]
+    parameters: frozenset[str]
+    tables: Mapping[str, Any]
+
+    def literal(self, e: Expr) -> float | None:
+        """Return the number that a formula of parameters is after simplification; None where it depends on them."""
+        return e.value if isinstance(e, Number) else self.formulas.graph.value(self.formulas.expression(e))
+
+
 class _Rewriting:
     """Rewrites one element."""
 
-    def __init__(
-        self, mechanism: Mechanism, bodies: Mapping[str, Any], parameters: frozenset[str], tables: Mapping[str, Any]
-    ) -> None:
-        self.mechanism, self.bodies, self.parameters, self.tables = mechanism, bodies, parameters, tables
+    def __init__(self, known: _Known) -> None:
+        self.known, self.mechanism = known, known.mechanism
         self.frames: dict[str, str] = {}
         self.constants: list[Expr] = []
         self.used_tables: dict[str, Any] = {}
@@ -148,7 +146,7 @@ class _Rewriting:
             content = Joint("e", "", (), rows, coordinates)
         else:
             content = Force("e", "", (), tuple(self.walk(e) for e in element.efforts))
-        frames = tuple(self.frame(self.bodies[name], alias) for name, alias in self.frames.items())
+        frames = tuple(self.frame(self.known.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
         found = self.instance(kind, element.name, element.kind, nothing, frames, content)
         return found if self.mechanism.space == "planar" else replace(found, angles=_angles(element))
@@ -186,6 +184,8 @@ class _Rewriting:
         if isinstance(value, Number | Name | Call):
             return self.formula(value)
         if isinstance(value, str):
+            if field == "unit":
+                return value if value == "rad" else ""
             return self.alias(value) if field in _BODY_FIELDS else "" if field in _LABELS else value
         if isinstance(value, tuple):
             return tuple(self.walk(item) for item in value)
@@ -198,7 +198,7 @@ class _Rewriting:
                 found = self.memo[value] = rewrite(value)
             return found
         if isinstance(value, Sum):
-            return Sum(tuple((k if k in _UNITS else self.formula(k), self.walk(m)) for k, m in value.terms))
+            return Sum(tuple((self.coefficient(k), self.walk(m)) for k, m in value.terms))
         before, self.own = self.own, frozenset(("s", "rate")) if isinstance(value, Effort) else self.own
         result = type(value)(**{f: self.walk(getattr(value, f), f) for f in value.__struct_fields__})
         self.own = before
@@ -213,17 +213,23 @@ class _Rewriting:
         alias = self.alias(marker.body)
         if alias == GROUND:
             return Marker(alias, tuple(self.constant(e) for e in marker.point))
-        centre = self.bodies[marker.body].centre_of_mass
+        centre = self.known.bodies[marker.body].centre_of_mass
         point = [call("sub", x, c) for x, c in zip(marker.point, centre, strict=True)]
-        last = max((i for i, e in enumerate(point) if e != ZERO), default=-1)
+        last = max((i for i, e in enumerate(point) if self.known.literal(e) != 0.0), default=-1)
         return Marker(alias, tuple(self.constant(e) if i <= last else ZERO for i, e in enumerate(point)))
 
     def direction(self, direction: Any) -> Direction:
         """Return a direction: along an axis, or any."""
         alias, vector = self.alias(direction.body), direction.vector
-        if not all(e in _UNITS for e in vector):
-            vector = tuple(self.constant(e) for e in vector)
-        return Direction(alias, vector)
+        literals = [self.known.literal(e) for e in vector]
+        if all(x in _UNITS for x in literals):
+            return Direction(alias, tuple(Number(x) for x in literals if x is not None))
+        return Direction(alias, tuple(self.constant(e) for e in vector))
+
+    def coefficient(self, e: Expr) -> Expr:
+        """Return a coefficient of a sum: 0, 1 and -1 as they are."""
+        literal = self.known.literal(e)
+        return Number(literal) if literal in _UNITS and literal is not None else self.formula(e)
 
     def constant(self, e: Expr) -> Expr:
         """Return the abstract parameter that stands for a formula of parameters."""
@@ -232,17 +238,15 @@ class _Rewriting:
 
     def formula(self, e: Expr) -> Expr:
         """Return a formula with its constant parts replaced; zeros stay."""
-        if e == ZERO:
-            return ZERO
         if self.is_constant(e):
-            return self.constant(e)
+            return ZERO if self.known.literal(e) == 0.0 else self.constant(e)
         if isinstance(e, Name):
             body, dot, coordinate = e.name.partition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
         assert isinstance(e, Call), "a literal is constant"
         if e.function.startswith("table:"):
             name = e.function.removeprefix("table:")
-            self.used_tables[name] = self.tables[name]
+            self.used_tables[name] = self.known.tables[name]
         if e.function == "pow" and isinstance(e.arguments[1], Number):
             return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
         return Call(e.function, tuple(self.formula(a) for a in e.arguments))
@@ -251,4 +255,4 @@ class _Rewriting:
         """Whether a formula depends on parameters alone."""
         if isinstance(e, Number):
             return True
-        return all(name in self.parameters and name not in self.own for name in names(e))
+        return all(name in self.known.parameters and name not in self.own for name in names(e))

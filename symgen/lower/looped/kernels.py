@@ -11,9 +11,9 @@ import msgspec
 
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
-from symgen.lower.algebra import System
 from symgen.lower.hoist import Hoister
 from symgen.lower.manifold import manifold_blocks
+from symgen.lower.scalar import Scalars
 
 if TYPE_CHECKING:
     from symgen.formulate.elements import Element
@@ -25,6 +25,8 @@ Outputs = list[tuple[Target, int]]
 class RowShape(msgspec.Struct, frozen=True):
     """A row of a joint: (frame, velocity of the frame) of D's nonzero entries, whether Phi and nu are there.
 
+    `angular` says that it is an angle or a number, not a length.
+
     `constant` holds for each entry its literal value, or None.
     """
 
@@ -32,6 +34,7 @@ class RowShape(msgspec.Struct, frozen=True):
     constant: tuple[float | None, ...]
     holonomic: bool
     driven: bool
+    angular: bool
 
 
 class KernelInfo(msgspec.Struct, frozen=True):
@@ -178,7 +181,7 @@ class _Kernel:
         if self.instance.kind != "body":
             return block
         outputs: Outputs = []
-        system = System(self.e)
+        system = Scalars(self.e)
         inputs = {("p", i): block.graph.input("p", i) for i in range(self.constants)}
 
         def moved(node: int) -> int:
@@ -285,6 +288,7 @@ class _Kernel:
                 tuple(g.value(n) for _, n in row.entries),
                 row.phi is not None,
                 row.nu != g.zero,
+                row.unit == "rad",
             )
             for row in self.e.rows
         )

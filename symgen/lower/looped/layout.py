@@ -15,7 +15,6 @@ HEAD = (
     "method_parameters",
     "mass_diagonal",
     "inverse_mass",
-    "mean_mass",
     "gram_base",
     # sections of w
     "multipliers",
@@ -26,6 +25,8 @@ HEAD = (
     "pivot",
     "change",
     "mass",
+    "gauge",
+    "row_weight",
     "jacobian",
     "lower",
     "records",
@@ -59,6 +60,7 @@ HEAD = (
     "jacobian_rows",
     "jacobian_columns",
     "jacobian_size",
+    "angular_rows",
     "weights",
     "mass_blocks",
     "gram_terms",
@@ -92,4 +94,4 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
 }
 
 #: Generic functions that are called through the tables, in the order of their addresses.
-GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gram", "augment", "factorise", "solve")
+GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gauge", "gram", "augment", "factorise", "solve")

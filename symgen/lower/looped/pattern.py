@@ -1,15 +1,16 @@
 """Elimination on a pattern: order, supernodes and index lists for generic code, in time linear in the fill.
 
-The order is that of `symgen.lower.factor`, found with a queue instead of a search: both shapes eliminate alike and
-decide rank alike. Pivots that follow each other with the same rows below (those of one joint, as a rule) form a
-supernode: their columns of L have one list of rows.
+The order is that of `symgen.lower.factor`: both shapes eliminate alike and decide rank alike. Pivots that follow each
+other with the same rows below (those of one joint, as a rule) form a supernode: their columns of L have one list of
+rows.
 """
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
+
+from symgen.lower.factor import minimum_degree
 
 
 @dataclass(frozen=True)
@@ -20,39 +21,6 @@ class Supernode:
     below: tuple[int, ...]
 
 
-def eliminate(neighbours: Sequence[frozenset[int]]) -> tuple[list[int], list[set[int]]]:
-    """Return the order of minimum degree (ties: fewest pivots to wait for, then index) and each pivot's rows below.
-
-    Parameters
-    ----------
-    neighbours : sequence of frozenset
-        For each row, the other rows it has an entry with.
-    """
-    graph = [set(n) for n in neighbours]
-    level = [0] * len(graph)
-    queue = [(len(near), 0, i) for i, near in enumerate(graph)]
-    heapq.heapify(queue)
-    order: list[int] = []
-    below: list[set[int]] = []
-    done = [False] * len(graph)
-    while queue:
-        degree, waiting, pivot = heapq.heappop(queue)
-        if done[pivot] or degree != len(graph[pivot]) or waiting != level[pivot]:
-            continue  # the entry is out of date
-        done[pivot] = True
-        clique = graph[pivot]
-        order.append(pivot)
-        below.append(clique)
-        for i in sorted(clique):
-            near = graph[i]
-            near |= clique
-            near.discard(i)
-            near.discard(pivot)
-            level[i] = max(level[i], level[pivot] + 1)
-            heapq.heappush(queue, (len(near), level[i], i))
-    return order, below
-
-
 def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
     """Return the supernodes of an elimination of low fill, in the order of elimination.
 
@@ -61,7 +29,7 @@ def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
     neighbours : sequence of frozenset
         For each row, the other rows it has an entry with.
     """
-    order, below = eliminate(neighbours)
+    order, below = minimum_degree(neighbours)
     place = {row: k for k, row in enumerate(order)}
     found: list[Supernode] = []
     columns: list[int] = []

@@ -110,6 +110,7 @@ class Shape:
         self.computed_of: list[int] = []  # instance -> its first computed number, counted from 0
         self.blocks: list[RowBlock] = []
         self.holonomic: list[bool] = []
+        self.angular: list[bool] = []  # rows that are angles or numbers, not lengths
         self.driven = 0
         entry = coordinate = computed = 0
         self.entries: list[tuple[int, int, int]] = []  # row, column, slot of structurally nonzero entries
@@ -132,6 +133,7 @@ class Shape:
                     self.entries += [(row, j, entry + j - firsts[f]) for j in used]
                     entry += width
                 self.holonomic.append(shape.holonomic)
+                self.angular.append(shape.angular)
                 self.driven += shape.driven
             coordinate += info.coordinates
             for angle in instance.angles:
@@ -165,7 +167,7 @@ class Shape:
     @property
     def gram_base(self) -> int:
         """Index in ``p`` of the constant part of D D^T; that of D M^-1 D^T follows."""
-        return self.mass_diagonal + 2 * self.nv + 1
+        return self.mass_diagonal + 2 * self.nv
 
     # -- matrices ------------------------------------------------------------------------------------------------------
 
@@ -180,6 +182,13 @@ class Shape:
                     columns = [first + j for j in block]
                     found |= dict.fromkeys(columns, frozenset(columns))
         return found
+
+    @cached_property
+    def turning(self) -> frozenset[int]:
+        """Angular velocities; products of constant entries of theirs are weighed by a number that a start finds."""
+        of_spins = {first + k for _, first in self.spins for k in range(3)}
+        plane = {v + 2 for v, width in self.width.items() if width == 3 and self.nq == self.nv}
+        return frozenset(of_spins | plane)
 
     @cached_property
     def by_body(self) -> dict[int, list[RowBlock]]:
@@ -212,7 +221,7 @@ class Shape:
             for j, literal in b.entries.items():
                 if j in reach:
                     other = a.entries.get(j)
-                    if literal is None or other is None or j in self.coupled:
+                    if literal is None or other is None or j in self.coupled or j in self.turning:
                         varying.append(j)
                     else:
                         constant.append((target, j, literal * other))

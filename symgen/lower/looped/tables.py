@@ -21,6 +21,8 @@ SECTIONS = (
     ("pivot", "m"),
     ("change", "nv"),
     ("mass", "nv"),
+    ("gauge", "nv"),
+    ("row_weight", "m"),
     ("jacobian", "jacobian"),
     ("lower", "gram"),
     ("records", "records"),
@@ -158,7 +160,6 @@ class _Builder:
         head["method_parameters"] = shape.parameters + shape.hoisted
         head["mass_diagonal"] = shape.mass_diagonal
         head["inverse_mass"] = shape.mass_diagonal + shape.nv
-        head["mean_mass"] = shape.mass_diagonal + 2 * shape.nv
         head["gram_base"] = shape.gram_base
         head["generic"] = self.addresses
         head["unknowns"] = self.unknowns
@@ -275,6 +276,9 @@ class _Builder:
             self.numbers += [first, shape.width[first], len(blocks)]
             for b in blocks:
                 self.numbers += [b.row, b.offset]
+        self.begin("angular_rows")
+        angular = [i for i, of_angles in enumerate(shape.angular) if of_angles]
+        self.numbers += [len(angular), *angular, *(i for i, of_angles in enumerate(shape.angular) if not of_angles)]
         self.mass_blocks()
         self.begin("gram_terms")
         runs = shape.products.runs

@@ -1,0 +1,128 @@
+"""Runs against the reference: how far off, how far off they may be, and whether their status is honest."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from benchmarks.plain.moving import Array
+from benchmarks.verification.reference import GROUPS, Reference, groups, placed
+from benchmarks.verification.runs import Asked, Came
+
+#: An adaptive run may be off by this many tolerances, times what a disturbance grows by.
+TOLERANCES = 50.0
+#: A run with constant steps may be off by this many times the error of the reference's own run with the same steps.
+COARSE = 20.0
+#: What is left to rounding, of the size of each group.
+ROUNDING = 1e-10
+#: A run by a method that does not keep to D v' = gamma, or with all chosen automatically, is wrong beyond this [m].
+WRONG = 1e-3
+#: Methods whose accelerations or corrections are only near those of the equations of motion.
+NEARLY = (
+    "baumgarte adaptive-baumgarte penalty augmented-lagrangian augmented-hamiltonian generalized-alpha "
+    "index3-augmented-lagrangian lagrange velocity-projection udwadia-kalaba"
+).split()
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is to be said of a run.
+
+    Attributes
+    ----------
+    honest : bool
+        Not both `ok` and wrong, and nothing raised but sentences.
+    right : bool or None
+        Whether it agrees with the reference; None where there is nothing to compare.
+    errors, bounds : mapping
+        By group; errors of a run without outputs are empty.
+    wrong : tuple of str
+        Groups beyond their bound.
+    """
+
+    honest: bool
+    right: bool | None
+    errors: Mapping[str, float]
+    bounds: Mapping[str, float]
+    wrong: tuple[str, ...]
+
+
+def bounds(reference: Reference, asked: Asked) -> dict[str, float]:
+    """Return by how much each group of a run may differ.
+
+    Adaptive runs may be off by `TOLERANCES` times the tolerance, a tolerance counting as an error of the size of
+    positions that grows as the reference itself shows; those with constant steps by `COARSE` times the error of the
+    reference's Runge-Kutta run with the same steps. A method that is only near the equations may be off by `WRONG`.
+    """
+    found = {}
+    size = max(1.0, reference.scales["q"])
+    for name in GROUPS:
+        disturbed = reference.scales[name] + reference.growth[name] * size
+        if name in ("lam", "reactions"):  # forces that balance to nothing leave their rounding
+            disturbed = max(disturbed, reference.scales["energies"] / size)
+        if asked.rtol is not None:
+            allowed = TOLERANCES * asked.rtol * disturbed
+        elif reference.coarse is None:
+            allowed = np.inf
+        else:
+            allowed = COARSE * reference.coarse[name] + ROUNDING * disturbed
+            if asked.method == "auto" or asked.method in NEARLY or asked.integrator != "rk4":
+                allowed = max(allowed, WRONG * (size if name == "q" else max(1.0, disturbed)))
+        found[name] = allowed + 10.0 * reference.own[name]
+    return found
+
+
+def errors(reference: Reference, came: Came) -> dict[str, float]:
+    """Return the largest difference of each group at the outputs that a run has."""
+    system, count = reference.system, len(came.t)
+    if not count or not np.allclose(came.t, reference.times[:count], rtol=0.0, atol=1e-9 * reference.times[-1]):
+        return {}
+    theirs: dict[str, Array] = {}
+    wanted = groups(system, reference.motion)
+    order = {"q": system.names_q, "v": system.names_v}
+    for name, names in order.items():
+        theirs[name] = came.columns[name][:, [came.names[name].index(n) for n in names]]
+    theirs["q"] = placed(system, theirs["q"])
+    labels = ("Fx", "Fy", "Fz", "Mx", "My", "Mz") if system.document.spatial else ("Fx", "Fy", "M")
+    order |= {"lam": system.rows, "reactions": [f"{j.name}.{label}" for j in system.joints for label in labels]}
+    # rows that symgen leaves out as repeated have no columns
+    known = {name: np.array([n in came.names[name] for n in order[name]], dtype=bool) for name in ("lam", "reactions")}
+    for name in known:
+        theirs[name] = _columns(came, name, order[name])
+    theirs["energies"] = came.energies - np.array([0.0, came.energies[0, 1], 0.0])
+    unique = reference.motion.unique
+    found = {}
+    for name in GROUPS:
+        mine, other = wanted[name][:count], theirs[name]
+        gap = np.abs(mine - other)
+        if name == "lam" and unique is not None and len(unique):
+            gap = gap[:, unique & known[name]]
+        if name == "reactions" and reference.motion.unique_reactions is not None:
+            gap = gap[:, np.repeat(reference.motion.unique_reactions, len(labels)) & known[name]]
+        found[name] = float("inf") if not np.isfinite(gap).all() else float(gap.max(initial=0.0))
+    return found
+
+
+def _columns(came: Came, table: str, names: list[str]) -> Array:
+    """Return columns by name, 0 for those that are not there."""
+    known = {n: k for k, n in enumerate(came.names[table])}
+    missing = np.zeros(len(came.t))
+    values = [came.columns[table][:, known[n]] if n in known else missing for n in names]
+    return np.column_stack(values) if values else np.zeros((len(came.t), 0))
+
+
+def judge(reference: Reference, asked: Asked, came: Came) -> Verdict:
+    """Return what is to be said of a run.
+
+    A run that ended early and says so is right where its outputs are.
+    """
+    if came.status in ("refused", "raised"):
+        return Verdict(came.status == "refused", None, {}, {}, ())
+    allowed, off = bounds(reference, asked), errors(reference, came)
+    wrong = tuple(name for name, size in off.items() if not size <= allowed[name])
+    complete = len(came.t) == len(reference.times)
+    if came.status == "ok" and (not off or not complete):
+        wrong = (*wrong, "outputs")
+    return Verdict(came.status != "ok" or not wrong, not wrong if off else None, off, allowed, wrong)

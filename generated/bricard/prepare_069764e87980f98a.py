@@ -1,0 +1,12 @@
+"""Numbers that depend on parameters alone, for model `bricard`. Emitted by symgen; do not edit.
+
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a360905d90dcc4fd
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 0 operations, 0 before sharing."""
+    return 0

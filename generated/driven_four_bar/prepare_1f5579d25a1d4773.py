@@ -1,0 +1,46 @@
+"""Numbers that depend on parameters alone, for model `driven-four-bar`. Emitted by symgen; do not edit.
+
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates a360905d90dcc4fd
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 20 operations, 37 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p33 = p[33]
+    p34 = p[34]
+    # intermediate terms
+    s0 = 9.81*p0
+    s1 = 9.81*p1
+    s2 = 9.81*p2
+    s3 = 1.0/p0
+    s4 = 1.0/(0.3333333333333333*p0)
+    s5 = 1.0/p1
+    s6 = 1.0/p2
+    s7 = s0*s3
+    s8 = s1*s5
+    s9 = s2*s6
+    # outputs
+    p[17] = s0
+    p[18] = s1
+    p[19] = s2
+    p[20] = 2.0*p33
+    p[21] = p34*p34
+    p[22] = s3
+    p[23] = s4
+    p[24] = s5
+    p[25] = 1.0/(5.333333333333333*p1)
+    p[26] = s6
+    p[27] = 1.0/(2.083333333333333*p2)
+    p[28] = s7
+    p[29] = s9
+    p[30] = s7 - s8
+    p[31] = s8 - s9
+    p[32] = 1e-06*s4
+    return 0

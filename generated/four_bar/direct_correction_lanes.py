@@ -1,0 +1,596 @@
+"""Method `direct-correction` for model `four-bar` in lanes, for 8 runs at once. Emitted by symgen; do not edit.
+
+positions and velocities are projected after each step with the pseudoinverse of D
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+option solver = elimination
+option weight = identity
+p[28] tolerance (default 1e-13)
+
+All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
+arrays that they do not overlap: element i of a lane is z[8*i + lane], with y from i = 0 on, y' from 20, p
+from 40, w from 69, and counters of the lanes from 231. How many lanes there are is computed, since a loop of
+known length would be unrolled before it could become vector instructions.
+"""
+
+import math
+
+from numba import njit
+
+from .model_lanes import cosine, sine
+
+NUMBERS = 236  # places in z
+SUSPECTS = 1848
+FAILURES = 1856
+ITERATIONS = 1864
+LAST = 1872
+OPEN = 1880
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, z, lanes):
+    """Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of D D^T: 332 operations a lane."""
+    for lane in range(lanes):
+        q0 = z[0 + lane]
+        q1 = z[8 + lane]
+        q2 = z[16 + lane]
+        q3 = z[24 + lane]
+        q4 = z[32 + lane]
+        q5 = z[40 + lane]
+        q6 = z[48 + lane]
+        q7 = z[56 + lane]
+        q8 = z[64 + lane]
+        mask_1 = z[776 + lane]
+        mask_2 = z[784 + lane]
+        mask_3 = z[792 + lane]
+        mask_4 = z[800 + lane]
+        mask_5 = z[808 + lane]
+        mask_7 = z[824 + lane]
+        gauge_2 = z[1248 + lane]
+        gauge_5 = z[1272 + lane]
+        gauge_8 = z[1296 + lane]
+        s0 = cosine(q2)
+        s1 = sine(q2)
+        s2 = -s0
+        s3 = q0 - s0
+        s4 = q1 - s1
+        s5 = 4.0*cosine(q5)
+        s6 = -s5
+        s7 = q3 - q0 - s5 - s0
+        s8 = 4.0*sine(q5)
+        s9 = q4 - q1 - s8 - s1
+        s10 = 2.5*cosine(q8)
+        s11 = q6 - q3 + s10 - s5
+        s12 = 2.5*sine(q8)
+        s13 = q7 - q4 + s12 - s8
+        s14 = q6 - 10.0 - s10
+        s15 = q7 - s12
+        s16 = s1*gauge_2
+        s17 = s0*gauge_2
+        s18 = s8*gauge_5
+        s19 = s5*gauge_5
+        s20 = s12*gauge_8
+        s21 = s10*gauge_8
+        s22 = s1*s16
+        s23 = 1.0 + s22
+        s24 = s0*s16
+        s25 = -1.0 + s22
+        s26 = s0*s17
+        s27 = 1.0 + s26
+        s28 = s8*s18
+        s29 = 1.0 + s23 + s28
+        s30 = s5*s18
+        s31 = -1.0 + s28
+        s32 = s5*s19
+        s33 = 1.0 + s27 + s32
+        s34 = s12*s20
+        s35 = 1.0 + 1.0 + s28 + s34
+        s36 = s10*s20
+        s37 = 1.0 - s34
+        s38 = s10*s21
+        s39 = 1.0 + 1.0 + s32 + s38
+        s40 = s12*s21
+        s41 = 1.0 + s38
+        s42 = 1.0/s23
+        s43 = s24*s42
+        s44 = s25*s42
+        s45 = s24*s43
+        s46 = s27 - s45
+        s47 = s25*s43 - s1*s17
+        s48 = -1.0 + s26 - s45
+        s49 = 1.0*(s46 > mask_1 + 1e-12*s27)
+        s50 = 1.0 - s49
+        s51 = s49/(s46 + s50)
+        s52 = s47*s51
+        s53 = s29 - s25*s44 - s47*s52
+        s54 = s24*s44 - (s24 + s30) - s48*s52
+        s55 = 1.0/(1.0 + s34)
+        s56 = s36*s55
+        s57 = s37*s55
+        s58 = s41 - s36*s56
+        s59 = s36 + s37*s56
+        s60 = 1.0 - s38 + s40*s56
+        s61 = 1.0*(s58 > mask_7 + 1e-12*s41)
+        s62 = 1.0 - s61
+        s63 = s61/(s58 + s62)
+        s64 = s59*s63
+        s65 = 1.0*(s53 > mask_2 + 1e-12*s29)
+        s66 = 1.0 - s65
+        s67 = s65/(s53 + s66)
+        s68 = s54*s67
+        s69 = s31*s67
+        s70 = s33 - s45 - s48*(s48*s51) - s54*s68
+        s71 = s8*s19 + s31*s68
+        s72 = -1.0 + s32 + s30*s68
+        s73 = 1.0*(s70 > mask_3 + 1e-12*s33)
+        s74 = 1.0 - s73
+        s75 = s73/(s70 + s74)
+        s76 = s71*s75
+        s77 = s35 - s37*s57 - s59*s64 - s31*s69 - s71*s76
+        s78 = s30*s69 - (s30 + s36 + s40*s57 + s60*s64) + s72*s76
+        s79 = 1.0*(s77 > mask_4 + 1e-12*s35)
+        s80 = 1.0 - s79
+        s81 = s39 - s40*(s40*s55) - s60*(s60*s63) - s30*(s30*s67) - s72*(s72*s75) - s78*(s78*(s79/(s77 + s80)))
+        s82 = 1.0*(s81 > mask_5 + 1e-12*s39)
+        s83 = s1*s1
+        s84 = 1.0 + s83
+        s85 = s0*s1
+        s86 = -1.0 + s83
+        s87 = s0*s0
+        s88 = 1.0 + s87
+        s89 = s8*s8
+        s90 = s5*s8
+        s91 = -1.0 + s89
+        s92 = s5*s5
+        s93 = s12*s12
+        s94 = s10*s12
+        s95 = 1.0 - s93
+        s96 = s10*s10
+        s97 = 1.0/s84
+        s98 = s85*s97
+        s99 = -s98
+        s100 = s86*s97
+        s101 = s85*s98
+        s102 = s86*s98 - s85
+        s103 = -1.0 + s87 - s101
+        s104 = s49/(s50 + s88 - s101)
+        s105 = s102*s104
+        s106 = s103*s104
+        s107 = s85*s100 - (s85 + s90) - s103*s105
+        s108 = 1.0/(1.0 + s93)
+        s109 = s94*s108
+        s110 = s95*s108
+        s111 = s94*s109
+        s112 = s94 + s95*s109
+        s113 = 1.0 - s96 + s111
+        s114 = s61/(s62 + 1.0 + s96 - s111)
+        s115 = s112*s114
+        s116 = s113*s114
+        s117 = s65/(s66 + 1.0 + s84 + s89 - s86*s100 - s102*s105)
+        s118 = s107*s117
+        s119 = s91*s117
+        s120 = s90*s117
+        s121 = s90 + s91*s118
+        s122 = -1.0 + s92 + s90*s118
+        s123 = s73/(s74 + 1.0 + s88 + s92 - s101 - s103*s106 - s107*s118)
+        s124 = s121*s123
+        s125 = s122*s123
+        s126 = s90*s119 - (s90 + s94 + s94*s110 + s113*s115) + s122*s124
+        s127 = s79/(s80 + 1.0 + 1.0 + s89 + s93 - s95*s110 - s112*s115 - s91*s119 - s121*s124)
+        s128 = s126*s127
+        s129 = s82/(1.0 - s82 + 1.0 + 1.0 + s92 + s96 - s111 - s113*s116 - s90*s120 - s122*s125 - s126*s128)
+        s130 = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+        s131 = s46/s27
+        s132 = s53/s29
+        s133 = s70/s33
+        s134 = s77/s35
+        s135 = s81/s39
+        s136 = min(min(min(min(min(1.0, mask_1 + s131), mask_2 + s132), mask_3 + s133), mask_4 + s134), mask_5 + s135)
+        s137 = s58/s41
+        z[896 + lane] = s3
+        z[904 + lane] = s4
+        z[912 + lane] = s7
+        z[920 + lane] = s9
+        z[928 + lane] = s11
+        z[936 + lane] = s13
+        z[944 + lane] = s14
+        z[952 + lane] = s15
+        z[552 + lane] = s130
+        z[616 + lane] = s130
+        z[1368 + lane] = s1
+        z[1376 + lane] = s2
+        z[1384 + lane] = s1
+        z[1392 + lane] = s8
+        z[1400 + lane] = s2
+        z[1408 + lane] = s6
+        z[1416 + lane] = s8
+        z[1424 + lane] = -s12
+        z[1432 + lane] = s6
+        z[1440 + lane] = s10
+        z[1448 + lane] = s12
+        z[1456 + lane] = -s10
+        z[1032 + lane] = s131
+        z[1040 + lane] = s132
+        z[1048 + lane] = s133
+        z[1056 + lane] = s134
+        z[1064 + lane] = s135
+        z[1080 + lane] = s137
+        z[592 + lane] = s61 + 1.0 + s82 + s79 + s73 + s65 + 1.0 + s49
+        z[584 + lane] = min(s136, mask_7 + s137)
+        z[632 + lane] = 1.0
+        z[1656 + lane] = s99
+        z[1664 + lane] = s100
+        z[1672 + lane] = s99
+        z[1680 + lane] = s105
+        z[1688 + lane] = s106
+        z[1696 + lane] = -s109
+        z[1704 + lane] = s110
+        z[1712 + lane] = s109
+        z[1720 + lane] = s115
+        z[1728 + lane] = s116
+        z[1736 + lane] = s118
+        z[1744 + lane] = s119
+        z[1752 + lane] = -s120
+        z[1760 + lane] = -s124
+        z[1768 + lane] = s125
+        z[1776 + lane] = s128
+        z[1784 + lane] = s97
+        z[1792 + lane] = s104
+        z[1800 + lane] = s108
+        z[1808 + lane] = s114
+        z[1816 + lane] = s117
+        z[1824 + lane] = s123
+        z[1832 + lane] = s127
+        z[1840 + lane] = s129
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(t, z, lanes):
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 102 operations a lane."""
+    for lane in range(lanes):
+        law_lower_0 = z[1656 + lane]
+        law_lower_1 = z[1664 + lane]
+        law_lower_2 = z[1672 + lane]
+        law_lower_3 = z[1680 + lane]
+        law_lower_4 = z[1688 + lane]
+        law_lower_5 = z[1696 + lane]
+        law_lower_6 = z[1704 + lane]
+        law_lower_7 = z[1712 + lane]
+        law_lower_8 = z[1720 + lane]
+        law_lower_9 = z[1728 + lane]
+        law_lower_10 = z[1736 + lane]
+        law_lower_11 = z[1744 + lane]
+        law_lower_12 = z[1752 + lane]
+        law_lower_13 = z[1760 + lane]
+        law_lower_14 = z[1768 + lane]
+        law_lower_15 = z[1776 + lane]
+        law_reciprocal_0 = z[1784 + lane]
+        law_reciprocal_1 = z[1792 + lane]
+        law_reciprocal_2 = z[1800 + lane]
+        law_reciprocal_3 = z[1808 + lane]
+        law_reciprocal_4 = z[1816 + lane]
+        law_reciprocal_5 = z[1824 + lane]
+        law_reciprocal_6 = z[1832 + lane]
+        law_reciprocal_7 = z[1840 + lane]
+        residual_0 = z[896 + lane]
+        residual_1 = z[904 + lane]
+        residual_2 = z[912 + lane]
+        residual_3 = z[920 + lane]
+        residual_4 = z[928 + lane]
+        residual_5 = z[936 + lane]
+        residual_6 = z[944 + lane]
+        residual_7 = z[952 + lane]
+        jacobian_0 = z[1368 + lane]
+        jacobian_1 = z[1376 + lane]
+        jacobian_2 = z[1384 + lane]
+        jacobian_3 = z[1392 + lane]
+        jacobian_4 = z[1400 + lane]
+        jacobian_5 = z[1408 + lane]
+        jacobian_6 = z[1416 + lane]
+        jacobian_7 = z[1424 + lane]
+        jacobian_8 = z[1432 + lane]
+        jacobian_9 = z[1440 + lane]
+        jacobian_10 = z[1448 + lane]
+        jacobian_11 = z[1456 + lane]
+        s0 = law_lower_0*residual_0 - residual_1
+        s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
+        s2 = law_lower_5*residual_6 - residual_7
+        s3 = law_lower_2*residual_0 - residual_3 - law_lower_4*s0 - law_lower_10*s1
+        s4 = law_lower_6*residual_6 - residual_4 - law_lower_8*s2 - law_lower_11*s1 - law_lower_13*s3
+        s5 = law_lower_7*residual_6 - residual_5 - law_lower_9*s2 - law_lower_12*s1 - law_lower_14*s3 - law_lower_15*s4
+        s6 = law_reciprocal_7*s5
+        s7 = law_reciprocal_6*s4
+        s8 = law_lower_15*s6
+        s9 = s7 - s8
+        s10 = law_reciprocal_5*s3 - law_lower_13*s9
+        s11 = law_lower_14*s6
+        s12 = s10 - s11
+        s13 = law_reciprocal_4*s1 - law_lower_10*s12 - law_lower_11*s9
+        s14 = law_lower_12*s6
+        s15 = s13 - s14
+        s16 = law_reciprocal_3*s2 - law_lower_8*s9 - law_lower_9*s6
+        s17 = law_reciprocal_2*residual_6 + law_lower_5*s16 + law_lower_6*s9 + law_lower_7*s6
+        s18 = law_reciprocal_1*s0 - law_lower_3*s15 - law_lower_4*s12
+        s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
+        z[1088 + lane] = s14 - s13 - s19
+        z[1096 + lane] = s18 + s11 - s10
+        z[1104 + lane] = s18*jacobian_1 - s19*jacobian_0 + s15*jacobian_2 + s12*jacobian_4
+        z[1112 + lane] = s15 + s8 - s7
+        z[1120 + lane] = s12 - s6
+        z[1128 + lane] = s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8
+        z[1136 + lane] = s9 - s17
+        z[1144 + lane] = s6 + s16
+        z[1152 + lane] = s9*jacobian_7 + s6*jacobian_9 - s17*jacobian_10 + s16*jacobian_11
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def measure(t, z, lanes):
+    """D v - nu with the D and nu that `geometry` left, and the energies: 75 operations a lane."""
+    for lane in range(lanes):
+        q1 = z[8 + lane]
+        v0 = z[72 + lane]
+        v1 = z[80 + lane]
+        v2 = z[88 + lane]
+        q4 = z[32 + lane]
+        v3 = z[96 + lane]
+        v4 = z[104 + lane]
+        v5 = z[112 + lane]
+        q7 = z[56 + lane]
+        v6 = z[120 + lane]
+        v7 = z[128 + lane]
+        v8 = z[136 + lane]
+        p3 = z[344 + lane]
+        p4 = z[352 + lane]
+        p5 = z[360 + lane]
+        p6 = z[368 + lane]
+        p7 = z[376 + lane]
+        p8 = z[384 + lane]
+        p9 = z[392 + lane]
+        p10 = z[400 + lane]
+        p11 = z[408 + lane]
+        jacobian_0 = z[1368 + lane]
+        jacobian_1 = z[1376 + lane]
+        jacobian_2 = z[1384 + lane]
+        jacobian_3 = z[1392 + lane]
+        jacobian_4 = z[1400 + lane]
+        jacobian_5 = z[1408 + lane]
+        jacobian_6 = z[1416 + lane]
+        jacobian_7 = z[1424 + lane]
+        jacobian_8 = z[1432 + lane]
+        jacobian_9 = z[1440 + lane]
+        jacobian_10 = z[1448 + lane]
+        jacobian_11 = z[1456 + lane]
+        s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
+        s1 = v0 + v2*jacobian_0
+        s2 = v1 + v2*jacobian_1
+        s3 = v3 + v2*jacobian_2 - v0 + v5*jacobian_3
+        s4 = v4 + v2*jacobian_4 - v1 + v5*jacobian_5
+        s5 = v6 + v5*jacobian_6 - v3 + v8*jacobian_7
+        s6 = v7 + v5*jacobian_8 - v4 + v8*jacobian_9
+        s7 = v6 + v8*jacobian_10
+        s8 = v7 + v8*jacobian_11
+        s9 = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
+        z[896 + lane] = s1
+        z[904 + lane] = s2
+        z[912 + lane] = s3
+        z[920 + lane] = s4
+        z[928 + lane] = s5
+        z[936 + lane] = s6
+        z[944 + lane] = s7
+        z[952 + lane] = s8
+        z[560 + lane] = s9
+        z[624 + lane] = s9
+        z[568 + lane] = s0 + v8*v8*p11
+        z[576 + lane] = q1*p4 + q4*p7 + q7*p10
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, z):
+    """q', v', power and multipliers; 1 where a pivot of S is suspicious: 288 operations a lane."""
+    lanes = len(z) // NUMBERS
+    for lane in range(lanes):
+        q2 = z[16 + lane]
+        v0 = z[72 + lane]
+        v1 = z[80 + lane]
+        v2 = z[88 + lane]
+        q5 = z[40 + lane]
+        v3 = z[96 + lane]
+        v4 = z[104 + lane]
+        v5 = z[112 + lane]
+        q8 = z[64 + lane]
+        v6 = z[120 + lane]
+        v7 = z[128 + lane]
+        v8 = z[136 + lane]
+        p15 = z[440 + lane]
+        p16 = z[448 + lane]
+        p17 = z[456 + lane]
+        mask_0 = z[768 + lane]
+        mask_1 = z[776 + lane]
+        mask_2 = z[784 + lane]
+        mask_3 = z[792 + lane]
+        mask_4 = z[800 + lane]
+        mask_5 = z[808 + lane]
+        mask_6 = z[816 + lane]
+        mask_7 = z[824 + lane]
+        p18 = z[464 + lane]
+        p19 = z[472 + lane]
+        p20 = z[480 + lane]
+        p21 = z[488 + lane]
+        p22 = z[496 + lane]
+        p23 = z[504 + lane]
+        p24 = z[512 + lane]
+        p25 = z[520 + lane]
+        p26 = z[528 + lane]
+        p27 = z[536 + lane]
+        s0 = cosine(q2)
+        s1 = sine(q2)
+        s2 = v2*v2
+        s3 = s0*s2
+        s4 = s1*s2
+        s5 = cosine(q5)
+        s6 = sine(q5)
+        s7 = 4.0*s5
+        s8 = 4.0*s6
+        s9 = 4.0*(v5*v5)
+        s10 = s5*s9
+        s11 = s6*s9
+        s12 = cosine(q8)
+        s13 = sine(q8)
+        s14 = 2.5*s12
+        s15 = 2.5*s13
+        s16 = 2.5*(v8*v8)
+        s17 = s12*s16
+        s18 = s13*s16
+        s19 = s1*p19
+        s20 = s0*p19
+        s21 = s8*p21
+        s22 = s7*p21
+        s23 = s15*p23
+        s24 = s14*p23
+        s25 = s1*s19
+        s26 = p18 + s25
+        s27 = s0*s19
+        s28 = s25 - p18
+        s29 = s0*s20
+        s30 = p18 + s29
+        s31 = s8*s21
+        s32 = p20 + s26 + s31
+        s33 = s7*s21
+        s34 = s31 - p20
+        s35 = s7*s22
+        s36 = p20 + s30 + s35
+        s37 = s15*s23
+        s38 = p22 + p20 + s31 + s37
+        s39 = s14*s23
+        s40 = p22 - s37
+        s41 = s14*s24
+        s42 = p22 + p20 + s35 + s41
+        s43 = s15*s24
+        s44 = p22 + s41
+        s45 = 1.0/(mask_0 + s26)
+        s46 = s27*s45
+        s47 = s28*s45
+        s48 = s27*s46
+        s49 = s28*s46 - s1*s20
+        s50 = s29 - p18 - s48
+        s51 = mask_1 + s30 - s48
+        s52 = 1.0/s51
+        s53 = s49*s52
+        s54 = s50*s52
+        s55 = s27*s47 - (s27 + s33) - s50*s53
+        s56 = 1.0/(mask_6 + p22 + s37)
+        s57 = s39*s56
+        s58 = s40*s56
+        s59 = s43*s56
+        s60 = s39 + s40*s57
+        s61 = p22 - s41 + s43*s57
+        s62 = mask_7 + s44 - s39*s57
+        s63 = 1.0/s62
+        s64 = s60*s63
+        s65 = s61*s63
+        s66 = mask_2 + s32 - s28*s47 - s49*s53
+        s67 = 1.0/s66
+        s68 = s55*s67
+        s69 = s34*s67
+        s70 = s33*s67
+        s71 = s8*s22 + s34*s68
+        s72 = s35 - p20 + s33*s68
+        s73 = mask_3 + s36 - s48 - s50*s54 - s55*s68
+        s74 = 1.0/s73
+        s75 = s71*s74
+        s76 = s72*s74
+        s77 = s33*s69 - (s33 + s39 + s43*s58 + s61*s64) + s72*s75
+        s78 = mask_4 + s38 - s40*s58 - s60*s64 - s34*s69 - s71*s75
+        s79 = 1.0/s78
+        s80 = s77*s79
+        s81 = mask_5 + s42 - s43*s59 - s61*s65 - s33*s70 - s72*s76 - s77*s80
+        s82 = s3*s46
+        s83 = s4 - p24 + s82
+        s84 = s3 + s10 - s3*s47 - s53*s83
+        s85 = s18 - p25 + s17*s57
+        s86 = s4 + s11 + p26 + s82 - s54*s83 - s68*s84
+        s87 = s10 - s17 - s17*s58 - s64*s85 - s69*s84 + s75*s86
+        s88 = 1.0/s81*(p27 - (s18 - s11) - s17*s59 - s65*s85 + s70*s84 - s76*s86 - s80*s87)
+        s89 = s79*s87
+        s90 = s80*s88
+        s91 = s89 - s90
+        s92 = s74*s86 + s75*s91
+        s93 = s76*s88
+        s94 = s92 - s93
+        s95 = s67*s84 - s68*s94 - s69*s91 + s70*s88
+        s96 = s63*s85 - s64*s91 - s65*s88
+        s97 = s17*s56 + s57*s96 - s58*s91 - s59*s88
+        s98 = s52*s83 - s53*s95 - s54*s94
+        s99 = s3*s45 + s46*s98 - s47*s95 + s46*s94
+        s100 = (((((s51 < 1e-06*s30) | (s62 < 1e-06*s44)) | (s66 < 1e-06*s32)) | (s73 < 1e-06*s36)) | (s78 < 1e-06*s38))
+        z[160 + lane] = v0
+        z[168 + lane] = v1
+        z[176 + lane] = v2
+        z[184 + lane] = v3
+        z[192 + lane] = v4
+        z[200 + lane] = v5
+        z[208 + lane] = v6
+        z[216 + lane] = v7
+        z[224 + lane] = v8
+        z[232 + lane] = p18*(s95 - s99)
+        z[240 + lane] = -p18*(p15 + s98 + s93 - s92)
+        z[248 + lane] = p19*(s0*s94 - (s1*s99 - s0*s98 + s1*s95))
+        z[256 + lane] = -p20*(s95 + s90 - s89)
+        z[264 + lane] = -p20*(p16 + s94 - s88)
+        z[272 + lane] = p21*(s7*s88 - (s8*s95 - s7*s94 + s8*s91))
+        z[280 + lane] = -p22*(s91 + s97)
+        z[288 + lane] = -p22*(p17 + s88 + s96)
+        z[296 + lane] = p23*(s14*s96 - (s14*s88 - s15*s91 + s15*s97))
+        z[304 + lane] = 0.0
+        z[704 + lane] = s99
+        z[712 + lane] = s98
+        z[720 + lane] = s95
+        z[728 + lane] = s94
+        z[736 + lane] = s91
+        z[744 + lane] = s88
+        z[752 + lane] = s97
+        z[760 + lane] = s96
+        z[SUSPECTS + lane] += 1.0*(s100 | (s81 < 1e-06*s42))
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def accept(t, z):
+    """Correct and measure accepted states; lanes whose correction fails are counted."""
+    lanes = len(z) // NUMBERS
+    for lane in range(lanes):
+        z[LAST + lane] = math.inf
+        z[OPEN + lane] = 1.0
+    for round in range(15):
+        geometry(t, z, lanes)
+        left = 0.0
+        for lane in range(lanes):
+            tolerance = z[544 + lane] * z[600 + lane]
+            violation = z[616 + lane]
+            # at the floor of rounding another iteration gains nothing
+            stalled = (violation > 0.5 * z[LAST + lane]) & (violation <= 1e4 * tolerance)
+            closed = (violation <= tolerance) | stalled | (round == 14)
+            z[OPEN + lane] = 0.0 if closed else z[OPEN + lane]
+            z[LAST + lane] = violation
+            left += z[OPEN + lane]
+        if left == 0.0:
+            measure(t, z, lanes)  # leaves D v - nu in the section that `spread` corrects
+        spread(t, z, lanes)
+        if left == 0.0:
+            for i in range(9 * lanes):
+                z[72 + i] += z[1088 + i]
+            break
+        for j in range(9):
+            for lane in range(lanes):
+                z[1088 + lanes * j + lane] *= z[OPEN + lane]
+        for lane in range(lanes):
+            z[ITERATIONS + lane] += z[OPEN + lane]
+        for i in range(9 * lanes):
+            z[i] += z[1088 + i]
+    for lane in range(lanes):
+        z[FAILURES + lane] += 0.0 if z[616 + lane] <= 1e4 * z[544 + lane] * z[600 + lane] else 1.0
+    measure(t, z, lanes)
+    return 0

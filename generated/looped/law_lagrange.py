@@ -1,0 +1,14 @@
+"""Method `lagrange`, for any mechanism, in the looped shape. Emitted by symgen; do not edit.
+
+constraints at acceleration level only; violations grow with time
+Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
+format 3, generator of-golden-trees
+option solver = elimination
+"""
+
+from .accept_measured_ab971c7af7dbf312 import accept
+from .confirm_9ef84cd0e3e67521 import confirm
+from .prepare_a037fc2ae027d686 import prepare
+from .rhs_direct_793f158db7f08688 import rhs
+
+__all__ = ["accept", "confirm", "prepare", "rhs"]

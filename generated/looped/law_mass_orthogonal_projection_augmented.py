@@ -1,0 +1,16 @@
+"""Method `mass-orthogonal-projection`, for any mechanism, in the looped shape. Emitted by symgen; do not edit.
+
+positions and velocities projected in the metric of M by iterations with M + a D^T D
+Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
+format 3, generator of-golden-trees
+option solver = augmented
+parameter 0: penalty (default 10000000.0)
+parameter 1: tolerance (default 1e-13)
+"""
+
+from .accept_augmented_7a1cfe7df40a0198 import accept
+from .metric_augmented_8e2987a496ec4a74 import geometry, spread
+from .prepare_a037fc2ae027d686 import prepare
+from .rhs_iterated_8ac372ca8bca282b import rhs
+
+__all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -1,0 +1,15 @@
+"""Method `post-stabilization`, for any mechanism, in the looped shape. Emitted by symgen; do not edit.
+
+one correction of positions and velocities after each step, not iterated
+Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
+format 3, generator of-golden-trees
+option solver = augmented
+option weight = identity
+"""
+
+from .accept_identity_ef05f51039059a4f import accept
+from .metric_identity_0472c4a04b2a34e8 import geometry, spread
+from .prepare_a037fc2ae027d686 import prepare
+from .rhs_iterated_8ac372ca8bca282b import rhs
+
+__all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

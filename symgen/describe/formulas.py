@@ -1,0 +1,53 @@
+"""Formulas of a mechanism as nodes of one graph: equal nodes where formulas are equal after simplification."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from symgen.describe.mechanism import Mechanism
+from symgen.ir.expression import build
+from symgen.ir.graph import Graph
+from symgen.vocabulary.expressions import Expr, call
+from symgen.vocabulary.measures import GROUND, Direction, Marker
+
+
+@dataclass
+class Formulas:
+    """The names of a mechanism as inputs of a graph: time, parameters, coordinates and velocities in their order."""
+
+    mechanism: Mechanism
+    graph: Graph = field(default_factory=Graph)
+
+    def __post_init__(self) -> None:
+        g = self.graph
+        self.names: dict[str, int] = {"t": g.input("t", 0)}
+        for i, parameter in enumerate(self.mechanism.parameters):
+            self.names[parameter.name] = g.input("p", i)
+        self.first_q: dict[str, int] = {}  # body -> index of its first coordinate
+        self.first: dict[str, int] = {}  # body -> index of its first velocity
+        coordinates = index = 0
+        for body in self.mechanism.bodies:
+            self.first_q[body.name], self.first[body.name] = coordinates, index
+            for coordinate in body.coordinates:
+                self.names[f"{body.name}.{coordinate}"] = g.input("q", coordinates)
+                coordinates += 1
+            for speed in body.speeds:
+                self.names[f"{body.name}.{speed}"] = g.input("v", index)
+                index += 1
+        self.size = index
+        self._centre = {b.name: b.centre_of_mass for b in self.mechanism.bodies}
+
+    def expression(self, e: Expr, **placeholders: int) -> int:
+        """Return the node of a formula of the file."""
+        return build(self.graph, e, {**self.names, **placeholders} if placeholders else self.names)
+
+    def local(self, marker: Marker) -> list[int]:
+        """Return the marker relative to the centre of mass (ground: to the origin)."""
+        point = marker.point
+        if marker.body != GROUND:
+            point = tuple(call("sub", p, c) for p, c in zip(point, self._centre[marker.body], strict=True))
+        return [self.expression(e) for e in point]
+
+    def direction(self, along: Direction) -> list[int]:
+        """Return the components of a direction in its body's frame."""
+        return [self.expression(e) for e in along.vector]

@@ -1,0 +1,101 @@
+"""Rows that repeat another one for all q: told from what they would be derived of, in both shapes by this module."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+from symgen.describe.formulas import Formulas
+from symgen.describe.mechanism import Joint, Mechanism
+from symgen.vocabulary.expressions import Call, Name, Number
+from symgen.vocabulary.measures import GROUND, Angle, Component, Direction, Dot, Marker, RimHeight, Sum
+
+
+def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, str], ...]]:
+    """Return a mechanism without the rows that repeat an earlier one, and the names of each with the one it repeats.
+
+    Two rows are alike where they hold the same measure at the same value, formulas compared after simplification: a
+    point at ``1*p`` is the point at ``p``.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    """
+    contents = _Contents(mechanism)
+    seen: dict[object, str] = {}
+    joints: list[Joint] = []
+    repeats: list[tuple[str, str]] = []
+    for joint in mechanism.joints:
+        rows = []
+        for row in joint.rows:
+            name, content = f"{joint.name}.{row.label}", contents.of(msgspec.structs.replace(row, label="", unit=""))
+            if content in seen:
+                repeats.append((name, seen[content]))
+            else:
+                seen[content] = name
+                rows.append(row)
+        joints.append(joint if len(rows) == len(joint.rows) else msgspec.structs.replace(joint, rows=tuple(rows)))
+    return msgspec.structs.replace(mechanism, joints=tuple(joints)) if repeats else mechanism, tuple(repeats)
+
+
+class _Contents:
+    """Values of the vocabulary with formulas as nodes, markers relative to centres of mass and sums put together."""
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.formulas = Formulas(mechanism)
+
+    def of(self, value: Any) -> Any:
+        """Return something hashable that is equal for equal content."""
+        if isinstance(value, Number | Name | Call):
+            return self.formulas.expression(value)
+        if isinstance(value, Marker):
+            return value.body, *self.formulas.local(value)
+        if isinstance(value, Component | RimHeight):
+            return self.height(value)
+        if isinstance(value, Direction):
+            return value.body, *self.formulas.direction(value)
+        if isinstance(value, Dot):
+            return frozenset((self.of(value.u), self.of(value.v)))
+        if isinstance(value, Sum | Angle):
+            return self.sum(value)
+        if isinstance(value, msgspec.Struct):
+            return type(value).__name__, *(self.of(getattr(value, f)) for f in value.__struct_fields__)
+        return tuple(self.of(item) for item in value) if isinstance(value, tuple) else value
+
+    def height(self, value: Component | RimHeight) -> Any:
+        """Return a component along a direction, of markers on its own ground only the height along it."""
+        along = value.along if isinstance(value, Component) else value.normal
+        fields = []
+        for name in value.__struct_fields__:
+            found = getattr(value, name)
+            if isinstance(found, Marker) and found.body == along.body == GROUND:
+                fields.append((GROUND, self.formulas.graph.dot(self.of(along)[1:], self.of(found)[1:])))
+            else:
+                fields.append(self.of(found))
+        return type(value).__name__, *fields
+
+    def sum(self, value: Sum | Angle) -> Any:
+        """Return the terms of a sum, those of its parts and angles of bodies put together."""
+        g = self.formulas.graph
+        terms: dict[Any, int] = {}
+
+        def add(measure: Any, factor: int) -> None:
+            if isinstance(measure, Sum):
+                for coefficient, part in measure.terms:
+                    add(part, g.mul(factor, self.formulas.expression(coefficient)))
+                return
+            if isinstance(measure, Angle):
+                for body, own in ((measure.b, factor), (measure.a, g.neg(factor))):
+                    if body != GROUND:
+                        terms[body] = g.add(terms.get(body, g.zero), own)
+                return
+            content = self.of(measure)
+            terms[content] = g.add(terms.get(content, g.zero), factor)
+
+        add(value, g.one)
+        kept = {content: factor for content, factor in terms.items() if factor != g.zero}
+        if list(kept.values()) == [g.one] and not isinstance(next(iter(kept)), str):
+            return next(iter(kept))
+        return frozenset(kept.items())

@@ -1,0 +1,276 @@
+"""Modules of emitted code: printed functions that say what they need, and the imports and constants that follow."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from functools import lru_cache
+from pathlib import Path
+from textwrap import fill
+from typing import Any
+
+import jinja2
+from jinja2 import meta
+
+from symgen.emit.text import harmless
+
+#: What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0 give
+#: infinity, multiply-add may be contracted, nothing else is fast or inexact.
+DECORATORS = {"cpu": '@njit(error_model="numpy", fastmath={"contract"})', "cuda": "@cuda.jit(device=True)"}
+
+
+LIBRARIES = frozenset(("math", "numpy"))
+
+
+@dataclass(frozen=True)
+class Code:
+    """A piece of a module: a function, or a table with its functions.
+
+    Parameters
+    ----------
+    name, text : str
+        What it is called, and its source.
+    calls : frozenset of str
+        Emitted functions and constants that it names.
+    sections : frozenset of str
+        Sections of ``w`` whose offsets it names.
+    libraries : frozenset of str
+        ``math`` and ``numpy`` where it names them.
+    also : tuple of str
+        Further names that it defines.
+    """
+
+    name: str
+    text: str
+    calls: frozenset[str] = frozenset()
+    sections: frozenset[str] = frozenset()
+    libraries: frozenset[str] = frozenset()
+    also: tuple[str, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that it defines."""
+        return self.name, *self.also
+
+
+def templates_folder() -> Path:
+    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
+
+    Raises
+    ------
+    FileNotFoundError
+        If neither exists.
+    """
+    package = Path(__file__).resolve().parent.parent
+    inside, beside = package / "templates", package.parent / "templates"
+    for folder in (inside, beside):
+        if (folder / "parts").is_dir():
+            return folder
+    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")
+
+
+@lru_cache(maxsize=1)
+def _environment() -> jinja2.Environment:
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(templates_folder()),
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,
+        finalize=lambda value: literal(value) if isinstance(value, float) else value,
+    )
+
+
+def literal(value: float) -> str:
+    """Return a number as Python reads it: 1e4 and the like as people write them."""
+    _, digits, exponent = Decimal(repr(value)).normalize().as_tuple()
+    short = f"{digits[0]}e{exponent}" if len(digits) == 1 and value > 0.0 else repr(value)
+    return min(repr(value), short, key=len)
+
+
+@lru_cache(maxsize=64)
+def wanted(template: str) -> frozenset[str]:
+    """Return the keys that a template asks for, itself or in templates that it names."""
+    found: set[str] = set()
+    waiting = [template]
+    while waiting:
+        tree = _environment().parse((templates_folder() / waiting.pop()).read_text(encoding="utf-8"))
+        found |= meta.find_undeclared_variables(tree)
+        waiting += [name for name in meta.find_referenced_templates(tree) if name is not None]
+    return frozenset(found)
+
+
+def render(template: str, values: Mapping[str, Any]) -> str:
+    """Render a template; the keys given must be exactly those that it asks for.
+
+    Raises
+    ------
+    KeyError
+        Naming the keys that are missing or superfluous.
+    """
+    asked = wanted(template)
+    if asked != set(values):
+        missing, extra = sorted(asked - set(values)), sorted(set(values) - asked)
+        raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
+    return _environment().get_template(template).render(values)
+
+
+@lru_cache(maxsize=1)
+def templates_digest() -> str:
+    """Return the digest of the templates of code for one mechanism, for the emitted header."""
+    digest = hashlib.sha256()
+    for path in sorted(path for folder in ("parts",) for path in (templates_folder() / folder).glob("*.j2")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
+    return digest.hexdigest()[:16]
+
+
+def function(
+    name: str,
+    arguments: str,
+    purpose: str,
+    body: Iterable[str],
+    decorator: str = DECORATORS["cpu"],
+    *,
+    calls: Iterable[str] = (),
+    sections: Iterable[str] = (),
+) -> Code:
+    """Return a function; its purpose may come from anywhere, and `calls` may name libraries and their functions."""
+    first, *more = [harmless(line) for line in purpose.split("\n")]
+    document = [f'"""{first}', *more, '"""'] if more else [f'"""{first}"""']
+    lines = [f"    {line}" if line else "" for line in (*document, *body)]
+    text = "\n".join([decorator, f"def {name}({arguments}):", *lines])
+    libraries = frozenset(call.partition(".")[0] for call in calls) & LIBRARIES
+    emitted = frozenset(call for call in calls if call.partition(".")[0] not in LIBRARIES)
+    return Code(name, text, emitted, frozenset(sections), libraries)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Return names as they are imported, in brackets where they take more than a line."""
+    text = ", ".join(names)
+    return text if len(text) < 100 else f"(\n{fill(text, 110, initial_indent='    ', subsequent_indent='    ')},\n)"
+
+
+#: Where a name that a module does not define itself comes from: the stem of a sibling, and its name there.
+Known = Mapping[str, tuple[str, str]]
+
+
+def module(
+    title: str,
+    header: Sequence[str],
+    codes: Sequence[Code],
+    known: Known,
+    offsets: Mapping[str, int],
+    numba: str = "njit",
+    note: str = "sections of w",
+    exports: Collection[str] = (),
+) -> str:
+    """Return the source of a module.
+
+    Parameters
+    ----------
+    title : str
+        First line of its docstring.
+    header : sequence of str
+        Further lines.
+    codes : sequence of Code
+        What it defines, in this order.
+    known : mapping of str to (str, str)
+        Names that other modules of the folder define; those that are called are imported.
+    offsets : mapping of str to int
+        Numbers of constants that pieces name: where sections of ``w`` begin, as a rule.
+    numba : {"njit", "cuda"}
+        What is imported from Numba.
+    note : str
+        What the constants are.
+    exports : collection of str
+        Names that are imported for others.
+    """
+    own = {name for code in codes for name in code.names}
+    called = frozenset[str]().union(exports, *(code.calls for code in codes)) - own
+    imports: dict[str, list[str]] = {}
+    for name in sorted(called):
+        stem, there = known[name]
+        imports.setdefault(stem, []).append(name if there == name else f"{there} as {name}")
+    sections = frozenset[str]().union(*(code.sections for code in codes))
+    libraries = frozenset[str]().union(*(code.libraries for code in codes))
+    values = {
+        "title": harmless(title),
+        "header": [harmless(line) for line in header],
+        "libraries": libraries,
+        "numba": numba if codes else "",
+        "imports": {stem: _listed(names) for stem, names in sorted(imports.items())},
+        "constants": [(name.upper(), offset) for name, offset in offsets.items() if name in sections],
+        "note": note,
+        "codes": codes,
+        "exports": sorted(exports),
+    }
+    return render("parts/module.j2", values)
+
+
+#: Parts of laws, each a module, in an order in which each needs earlier ones only: how its stem begins, and what it is.
+ROLES = {
+    "preparation": ("prepare", "Numbers that depend on parameters alone"),
+    "iteration": ("iterate", "One iteration, and its end"),
+    "acceleration": ("rhs", "Right-hand side"),
+    "metric": ("metric", "Corrections in another metric"),
+    "correction": ("accept", "Treatment of accepted states"),
+    "closed": ("rhs_closed", "Right-hand side behind the closure of dependent coordinates"),
+    "confirmation": ("confirm", "Second evaluation without rows that come out doubtful"),
+    "form": ("form", "Descriptor form"),
+}
+#: What a law's module hands on.
+_EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent")
+
+
+def law_modules(
+    pieces: Sequence[tuple[str, Code]],
+    kinds: Mapping[str, str],
+    what: str,
+    versions: str,
+    known: Known,
+    title: str,
+    header: Sequence[str],
+    stem: str,
+    suffix: str = "",
+    **keys: Any,
+) -> dict[str, str]:
+    """Return the modules of a law: one for each of its parts, and last the law's own, which gathers their functions.
+
+    A part is named by a digest of what it holds, so that equal parts are one module, whoever asks for them.
+
+    Parameters
+    ----------
+    pieces : sequence of (str, Code)
+        Functions, each with its role, one of `ROLES`.
+    kinds : mapping of str to str
+        What stands in the stems of some parts behind their role.
+    what, versions : str
+        Whose parts they are, and what they were made of, for docstrings.
+    known : mapping of str to (str, str)
+        As for `module`: names of the modules that all laws share.
+    title, header, stem : str, sequence of str, str
+        Of the law's own module.
+    suffix : str
+        How all stems end.
+    **keys
+        As for `module`.
+    """
+    modules: dict[str, str] = {}
+    found = dict(known)
+    exported: set[str] = set()
+    for role, (label, about) in ROLES.items():
+        codes = [code for each, code in pieces if each == role]
+        if not codes:
+            continue
+        digest = hashlib.sha256(module("", [], codes, found, **keys).encode()).hexdigest()[:16]
+        name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
+        modules[name] = module(f"{about}, {what}.", [versions], codes, found, **keys)
+        if role == "acceleration":  # what closes dependent coordinates first is the law's `rhs`
+            found["accelerate"] = (name, "rhs")
+        found |= {each: (name, each) for code in codes for each in code.names}
+        exported |= {each for code in codes for each in code.names}
+    modules[stem + suffix] = module(title, header, [], found, {}, exports=exported.intersection(_EXPORTS))
+    return modules

@@ -1,0 +1,110 @@
+"""Functions with loops, printed from the templates that all shapes and targets share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import SimpleNamespace
+from typing import Any, Protocol
+
+from symgen.emit.module import Code, function, render, wanted
+from symgen.ir.numerics import NUMBERS
+from symgen.ir.program import COUNTERS, STATUS, Correction
+
+
+class PartsLayout(Protocol):
+    """How a shape or target writes sizes, sections and parameters in functions with loops.
+
+    Attributes
+    ----------
+    turning : str
+        Arguments of ``normalise``, empty in the plane.
+    decorator : str
+        What precedes each function.
+    """
+
+    turning: str
+    decorator: str
+
+    def size(self, name: str) -> Any:
+        """Return ``nq``, ``nv``, ``m`` or ``degrees``: a number, or text that can be added."""
+
+    def at(self, name: str) -> str:
+        """Return where a section of ``w`` begins."""
+
+    def parameter(self, name: str) -> str:
+        """Return a parameter of the method, or what is taken where it has none."""
+
+    def finished(self) -> tuple[list[str], set[str], set[str]]:
+        """Return lines before a function's own, and the names and sections that were asked for since the last one."""
+
+
+class _Names:
+    """Names by which a template asks for what its layout gives another text: ``at.change``, ``size.nq``."""
+
+    def __init__(self, text: Callable[[str], Any]) -> None:
+        self._text = text
+
+    def __getattr__(self, name: str) -> Any:
+        return self._text(name)
+
+
+class Parts:
+    """Prints templates of ``templates/parts``; each of their functions says what it calls.
+
+    Parameters
+    ----------
+    layout : PartsLayout
+        Of the shape or target.
+    correction : Correction
+        What is done after each accepted step.
+    """
+
+    def __init__(self, layout: PartsLayout, correction: Correction) -> None:
+        self.layout = layout
+        self.pieces: list[tuple[str, Code]] = []
+        self.values: dict[str, Any] = {
+            "function": self._function,
+            "size": _Names(layout.size),
+            "at": _Names(layout.at),
+            "parameter": _Names(layout.parameter),
+            "status": SimpleNamespace(**{name: i for i, name in enumerate(STATUS)}),
+            "counter": SimpleNamespace(**{name: i for i, name in enumerate(COUNTERS)}),
+            "number": SimpleNamespace(**NUMBERS, newton=correction.position == "newton", rounds=correction.rounds),
+            "turning": layout.turning,
+        }
+
+    def add(self, part: str, role: str = "", **roles: str) -> None:
+        """Print the functions of a template; `roles` are those of single functions, where they have others."""
+        template, first = f"parts/{part}.j2", len(self.pieces)
+        render(template, {key: self.values[key] for key in wanted(template) if key in self.values})
+        self.pieces[first:] = [(roles.get(code.name, role), code) for _, code in self.pieces[first:]]
+
+    @property
+    def codes(self) -> list[Code]:
+        """The functions without their roles."""
+        return [code for _, code in self.pieces]
+
+    def _function(
+        self,
+        name: str,
+        arguments: str,
+        purpose: str,
+        calls: str = "",
+        sections: str = "",
+        math: bool = False,
+        *,
+        caller: Callable[[], str],
+    ) -> str:
+        body = caller().strip("\n").split("\n")
+        before, names, named = self.layout.finished()
+        called = {*calls.split(), *names, *(("math",) if math else ())}
+        named |= set(sections.split())
+        lines = [*before, *body]
+        decorator = self.layout.decorator
+        self.pieces.append(("", function(name, arguments, purpose, lines, decorator, calls=called, sections=named)))
+        return ""
+
+
+def accept_kind(correction: Correction) -> str:
+    """Return how accepted states are treated: ``measured``, ``augmented`` or ``corrected``."""
+    return "measured" if not correction.any else "augmented" if correction.metric == "augmented" else "corrected"

@@ -1,0 +1,137 @@
+"""Files that people name: written whole or not at all, and refused in one sentence where they cannot be."""
+
+from __future__ import annotations
+
+import errno
+import io
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+
+from symgen.errors import InputError
+
+#: What a file is to hold, or what writes it to an open file.
+Content = bytes | str | Callable[[io.BytesIO], object]
+
+
+def check_writable(where: str, path: Path) -> None:
+    """Refuse a file that could not be written, before anything is computed for it.
+
+    Parameters
+    ----------
+    where : str
+        Who asks, for the message.
+    path : Path
+        The file, which need not exist.
+
+    Raises
+    ------
+    InputError
+        If the path is a folder or a device, or its folder is missing or cannot be written.
+    """
+    try:
+        if path.is_dir():
+            raise InputError(where, "the name of a file", f"the folder '{path}'")
+        if not path.parent.is_dir():
+            raise InputError(where, "a file in a folder that exists", f"'{path}'")
+        if path.exists() and not path.is_file():
+            raise InputError(where, "the name of a file", f"'{path}', which is a device or a pipe")
+        if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+            raise InputError(where, "a file that can be written", f"'{path}'")
+        os.lstat(path)
+    except FileNotFoundError:
+        return
+    except (OSError, ValueError) as error:  # a name too long for the system, or with a null character
+        raise InputError(where, "a file that can be written", f"'{path}' ({why(error)})") from None
+
+
+def write_whole(path: Path, content: Content, *, replace: bool = True) -> Path:
+    """Write one file; see `write_all`."""
+    write_all({path: content}, replace=replace)
+    return path
+
+
+def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
+    """Write files that belong together: all appear, or, where one cannot be written, all stay as they were.
+
+    Parameters
+    ----------
+    files : mapping
+        Path -> content, or a function that writes it to an open binary file. That file is in memory: libraries do not
+        expect that writing fails, and HDF5 then ends the process when it lets go of the file.
+    replace : bool
+        Whether files that exist are replaced.
+
+    Raises
+    ------
+    InputError
+        If one cannot be written, or exists and is not to be replaced. Nothing is left behind.
+    """
+    siblings: dict[Path, Path] = {}
+    current = Path()
+    try:
+        for current, content in files.items():
+            target = _real(current)
+            siblings[target] = target.with_name(f".{target.name[-80:]}-{os.urandom(6).hex()}")
+            data = _bytes(content)
+            with siblings[target].open("xb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())  # a disk that is full, or gone, may say so only now
+        for current, sibling in siblings.items():
+            _place(sibling, current, replace)
+    except FileExistsError:
+        raise InputError(str(current), "the name of a file that does not exist yet", "one that does") from None
+    except OSError as error:
+        raise InputError(str(current), "a file that can be written", why(error)) from error
+    finally:
+        for sibling in siblings.values():
+            with suppress(OSError):
+                sibling.unlink()
+
+
+def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
+    """Write a table as CSV; None is empty."""
+    import csv
+
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(heading)
+    writer.writerows(["" if x is None else x for x in row] for row in rows)
+    return write_whole(path, text.getvalue())
+
+
+def why(error: OSError | ValueError) -> str:
+    """Return what the system says about a file, in its own words."""
+    return getattr(error, "strerror", None) or str(error) or "an error"
+
+
+def _real(path: Path) -> Path:
+    """Return what a link points to, not the link."""
+    try:
+        return Path(os.path.realpath(path))
+    except ValueError as error:
+        raise OSError(errno.EINVAL, str(error)) from None
+
+
+def _bytes(content: Content) -> bytes | memoryview:
+    if callable(content):
+        made = io.BytesIO()
+        content(made)
+        return made.getbuffer()
+    return content.encode() if isinstance(content, str) else content
+
+
+def _place(sibling: Path, target: Path, replace: bool) -> None:
+    if replace:
+        os.replace(sibling, target)
+        return
+    try:
+        os.link(sibling, target)  # unlike a renaming it fails where there is something of that name
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without links
+        if target.exists():
+            raise FileExistsError(str(target)) from None
+        os.replace(sibling, target)

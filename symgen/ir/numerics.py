@@ -1,0 +1,31 @@
+"""Thresholds and limits that emitted code decides by, each in one place."""
+
+from __future__ import annotations
+
+#: A pivot of S below this fraction of its diagonal entry is suspicious: rank is then decided on D D^T.
+SUSPICIOUS = 1e-6
+#: A pivot of D D^T (rows scaled) below this belongs to a row that depends on the others: the row is skipped.
+SKIP = 1e-12
+#: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.
+WARN = 1e-4
+
+#: What templates decide by, under the names by which they ask for it.
+NUMBERS: dict[str, float] = {
+    "skip": SKIP,
+    "warn": WARN,
+    # corrections
+    "stalled": 0.5,  # an iteration that leaves more than this part of a violation gains nothing any more,
+    "slack": 1e4,  # if the violation is within so many tolerances: then it is rounding
+    "falling": 0.9,  # the same part for mass-orthogonal projections, which converge linearly
+    "most_projections": 20,
+    # iterated laws
+    "most_iterations": 30,
+    "floor": 1e-6,  # a change of v', relative to v', below which an iteration may end because it stalls
+    "tolerance": 1e-13,  # where a method has no such parameter
+    # partitions of coordinates
+    "poor": 0.3,  # part of the best determinant since the choice, below which another partition is chosen
+    "exchange": 1.01,  # least growth of the determinant by an exchange of columns
+    "lightest": 1e-6,  # part of the largest mass that a massless body counts for
+    # orthogonal factorisation
+    "massless": 1e-15,  # part of the largest pivot of the reduced mass below which a direction has no mass
+}

@@ -1,0 +1,398 @@
+"""Formulas as loops over whole vectors and calls of generic code: statements as data, which the emitter prints."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from symgen.ir.graph import Graph
+from symgen.ir.program import STATUS
+from symgen.lower.record import Part, Record
+from symgen.lower.replay import ARITHMETIC, Nodes, Replay
+from symgen.methods._formula import Operation, needed
+
+#: Spaces of a graph's inputs that are no sections of ``w``: parts of the state and its rates, and numbers.
+VELOCITIES, RATES, WORK = "v", "rates.v", "rates.work"
+LOCAL, PARAMETER, STATE = "local", "parameter", "status"
+#: Functions of a law in which the kernels of an evaluation are called first.
+_EVALUATE = ("rhs", "accelerate", "begin")
+
+
+@dataclass(frozen=True)
+class Loop:
+    """``target[j] = node`` for all elements j of vectors of a size, and for one target after the other."""
+
+    size: str
+    outputs: tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True)
+class Total:
+    """``local = sum of node`` over all elements of vectors of a size; where `driven`, only if some row is driven."""
+
+    local: int
+    size: str
+    node: int
+    driven: bool
+
+
+@dataclass(frozen=True)
+class Number:
+    """``place = node``: a local number, one of the status, or the rate of the work."""
+
+    place: tuple[str, int]
+    node: int
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call of generic code: arguments are names of arrays, sections and constants."""
+
+    function: str
+    arguments: tuple[str, ...]
+    result: str = ""
+
+
+Statement = Loop | Total | Number | Call
+
+
+@dataclass(frozen=True)
+class LoopedFunction:
+    """A function of a law: statements over the nodes of a graph.
+
+    Parameters
+    ----------
+    part : Part
+        What is laid out.
+    graph : Graph
+        Its inputs are the general element of sections, and numbers.
+    statements : tuple of Statement
+        In their order.
+    sections : dict
+        Sections of ``w`` that are read or written, with their sizes.
+    vectors : int
+        Scratch vectors x0, x1, ....
+    flagged : bool
+        Whether the function returns if a pivot was suspicious.
+    """
+
+    part: Part
+    graph: Graph
+    statements: tuple[Statement, ...]
+    sections: dict[str, str]
+    vectors: int
+    flagged: bool
+
+
+@dataclass(frozen=True)
+class _Factor:
+    """A factorisation L D L^T: which matrix, the section that holds it, and its penalties."""
+
+    matrix: str
+    section: str
+    penalties: int = -1
+    stored: bool = False
+
+    @property
+    def table(self) -> str:
+        return "AUGMENTED_FACTOR" if self.matrix == "augmented" else "GRAM_FACTOR"
+
+
+class Loops(Replay):
+    """Lays out one function of a law.
+
+    Parameters
+    ----------
+    record : Record
+        The law.
+    part : Part
+        The function.
+    parameters : sequence of str
+        Parameters of the method.
+    first_vector : int
+        Scratch vectors that generic code has for itself.
+    """
+
+    def __init__(self, record: Record, part: Part, parameters: tuple[str, ...], first_vector: int = 2) -> None:
+        super().__init__(Graph(), record.operations)
+        self.part, self.parameters, self.vectors = part, parameters, first_vector
+        self.sections: dict[str, str] = {}
+        self.statements: list[Statement] = []
+        self.flagged, self.locals = False, 0
+        self.made: set[str] = set()
+        self.mask = self._leaf("mask", "m")
+
+    def function(self, positions: bool) -> LoopedFunction:
+        """Return the function; `positions` says whether an evaluation needs Phi."""
+        part, ends = self.part, self.ends
+        if part.name in _EVALUATE:
+            self.statements.append(Number((STATE, STATUS.index("power")), self.graph.zero))
+            for stage in ("FRAMES", "FULL" if positions else "MOTION"):
+                self._call("run", stage, "t", "y", "p", "w", "T", "w")
+        indices = self.needed
+        uses = Counter(i for index in indices for i in self._operands(index)) + Counter(end for _, end in ends)
+        reads = {str(self.operations[i].payload[0]) for i in indices if self.operations[i].kind in _PLACES}
+        # results of operations that can be left where they are wanted
+        self.goal = {end: place for place, end in reversed(ends) if place not in reads and "." not in place}
+        for index in indices:
+            self.run([index])
+            self._share(index, uses[index])
+        self._assign(ends)
+        return LoopedFunction(part, self.graph, tuple(self.statements), self.sections, self.vectors, self.flagged)
+
+    # -- what is computed where ----------------------------------------------------------------------------------------
+
+    @property
+    def ends(self) -> list[tuple[str, int]]:
+        """Outputs: of what is kept the operand, unless it stands in a place of its own already."""
+        found = []
+        for place, index in self.part.outputs:
+            operation = self.operations[index]
+            if not operation.kind.startswith("keep"):
+                found.append((place, index))
+            elif self.operations[operation.operands[0]].kind not in _SIMPLE:
+                found.append((place, operation.operands[0]))
+        return found
+
+    @property
+    def needed(self) -> list[int]:
+        """Operations that the function carries out."""
+        return needed((end for _, end in self.ends), self._operands)
+
+    def _operands(self, index: int) -> tuple[int, ...]:
+        """Return operands, none where the function reads what another one has kept."""
+        operation = self.operations[index]
+        kept = operation.kind.startswith("keep") and self.operations[operation.operands[0]].kind not in _SIMPLE
+        return () if kept else operation.operands
+
+    def _share(self, index: int, uses: int) -> None:
+        """Put an elementwise result that is used several times into a vector, so that it is computed once."""
+        value, size = self.values[index], self.operations[index].size
+        if uses > 1 and size and isinstance(value, tuple) and not self._is_simple(value[0]):
+            self.values[index] = self._leaf(self._place(value[0], size, index), size)
+
+    def _is_simple(self, node: int) -> bool:
+        return self.graph.nodes[node].op in ("const", "input")
+
+    def _leaf(self, section: str, size: str) -> Nodes:
+        """Return a section's general element."""
+        if section not in _NO_SECTIONS:
+            self.sections[section] = size
+        return (self.graph.input(section, 0),)
+
+    def _new(self, index: int, size: str) -> str:
+        """Return the section that an operation's result goes to: where it is wanted, or a scratch vector."""
+        goal = self.goal.pop(index, "")
+        if not goal:
+            goal = f"x{self.vectors}"
+            self.vectors += 1
+        self._leaf(goal, size)
+        return goal
+
+    def _place(self, node: int, size: str, index: int = -1) -> str:
+        """Return the section that holds a vector, computed first if it does not stand in one."""
+        payload = self.graph.nodes[node].payload
+        if isinstance(payload, tuple) and payload[0] not in _NO_SECTIONS:
+            return payload[0]
+        target = self._new(index, size)
+        self._loop(size, target, node)
+        return target
+
+    def _loop(self, size: str, target: str, node: int) -> None:
+        """Add a loop, or an assignment to the loop before it."""
+        last = self.statements[-1] if self.statements else None
+        if isinstance(last, Loop) and last.size == size:
+            self.statements[-1] = Loop(size, (*last.outputs, (target, node)))
+        else:
+            self.statements.append(Loop(size, ((target, node),)))
+
+    def _call(self, function: str, *arguments: str, result: str = "") -> None:
+        self.statements.append(Call(function, arguments, result))
+
+    def _local(self, node: int) -> int:
+        """Return a number as a local one, computed before the loop that reads it."""
+        op, _, payload = self.graph.nodes[node]
+        if op == "const" or (isinstance(payload, tuple) and payload[0] == LOCAL):
+            return node
+        self.statements.append(Number((LOCAL, self.locals), node))
+        self.locals += 1
+        return self.graph.input(LOCAL, self.locals - 1)
+
+    def each(self, function: Callable[..., int], *operands: Any) -> Any:
+        """Return a function of numbers and of the general element of vectors."""
+        if any(isinstance(x, tuple) for x in operands):
+            operands = tuple(x if isinstance(x, tuple) else self._local(x) for x in operands)
+        return super().each(function, *operands)
+
+    def _assign(self, ends: list[tuple[str, int]]) -> None:
+        """Write the outputs; a vector that reads a section which is written before it is computed first."""
+        vectors: list[tuple[str, str, int]] = []
+        for place, index in ends:
+            value, size = self.values[index], self.operations[index].size
+            if isinstance(value, _Factor):
+                self._make(replace(value, section=f"{place}lower") if place.endswith("_") else value)
+            elif place == "rates.q":
+                self._call("run", "RATES", "t", "y", "p", "w", "T", "ydot")
+            elif place == WORK or place.startswith("status."):
+                status = (STATE, STATUS.index(place.partition(".")[2])) if place != WORK else (WORK, 0)
+                self.statements.append(Number(status, value))
+            elif isinstance(value, tuple) and value != self._leaf(place, size):
+                reads = {self.graph.nodes[n].payload for n in self.graph.needed(value)}
+                if reads & {(written, 0) for _, written, _ in vectors}:
+                    value = self._leaf(self._place(value[0], size), size)
+                vectors.append((size, place, value[0]))
+        for size, place, node in vectors:
+            self._loop(size, place, node)
+
+    # -- named values --------------------------------------------------------------------------------------------------
+
+    def _on_quantity(self, operation: Operation) -> Nodes:
+        name = str(operation.payload[0])
+        return self._leaf({"f": "force"}.get(name, name), operation.size)
+
+    def _on_section(self, operation: Operation) -> Nodes:
+        return self._leaf(str(operation.payload[0]), operation.size)
+
+    def _on_zeros(self, operation: Operation) -> Nodes:
+        return (self.graph.zero,)
+
+    def _on_parameter(self, operation: Operation) -> int:
+        return self.graph.input(PARAMETER, self.parameters.index(str(operation.payload[0])))
+
+    def _on_status(self, operation: Operation) -> int:
+        return self.graph.input(STATE, STATUS.index(str(operation.payload[0])))
+
+    def _on_power(self, operation: Operation) -> int:
+        return self.graph.input(STATE, STATUS.index("power"))
+
+    def _on_flag(self, operation: Operation) -> None:
+        return None
+
+    def _on_geometry(self, operation: Operation, rank: None) -> None:
+        self._call("constrain", "t", "y", "p", "w", "T")
+        self._call("decide_rank", "T", "p", "w")
+
+    def _on_rank(self, operation: Operation) -> None:
+        return None
+
+    def _on_dot(self, operation: Operation, a: Nodes, b: Nodes) -> int:
+        node = self.graph.mul(a[0], b[0])
+        if node == self.graph.zero:
+            return node
+        driven = self.graph.input("nu", 0) in (a[0], b[0])  # nu is 0 where nothing is driven
+        self.statements.append(Total(self.locals, self.operations[operation.operands[0]].size, node, driven))
+        self.locals += 1
+        return self.graph.input(LOCAL, self.locals - 1)
+
+    # -- products ------------------------------------------------------------------------------------------------------
+
+    def _times(self, helper: str, operation: Operation, x: Nodes) -> Nodes:
+        if x[0] == self.graph.zero:
+            return x
+        source = self._place(x[0], self.operations[operation.operands[-1]].size)
+        target = self._new(self.at, operation.size)
+        self._call(helper, "T", "p", "w", source, target)
+        return self._leaf(target, operation.size)
+
+    def _on_constraints(self, operation: Operation) -> None:
+        return None
+
+    def _on_stored_constraints(self, operation: Operation) -> None:
+        return None
+
+    def _on_inverse_mass_root(self, operation: Operation) -> str:
+        return "root"  # of which only products with its transposed are formed, beside another one
+
+    def _on_times_transposed(self, operation: Operation, matrix: None, root: str) -> None:
+        return None
+
+    def _on_product(self, operation: Operation, matrix: None, x: Nodes) -> Nodes:
+        return self._times("rows_times", operation, x)
+
+    def _on_transposed(self, operation: Operation, matrix: str | None, y: Nodes) -> Nodes:
+        return self._times("columns_times" if matrix is None else "inverse_mass_times", operation, y)
+
+    def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:
+        return self._times("mass_times", operation, x)
+
+    def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
+        return self._times("inverse_mass_times", operation, x)
+
+    _on_free_acceleration = _on_minv
+
+    def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
+        return (self.graph.mul(self._leaf("gauge", "nv")[0], x[0]),)
+
+    # -- factorisations ------------------------------------------------------------------------------------------------
+
+    def _on_schur(self, operation: Operation) -> _Factor:
+        return _Factor("schur", "schur_lower")
+
+    def _on_pseudoinverse(self, operation: Operation, matrix: None) -> _Factor:
+        return _Factor("schur", "schur_lower")
+
+    def _on_weighted_mass(self, operation: Operation, rank: None) -> _Factor:
+        return _Factor("weighted", "law_lower")
+
+    def _on_weighted_identity(self, operation: Operation, rank: None) -> _Factor:
+        return _Factor("identity", "law_lower")
+
+    def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
+        return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
+
+    def _on_stored_factor(self, operation: Operation, factor: _Factor) -> _Factor:
+        return replace(factor, section=f"{operation.payload[0]}lower", stored=True)
+
+    def _on_solve(self, operation: Operation, factor: _Factor, right: Nodes) -> Nodes:
+        if right[0] == self.graph.zero:
+            return right
+        target = self._new(self.at, operation.size)
+        self._loop(operation.size, target, right[0])
+        half = self._make(factor, target)  # while numbers of the factor are at hand they are used
+        self._call("solve_rest" if half else "solve", "T", "p", "w", factor.table, factor.section, target)
+        return self._leaf(target, operation.size)
+
+    def _make(self, factor: _Factor, target: str = "") -> bool:
+        """Factorise a matrix unless that has been done; return whether half of the solution in `target` was, too."""
+        self.sections[factor.section] = "augmented" if factor.matrix == "augmented" else "gram"
+        if factor.stored or factor.section in self.made:
+            return False
+        self.made.add(factor.section)
+        name, last = ("factorise_forward", (target,)) if target else ("factorise", ())
+        if factor.matrix == "augmented":
+            self._call("augment", "T", "p", "w", self._place(factor.penalties, "m"), factor.section)
+            self._call(name, "T", "p", "w", factor.table, factor.section, "PLAIN_FACTOR", *last)
+            return bool(target)
+        if factor.matrix != "identity":
+            self._call("weigh", "T", "p", "w")
+        self._call("gram", "T", "p", "w", "0" if factor.matrix == "identity" else "1", factor.section)
+        masked = factor.matrix == "schur"
+        mode, result = ("MASKED_FACTOR", "suspicious") if masked else ("KEPT_FACTOR", "")
+        self._call(name, "T", "p", "w", factor.table, factor.section, mode, *last, result=result)
+        self.flagged = self.flagged or masked
+        return bool(target)
+
+    # -- what is kept --------------------------------------------------------------------------------------------------
+
+    def _on_keep(self, operation: Operation, x: Nodes | None) -> Nodes:
+        return self._leaf(str(operation.payload[0]), operation.size) if x is None else x
+
+    def _on_keep_constraints(self, operation: Operation, matrix: None) -> None:
+        return None
+
+    def _on_keep_factor(self, operation: Operation, factor: None) -> _Factor:
+        matrix = self.operations[operation.operands[0]].kind
+        return _Factor(matrix, f"{matrix}_lower", stored=True)
+
+
+#: Kinds of operations that stand in a place already, and those that need not be kept.
+_PLACES = ("quantity", "section")
+_SIMPLE = (*_PLACES, "zeros", "constraints")
+_NO_SECTIONS = (VELOCITIES, RATES, WORK, LOCAL, PARAMETER, STATE, "q_rates")
+
+#: Kinds of operations that have a meaning on whole vectors.
+KINDS = frozenset(ARITHMETIC) | {
+    name.removeprefix("_on_") for name in (*vars(Loops), *vars(Replay)) if name.startswith("_on_")
+}

@@ -1,0 +1,336 @@
+"""The functions of a law, its correction and its descriptor form as formulas, before anything is laid out.
+
+Code for one mechanism (`symgen.lower.law`) and loops for all (`symgen.lower.looped.law`) are two ways to lay it out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from symgen.errors import InputError
+from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, multiplier_law
+from symgen.methods._formula import Factor, Operation, Scalar, Value, Vector
+from symgen.methods._recorder import Recorder
+
+#: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
+EQUATIONS = ("q", "v", "first", "second", "third")
+
+
+@dataclass(frozen=True)
+class Part:
+    """A function of a law.
+
+    Parameters
+    ----------
+    name, purpose : str
+        Of the emitted function.
+    outputs : tuple of (str, int)
+        Where values go: a section of ``w``, ``status.NAME``, ``rates.q``, ``rates.v`` or ``rates.work`` of the state,
+        a group of `EQUATIONS`; and which operation gives them.
+    flag : int, optional
+        The operation that says whether a pivot was suspicious.
+    role : {"acceleration", "iteration", "metric", "form"}
+        What the function is a part of.
+    """
+
+    name: str
+    purpose: str
+    outputs: tuple[tuple[str, int], ...]
+    flag: int | None = None
+    role: str = "acceleration"
+
+
+@dataclass(frozen=True)
+class Record:
+    """A law as formulas.
+
+    Parameters
+    ----------
+    operations : tuple of Operation
+        What was asked for, in that order.
+    parts : tuple of Part
+        The functions, in the order of their text.
+    sections : tuple of (str, tuple of str)
+        Sections of ``w`` of the law's own, and the sizes that are multiplied; none: as much as is written to it.
+    form : str
+        How v' is found: ``direct``, ``iterated``, ``dense`` or ``tangent``; of a descriptor form its level.
+    """
+
+    operations: tuple[Operation, ...]
+    parts: tuple[Part, ...]
+    sections: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    form: str = ""
+
+
+def record_law(method: Method, options: Mapping[str, str]) -> Record:
+    """Record what a method asks for: its acceleration law, and its correction where the model's does not do."""
+    found = _Law(method)
+    found.law(method.law(found.system, options))
+    correction = method.correction(options)
+    found.role = "metric"
+    if correction.any and correction.metric != "scaled":  # which is the model's own
+        getattr(found, f"{correction.metric}_metric")()
+    return found.record()
+
+
+class _Law:
+    def __init__(self, method: Method | None) -> None:
+        self.system = Recorder(() if method is None else [p.name for p in method.parameters])
+        self.parts: list[Part] = []
+        self.sections: dict[str, tuple[str, ...]] = {}
+        self.form, self.role = "", "acceleration"
+
+    def record(self) -> Record:
+        return Record(tuple(self.system.tape.operations), tuple(self.parts), tuple(self.sections.items()), self.form)
+
+    def add(self, name: str, purpose: str, *outputs: tuple[str, Value], flag: Value | None = None) -> None:
+        found = tuple((place, value.index) for place, value in outputs)
+        self.parts.append(Part(name, purpose, found, None if flag is None else flag.index, self.role))
+
+    def law(self, law: Law) -> None:
+        if isinstance(law, Acceleration):
+            self.form, flag = "direct", self.system.flag()
+            outputs = [*self.rates(law.acceleration, law.multipliers), ("multipliers", law.multipliers)]
+            self.add("rhs", "q', v', power and multipliers", *outputs, flag=flag)
+        elif isinstance(law, Iteration):
+            self.iterated(law)
+        elif isinstance(law, Dense):
+            self.dense(law)
+        else:
+            self.tangent()
+
+    def rates(
+        self,
+        acceleration: Vector,
+        multipliers: Vector,
+        position: Vector | None = None,
+        velocities: Vector | None = None,
+    ) -> list[tuple[str, Value]]:
+        """Return the rates of the state; forces do work at `velocities` where these are not the state's."""
+        s = self.system
+        power = s.power if velocities is None else s.power.made(Scalar, "at_velocity", s.power, velocities)
+        work = power - multipliers.dot(s.nu)
+        return [("rates.q", position or s.q_rates), ("rates.v", acceleration), ("rates.work", work)]
+
+    def iterated(self, law: Iteration) -> None:
+        """Add what an iterated law is put together from: ``begin``, ``iterate`` and ``finish``."""
+        s, self.form = self.system, "iterated"
+        first, change = law.state[0], law.increment
+        # in the metric of M, beside a motion at the mechanism's speed
+        speed, length = s.scale("speed_scale"), s.scale("length_scale")
+        usual = speed if law.rates is not None else speed * speed / length
+        least = s.scale("mean_mass") * usual * usual
+        relative = (change.dot(s.mass(change)) / (least + first.following.dot(s.mass(first.following)))).root()
+        final = [s.variable(state.section, state.start.size) for state in law.state]
+        if law.rates is None:
+            finish = self.rates(final[0], final[1])
+        else:
+            rates = law.rates
+            finish = self.rates(rates.velocity, rates.multipliers, rates.position, rates.velocities)
+            # what is integrated is not v: v' and lambda for results come from a law of their own
+            observed = multiplier_law(s, s.gamma)
+            outputs = [*self.rates(observed.acceleration, observed.multipliers), ("multipliers", observed.multipliers)]
+            self.add("rates", "q', v' and multipliers for results", *outputs)
+        for name, _ in s.tape.stored:
+            self.sections[name] = ()
+        for state in law.state:
+            if state.section != "multipliers":
+                self.sections[state.section] = (state.start.size,)
+        begin = [*s.tape.stored, *((state.section, state.start) for state in law.state)]
+        following = [(state.section, state.following) for state in law.state]
+        self.add("begin", "matrices and start of the iteration", *begin)
+        self.role = "iteration"
+        self.add("iterate", "one iteration", *following, ("status.increment", relative))
+        self.add("finish", "rates of the state, and power", *finish)
+
+    # -- laws on dense matrices ----------------------------------------------------------------------------------------
+
+    def expanded(self) -> None:
+        """Add D as a dense matrix, for the choice of independent columns, or for an orthogonal factorisation."""
+        if "dense" not in self.sections:
+            self.sections |= {"dependent": ("nv",), "dense": ("m", "nv")}
+            self.add("expand", "D as a dense matrix", ("dense", self.system.stored_constraints()))
+
+    def tangent(self) -> None:
+        """Add what a law on a tangent basis is put together from."""
+        s, self.form = self.system, "tangent"
+        self.expanded()
+        basis = ("nv", "degrees")
+        self.sections |= {"basis": basis, "trial": basis, "small": ("degrees", "degrees"), "reduced": ("degrees",)}
+        self.sections |= {"force": ("nv",), "weighed": ("nv",)}
+        constraints, factor = s.stored_constraints(), s.stored_factor(s.rank_factor(), "")
+        change, accelerations = s.variable("change", "nv"), s.variable("rates.v", "nv")
+        multipliers = s.solve(factor, constraints @ s.gauged(s.f - s.mass(accelerations)))
+        work = s.power - multipliers.dot(s.nu)
+        aim = [("residual", -s.gamma), ("force", s.f)]
+        struck, weighed = constraints @ change, s.mass(change)
+        self.add("aim", "the section `residual` = -gamma, the section `force` = f", *aim)
+        self.add("strike", "the section `residual` = D times `change`", ("residual", struck))
+        self.add("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
+        finish = (("rates.q", s.q_rates), ("multipliers", multipliers), ("rates.work", work))
+        self.add("finish", "q', power and multipliers", *finish)
+
+    def dense(self, law: Dense) -> None:
+        """Add what a law on an orthogonal factorisation of D^T is put together from."""
+        s, self.form = self.system, "dense"
+        self.expanded()
+        self.sections |= {name: ("m",) for name in ("row_length", "row_chosen", "row_corner", "row_factor")}
+        self.sections |= {"basis": ("nv", "nv"), "small": ("nv", "nv"), "reduced": ("nv",), "force": ("nv",)}
+        self.sections["weighed"] = ("nv",)
+        change, multipliers = s.variable("change", "nv"), s.variable("multipliers", "m")
+        work, weighed = s.power - multipliers.dot(s.nu), s.mass(change)
+        aim = (("residual", law.target), ("force", s.f))
+        self.add("aim", "the section `residual` = what D v' shall be, `force` = f", *aim)
+        self.add("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
+        self.add("finish", "q' and power", ("rates.q", s.q_rates), ("rates.work", work))
+
+    # -- metrics of corrections ----------------------------------------------------------------------------------------
+
+    def metric(self, matrix: str, rank: Factor, *outputs: tuple[str, Value]) -> None:
+        purpose = f"Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of {matrix}"
+        self.sections |= {"law_lower": (), "law_reciprocal": ()}
+        self.add("geometry", purpose, ("geometry", self.system.geometry(rank)), *outputs)
+
+    def spread(self, change: Vector) -> None:
+        self.add("spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change))
+
+    def identity_metric(self) -> None:
+        """Add geometry and spread in the metric of the identity, in which 1 rad weighs as 1 m: D D^T."""
+        s = self.system
+        rank = s.rank_factor()
+        factor = s.weighted_factor(rank, "identity")
+        self.metric("D D^T", rank, ("law_", factor))
+        self.spread(_change(s, s.stored_factor(factor, "law_")))
+
+    def mass_metric(self) -> None:
+        """Add geometry and spread in the metric of M: S = D M^-1 D^T, rows skipped as D G D^T decides."""
+        s = self.system
+        rank = s.rank_factor()
+        factor = s.weighted_factor(rank, "mass")
+        self.metric("D M^-1 D^T", rank, ("law_", factor))
+        self.spread(s.minv(_change(s, s.stored_factor(factor, "law_"))))
+
+    def independent_metric(self) -> None:
+        """Add geometry and spread that change dependent coordinates only: W^-1 = P G, with P in ``dependent``."""
+        s = self.system
+        self.expanded()
+        chosen, rank = s.variable("dependent", "nv"), s.rank_factor()
+        factor = s.weighted_factor(rank, "dependent")
+        quality = s.partition_quality(rank, factor)
+        self.metric("D P D^T", rank, ("status.partition_quality", quality), ("law_", factor))
+        self.spread(chosen.times(s.gauged(_change(s, s.stored_factor(factor, "law_")))))
+
+    def augmented_metric(self) -> None:
+        """Add the mass-orthogonal projection by iterations with M + a D^T D (Bayo and Ledesma 1996).
+
+        ``(M + a D^T D) dv = -M delta - D^T (a r + lambda)``, ``delta += dv``, ``lambda += a r`` with the residual r of
+        positions or velocities after the change; delta and lambda are kept in sections of their own. The block raises
+        lambda before it solves, so lambda begins at -a r.
+        """
+        s = self.system
+        penalties, rank = s.penalties(s.parameter("penalty")), s.rank_factor()
+        factor = s.augmented_factor(penalties)
+        self.metric("M + a D^T D", rank, ("law_", factor))
+        self.sections |= {"moved": ("nv",), "force_of_constraints": ("m",)}
+        residual, moved = s.variable("residual", "m"), s.variable("moved", "nv")
+        raised = s.variable("force_of_constraints", "m") + penalties.times(residual)
+        pressed = raised + penalties.times(residual)
+        right = s.mass(moved) + s.stored_constraints().transposed(pressed)
+        x = s.solve(s.stored_factor(factor, "law_"), -right)
+        outputs = (("change", x), ("moved", moved + x), ("force_of_constraints", raised))
+        self.add("spread", "one iteration of the mass-orthogonal projection", *outputs)
+
+
+def _change(s: Recorder, factor: Factor) -> Vector:
+    """Return ``-D^T (D W D^T)^-1 r`` of the section ``residual``."""
+    y = s.solve(factor, -s.variable("residual", "m"))
+    return s.stored_constraints().transposed(y)
+
+
+def record_model() -> Record:
+    """Record what all methods share: geometry with the factor that decides rank, and x = -G D^T (D G D^T)^-1 r.
+
+    G makes rows of one unit: 1 for translations, 1 / l^2 for rotations, l being the length of the body.
+    """
+    found = _Law(None)
+    s = found.system
+    rank = s.rank_factor()
+    purpose = "Phi, nu, D, and the factorisation of D G D^T that decides rank"
+    found.add("geometry", purpose, ("geometry", s.geometry(rank)), ("", rank))
+    found.spread(s.gauged(_change(s, s.stored_factor(rank, ""))))
+    return found.record()
+
+
+# -- descriptor forms --------------------------------------------------------------------------------------------------
+
+
+def record_form(method: Method, options: Mapping[str, str], kind: str = "whole") -> Record:
+    """Record a method's descriptor form F(t, y, k) = 0: one part ``residual`` with groups of equations.
+
+    Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are ``q' - N (v -
+    D^T eta)``, ``M v' + D^T lambda - f``, and the constraints at the level of the method: ``D v' - g - e lambda``
+    (acceleration); ``Phi``, with ``D v - nu`` in nonholonomic rows (position); both (stabilised); or ``Phi`` with the
+    two other levels behind the equations, for projections (projected).
+
+    Parameters
+    ----------
+    method, options : Method, mapping
+        The method with its structural options, complete.
+    kind : {"whole", "body", "joint", "force"}
+        Whether all equations are meant, or what an element of that kind adds to them.
+
+    Raises
+    ------
+    InputError
+        If the method has no such form.
+    """
+    s = Recorder([p.name for p in method.parameters])
+    form = method.descriptor(s, options)
+    if form is None:
+        what = f"'{method.name}', which has no form for implicit integrators"
+        raise InputError(f"method '{method.name}'", "a method with a descriptor form", what)
+    q_rates, accelerations = s.variable("k_q", "nq"), s.variable("k_v", "nv")
+    multipliers, eta = s.variable("k_first", "m"), s.variable("k_second", "m")
+    found: list[tuple[str, Value]] = []
+    if kind in ("whole", "body"):
+        kinematic, dynamic = q_rates - s.q_rates, s.mass(accelerations)
+        if kind == "whole":
+            dynamic = dynamic + s.D.transposed(multipliers)
+        dynamic = dynamic - s.f
+        if kind == "whole" and form.level == "stabilised":  # N times a change of v: q' with that change in place of v
+            kinematic = kinematic + s.at_velocity(s.q_rates, s.D.transposed(eta))
+        found += [("q", kinematic), ("v", dynamic)]
+    if kind in ("whole", "joint"):
+        found += zip(EQUATIONS[2:], _constraints(s, form, accelerations, multipliers), strict=False)
+    drivers = multipliers.dot(s.nu)
+    if kind == "joint":
+        found.append(("v", s.D.transposed(multipliers)))
+        if form.level == "stabilised":
+            found.append(("q", s.at_velocity(s.q_rates, s.D.transposed(eta))))
+    if kind == "force":
+        found.append(("v", -s.f))
+    power: Scalar = {"whole": s.power - drivers, "joint": -drivers}.get(kind, s.power)
+    if kind != "body":
+        found.append(("power", power))
+    part = Part(
+        "residual",
+        "F(t, y, k) of the descriptor form, and the power",
+        tuple((g, v.index) for g, v in found),
+        role="form",
+    )
+    return Record(tuple(s.tape.operations), (part,), form=form.level)
+
+
+def _constraints(s: Recorder, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
+    """Return the equations of constraints in groups of m, and rows behind the equations that projections need."""
+    velocity = s.D @ s.v - s.nu
+    if form.level == "position":
+        return [s.holonomic_or(velocity)]
+    if form.level == "stabilised":
+        return [velocity, s.holonomic_or(s.variable("k_second", "m"))]
+    assert form.target is not None, "a descriptor at acceleration level has a target"
+    rest = s.D @ accelerations - form.target
+    if form.level == "projected":
+        return [s.holonomic_or(velocity), velocity, rest]
+    return [rest if form.compliance is None else rest - form.compliance * multipliers]

@@ -1,0 +1,77 @@
+"""The tape of a formula, operation by operation: what straight and looped layout have in common."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from symgen.ir.graph import Graph
+from symgen.methods._formula import Operation
+
+Nodes = tuple[int, ...]
+
+
+class Replay:
+    """Carries out operations of a tape in a graph.
+
+    A vector is a tuple of nodes: one an element, or one for the general element of a loop. A scalar is a node. Kinds of
+    operations are methods of subclasses, called ``_on_<kind>``; arithmetic is here.
+
+    Parameters
+    ----------
+    graph : Graph
+        Where nodes are made.
+    operations : tuple of Operation
+        The tape.
+
+    Attributes
+    ----------
+    mask : tuple of int
+        Numbers added to the pivots of S: 0, or infinite in rows that the runtime leaves out.
+    at : int
+        The operation that is being carried out.
+    """
+
+    mask: Nodes
+
+    def __init__(self, graph: Graph, operations: tuple[Operation, ...]) -> None:
+        self.graph, self.operations = graph, operations
+        self.values: dict[int, Any] = {}
+
+    def run(self, indices: Iterable[int]) -> None:
+        """Carry out operations that have not been carried out yet, in their order."""
+        for index in indices:
+            if index not in self.values:
+                operation, self.at = self.operations[index], index
+                operands = [self.values.get(i) for i in operation.operands]
+                arithmetic = ARITHMETIC.get(operation.kind)
+                if arithmetic is not None:
+                    self.values[index] = self.each(getattr(self.graph, arithmetic), *operands)
+                else:
+                    self.values[index] = getattr(self, f"_on_{operation.kind}")(operation, *operands)
+
+    def each(self, function: Callable[..., int], *operands: Any) -> Any:
+        """Return a function of scalars and of the elements of vectors."""
+        lengths = [len(x) for x in operands if isinstance(x, tuple)]
+        if not lengths:
+            return function(*operands)
+        return tuple(function(*(x[i] if isinstance(x, tuple) else x for x in operands)) for i in range(lengths[0]))
+
+    def _on_constant(self, operation: Operation) -> int:
+        (value,) = operation.payload
+        return self.graph.constant(float(value))
+
+    def _on_sqrt(self, operation: Operation, x: int) -> int:
+        return self.graph.call("sqrt", x)
+
+    def _on_min(self, operation: Operation, a: int, b: int) -> int:
+        return self.graph.call("min", a, b)
+
+    def _on_penalties(self, operation: Operation, penalty: int) -> Nodes:
+        g = self.graph
+        found: Nodes = self.each(lambda mask, a: g.mul(a, g.call("step", g.one, mask)), self.mask, penalty)
+        return found
+
+
+#: Kinds of operations that are arithmetic, by the graph's name for them.
+ARITHMETIC = {**{kind: kind for kind in ("add", "sub", "mul", "div", "neg")}, "pow": "power"}

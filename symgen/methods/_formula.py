@@ -1,0 +1,306 @@
+"""What a method may ask of the equations of motion, and the values it gets: formulas on whole vectors.
+
+Nothing is computed while a method writes its law. Every value stands for an operation on a `Tape`, which holds what was
+asked for in the order in which it was asked for. Code for one mechanism replays the tape element by element
+(`symgen.lower.scalar`), code for all mechanisms lays it out as loops (`symgen.lower.looped.loops`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Protocol, TypeVar, overload
+
+_Made = TypeVar("_Made", bound="Value")
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One step of a formula.
+
+    Parameters
+    ----------
+    kind : str
+        What is done: arithmetic (``add``, ``dot``, ...), or what `System` offers (``minv``, ``solve``, ...).
+    operands : tuple of int
+        Indices of earlier operations.
+    payload : tuple of str or float
+        Names of sections and parameters, literals.
+    size : {"", "nq", "nv", "m"}
+        Length of the result; empty where it is no vector.
+    """
+
+    kind: str
+    operands: tuple[int, ...] = ()
+    payload: tuple[str | float, ...] = ()
+    size: str = ""
+
+
+@dataclass(eq=False)
+class Tape:
+    """Operations in the order in which they were asked for; the same operation stands there once.
+
+    Attributes
+    ----------
+    stored : list of (str, Value)
+        Sections of ``w``, and what is kept in them between the functions of a law.
+    """
+
+    operations: list[Operation] = field(default_factory=list)
+    stored: list[tuple[str, Value]] = field(default_factory=list)
+    _index: dict[Operation, int] = field(default_factory=dict)
+
+    def add(self, operation: Operation) -> int:
+        """Return the index of an operation, appended where it is new."""
+        found = self._index.setdefault(operation, len(self.operations))
+        if found == len(self.operations):
+            self.operations.append(operation)
+        return found
+
+    def constant(self, value: float) -> Scalar:
+        """Return a literal."""
+        return Scalar(self, self.add(Operation("constant", payload=(float(value),))))
+
+    def named(self, cls: type[_Made], kind: str, *names: str, size: str = "") -> _Made:
+        """Return what stands under a name."""
+        return cls(self, self.add(Operation(kind, (), names, size)))
+
+    def kept(self, cls: type[_Made], kind: str, section: str, x: Value, size: str = "") -> _Made:
+        """Return a value as it is read from a section."""
+        found = cls(self, self.add(Operation(kind, (x.index,), (section,), size)))
+        self.stored.append((section, found))
+        return found
+
+
+def needed(ends: Iterable[int], operands: Callable[[int], tuple[int, ...]]) -> list[int]:
+    """Return the indices of all operations that `ends` depend on through their `operands`, in their order."""
+    seen: set[int] = set()
+    waiting = list(ends)
+    while waiting:
+        index = waiting.pop()
+        if index not in seen:
+            seen.add(index)
+            waiting += operands(index)
+    return sorted(seen)
+
+
+@dataclass(frozen=True, eq=False)
+class Value:
+    """What an operation gives."""
+
+    tape: Tape
+    index: int
+
+    def made(self, cls: type[_Made], kind: str, *operands: Value, size: str = "") -> _Made:
+        """Return what an operation on values gives."""
+        return cls(self.tape, self.tape.add(Operation(kind, tuple(v.index for v in operands), (), size)))
+
+
+class Vector(Value):
+    """A vector with elementwise arithmetic."""
+
+    @property
+    def size(self) -> str:
+        """Name of its length: ``nq``, ``nv`` or ``m``."""
+        return self.tape.operations[self.index].size
+
+    def __add__(self, other: Vector) -> Vector:
+        return self.made(Vector, "add", self, other, size=self.size)
+
+    def __sub__(self, other: Vector) -> Vector:
+        return self.made(Vector, "sub", self, other, size=self.size)
+
+    def __neg__(self) -> Vector:
+        return self.made(Vector, "neg", self, size=self.size)
+
+    def times(self, other: Vector) -> Vector:
+        """Return the elementwise product."""
+        return self.made(Vector, "mul", self, other, size=self.size)
+
+    def dot(self, other: Vector) -> Scalar:
+        """Return the inner product."""
+        return self.made(Scalar, "dot", self, other)
+
+
+class Scalar(Value):
+    """A number with arithmetic, so that a method's formula reads like the textbook's."""
+
+    def __add__(self, other: Scalar) -> Scalar:
+        return self.made(Scalar, "add", self, other)
+
+    def __sub__(self, other: Scalar) -> Scalar:
+        return self.made(Scalar, "sub", self, other)
+
+    def __neg__(self) -> Scalar:
+        return self.made(Scalar, "neg", self)
+
+    def __truediv__(self, other: Scalar) -> Scalar:
+        return self.made(Scalar, "div", self, other)
+
+    @overload
+    def __mul__(self, other: Scalar) -> Scalar: ...
+    @overload
+    def __mul__(self, other: Vector) -> Vector: ...
+    def __mul__(self, other: Scalar | Vector) -> Scalar | Vector:
+        if isinstance(other, Vector):
+            return self.made(Vector, "mul", self, other, size=other.size)
+        return self.made(Scalar, "mul", self, other)
+
+    def __rmul__(self, factor: float) -> Scalar:
+        return self.tape.constant(factor) * self
+
+    def __pow__(self, exponent: int) -> Scalar:
+        return self.made(Scalar, "pow", self, self.tape.constant(exponent))
+
+    def root(self) -> Scalar:
+        """Return the square root."""
+        return self.made(Scalar, "sqrt", self)
+
+    def smaller(self, other: Scalar) -> Scalar:
+        """Return the smaller of two scalars."""
+        return self.made(Scalar, "min", self, other)
+
+
+class Matrix(Value):
+    """A matrix of which only products are formed: D by rows, or a root of M^-1."""
+
+    def __matmul__(self, x: Vector) -> Vector:
+        return self.made(Vector, "product", self, x, size="m")
+
+    def transposed(self, y: Vector) -> Vector:
+        """Return the transposed matrix times a vector."""
+        return self.made(Vector, "transposed", self, y, size="nv")
+
+    def times_transposed(self, other: Matrix) -> Matrix:
+        """Return this matrix times the transposed of another one."""
+        return self.made(Matrix, "times_transposed", self, other)
+
+
+class Factor(Value):
+    """A factorisation L D L^T of a symmetric matrix."""
+
+
+class System(Protocol):
+    """The equations as a method sees them: named vectors and matrices, products and solves.
+
+    Attributes
+    ----------
+    tape : Tape
+        Where operations are noted down.
+    D : Matrix
+        Velocity Jacobian of the constraints.
+    f, gamma, nu, phi, v, q_rates : Vector
+        As in the notation, q_rates = N v; `phi` is zero in nonholonomic rows.
+    """
+
+    tape: Tape
+    D: Matrix
+    f: Vector
+    gamma: Vector
+    nu: Vector
+    phi: Vector
+    v: Vector
+    q_rates: Vector
+
+    def parameter(self, name: str) -> Scalar:
+        """Return a parameter of the method."""
+        return self.tape.named(Scalar, "parameter", name)
+
+    def scale(self, name: str) -> Scalar:
+        """Return a number of the status that the runtime sets: ``mean_mass``, ``length_scale``, ``step``, ..."""
+        return self.tape.named(Scalar, "status", name)
+
+    @property
+    def heavy_penalty(self) -> Scalar:
+        """1e5 times the mean mass, that of rotations being I / l^2: few iterations, and few digits lost [kg]."""
+        return self.tape.constant(1e5) * self.scale("mean_mass")
+
+    @property
+    def inverse_step(self) -> Scalar:
+        """One over the step that is being taken [1/s]."""
+        return self.inverse(self.scale("step"))
+
+    def inverse(self, x: Scalar) -> Scalar:
+        """Return 1 / x."""
+        return self.tape.constant(1.0) / x
+
+    def zeros(self, size: str) -> Vector:
+        """Return the zero vector of a size."""
+        return self.tape.named(Vector, "zeros", size=size)
+
+    # -- M -------------------------------------------------------------------------------------------------------------
+
+    def mass(self, x: Vector) -> Vector:
+        """Return M x."""
+        return x.made(Vector, "mass", x, size="nv")
+
+    def minv(self, x: Vector) -> Vector:
+        """Return M^-1 x."""
+        return x.made(Vector, "minv", x, size="nv")
+
+    @property
+    def free_acceleration(self) -> Vector:
+        """M^-1 f, or 0 where M is singular: the start of iterations."""
+        return self.f.made(Vector, "free_acceleration", self.f, size="nv")
+
+    @property
+    def inverse_mass_root(self) -> Matrix:
+        """L^-T with M = L L^T, by rows of L^-1; any root serves a least-squares solution in the metric of M."""
+        return self.tape.named(Matrix, "inverse_mass_root")
+
+    # -- factorisations ------------------------------------------------------------------------------------------------
+
+    def solve(self, factor: Factor, right: Vector) -> Vector:
+        """Return the solution for a right-hand side."""
+        return right.made(Vector, "solve", factor, right, size=right.size)
+
+    def solve_schur(self, right: Vector) -> Vector:
+        """Return lambda with ``S lambda = right``, S = D M^-1 D^T.
+
+        Rows masked by the runtime are left out, and a small pivot raises the flag that the law returns.
+        """
+        return self.solve(self.tape.named(Factor, "schur"), right)
+
+    def pseudoinverse_factor(self, matrix: Matrix) -> Factor:
+        """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `solve_schur`."""
+        return matrix.made(Factor, "pseudoinverse", matrix)
+
+    def penalties(self, penalty: Scalar) -> Vector:
+        """Return the penalty of each row, 0 for rows that the runtime leaves out.
+
+        A row that depends on others where the constraints hold does so no more at the stages of a step, where they hold
+        to the integrator's error only: a penalty on what it adds there would pull at the motion itself.
+        """
+        return penalty.made(Vector, "penalties", penalty, size="m")
+
+    def augmented_factor(self, penalties: Vector) -> Factor:
+        """Return the factor of ``M + D^T a D``, a by rows, which is positive definite whatever the rank of D."""
+        return penalties.made(Factor, "augmented", penalties)
+
+    # -- what an iterated law keeps in w -------------------------------------------------------------------------------
+
+    def keep(self, section: str, x: Vector) -> Vector:
+        """Store a vector in a section once per evaluation; return it as the iteration reads it."""
+        return self.tape.kept(Vector, "keep", section, x, x.size)
+
+    def keep_constraints(self) -> Matrix:
+        """Store D; return it as the iteration reads it."""
+        return self.tape.kept(Matrix, "keep_constraints", "kept_jacobian", self.D)
+
+    def keep_factor(self, factor: Factor) -> Factor:
+        """Store a factor; return it as the iteration reads it."""
+        return self.tape.kept(Factor, "keep_factor", "kept_factor", factor)
+
+    def variable(self, section: str, size: str) -> Vector:
+        """Return a vector that the iteration changes, as it reads it from a section."""
+        return self.tape.named(Vector, "section", section, size=size)
+
+    # -- along the motion ----------------------------------------------------------------------------------------------
+
+    def at_velocity(self, x: Vector, v: Vector) -> Vector:
+        """Return a vector with the velocities replaced by `v`."""
+        return x.made(Vector, "at_velocity", x, v, size=x.size)
+
+    def constraint_rate_transposed(self, y: Vector, v: Vector) -> Vector:
+        """Return (dD/dt)^T y along the motion with velocities `v`."""
+        return y.made(Vector, "constraint_rate_transposed", y, v, size="nv")

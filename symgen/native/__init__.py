@@ -1,0 +1,1 @@
+"""From the source of emitted functions to machine code, without Numba's front end."""

@@ -1,0 +1,183 @@
+"""The language of emitted functions after checking: numbers, elements of arrays, loops and choices, each with its type.
+
+A value is a ``float`` (64 bits), an ``int`` (64 bits, signed) or a ``bool``; arrays are one-dimensional and contiguous.
+Nothing here knows Python's syntax or a target: `symgen.native.read` makes these values, `symgen.native.llvm` prints
+them.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import msgspec
+
+Scalar = Literal["float", "int", "bool"]
+
+
+class Parameter(msgspec.Struct, frozen=True, gc=False):
+    """An argument of a function: a number, or an array of numbers."""
+
+    name: str
+    type: Scalar
+    array: bool = False
+
+
+class Constant(msgspec.Struct, frozen=True, gc=False):
+    """A number written in the source."""
+
+    type: Scalar
+    value: float | int | bool
+
+
+class Variable(msgspec.Struct, frozen=True, gc=False):
+    """A local variable or a number that is an argument."""
+
+    type: Scalar
+    name: str
+
+
+class Element(msgspec.Struct, frozen=True, gc=False):
+    """An element of an array; indices count from 0 and are never negative."""
+
+    type: Scalar
+    array: str
+    index: Expression
+
+
+class Operation(msgspec.Struct, frozen=True, gc=False):
+    """An operation on values: arithmetic, a comparison, a mathematical function or a conversion.
+
+    Arithmetic: ``add sub mul div floordiv mod pow neg abs min max``; on booleans ``and or not``, without skipping what
+    stands right; comparisons: ``lt le gt ge eq ne``; conversions: ``float``, ``int``, ``bool``; functions are called
+    ``math.sin`` and the like. Arguments of arithmetic and comparisons have one type.
+    """
+
+    type: Scalar
+    name: str
+    arguments: tuple[Expression, ...]
+
+
+class Logic(msgspec.Struct, frozen=True, gc=False):
+    """``and`` or ``or`` of two booleans, where the second is evaluated only if the first does not decide."""
+
+    name: Literal["and", "or"]
+    first: Expression
+    second: Expression
+    type: Scalar = "bool"
+
+
+class Choice(msgspec.Struct, frozen=True, gc=False):
+    """One of two values, of which only that one is evaluated."""
+
+    type: Scalar
+    test: Expression
+    chosen: Expression
+    otherwise: Expression
+
+
+class Call(msgspec.Struct, frozen=True, gc=False):
+    """A call of another function; arrays are handed on by name."""
+
+    type: Scalar
+    function: Function
+    arguments: tuple[Expression | str, ...]
+
+
+Expression = Constant | Variable | Element | Operation | Logic | Choice | Call
+
+
+class Assign(msgspec.Struct, frozen=True, gc=False):
+    """Give a variable a value."""
+
+    name: str
+    value: Expression
+
+
+class Store(msgspec.Struct, frozen=True, gc=False):
+    """Give an element of an array a value."""
+
+    array: str
+    index: Expression
+    value: Expression
+
+
+class If(msgspec.Struct, frozen=True, gc=False):
+    """Statements of which one list is executed."""
+
+    test: Expression
+    then: tuple[Statement, ...]
+    otherwise: tuple[Statement, ...]
+
+
+class While(msgspec.Struct, frozen=True, gc=False):
+    """Statements repeated for as long as a test holds."""
+
+    test: Expression
+    body: tuple[Statement, ...]
+
+
+class For(msgspec.Struct, frozen=True, gc=False):
+    """Statements repeated for ``range(start, stop, step)``; the step is a constant."""
+
+    name: str
+    start: Expression
+    stop: Expression
+    step: int
+    body: tuple[Statement, ...]
+
+
+class Leave(msgspec.Struct, frozen=True, gc=False):
+    """``break`` or ``continue`` of the innermost loop."""
+
+    how: Literal["break", "continue"]
+
+
+class Return(msgspec.Struct, frozen=True, gc=False):
+    """The end of the function."""
+
+    value: Expression
+
+
+class Evaluate(msgspec.Struct, frozen=True, gc=False):
+    """A call whose result is not wanted."""
+
+    call: Call
+
+
+Statement = Assign | Store | If | While | For | Leave | Return | Evaluate
+
+
+class Function(msgspec.Struct, frozen=True, gc=False):
+    """A function whose types are known.
+
+    Attributes
+    ----------
+    name : str
+        As in the source.
+    parameters : tuple of Parameter
+        Arguments.
+    returned : {"float", "int"}
+        Type of the result.
+    body : tuple of Statement
+        What is done.
+    variables : dict of str to {"float", "int", "bool"}
+        Local variables.
+    fixed : frozenset of str
+        Variables that are assigned once, by a statement of the body itself: names of values, which need no memory.
+    tables : dict of str to tuple of float
+        Constant arrays that the function reads.
+    called : tuple of Function
+        Functions that it calls, each once, in the order of their first call.
+    source : object
+        What this was read from.
+    """
+
+    name: str
+    parameters: tuple[Parameter, ...]
+    returned: Scalar
+    body: tuple[Statement, ...]
+    variables: dict[str, Scalar]
+    fixed: frozenset[str]
+    tables: dict[str, tuple[float, ...]]
+    called: tuple[Function, ...]
+    source: object

@@ -1,0 +1,113 @@
+"""How far two motions are apart: the largest distance between corresponding points of the bodies.
+
+The points of a body are its centre of mass and the tips of its axes at the body's own length, so that an error of an
+angle counts as the distance it moves the body's far end.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.describe.orientation import matrix
+
+Array = NDArray[np.float64]
+
+
+def own_length(body: AnyBody, parameters: Mapping[str, float]) -> float:
+    """Return a body's own length [m]: 0 for a point mass.
+
+    The largest distance of a named point from the centre of mass, and at least the largest radius of gyration, which is
+    all that a body without points has.
+    """
+    if body.inertia is None:
+        return 0.0
+    where = f"bodies.{body.name}"
+    centre = [evaluate(e, parameters, where) for e in body.centre_of_mass]
+    mass = evaluate(body.mass, parameters, where)
+    moments = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
+    inertia = max(evaluate(e, parameters, where) for e in moments)
+    longest = math.sqrt(abs(inertia / mass)) if mass else 0.0
+    for _, point in body.points:
+        away = [evaluate(e, parameters, where) - c for e, c in zip(point, centre, strict=True)]
+        longest = max(longest, math.hypot(*away))
+    return longest
+
+
+@dataclass(frozen=True)
+class Points:
+    """The points of a mechanism's bodies as functions of its coordinates.
+
+    Attributes
+    ----------
+    bodies : tuple of (int, float)
+        For each body where its coordinates begin, and its own length; 0 for a point mass.
+    dimension : int
+        2 in the plane, 3 in space.
+    """
+
+    bodies: tuple[tuple[int, float], ...]
+    dimension: int = 2
+
+    @classmethod
+    def of(cls, mechanism: Mechanism, parameters: Mapping[str, float]) -> Points:
+        """Collect the bodies of `mechanism` with the lengths that they have at these parameters."""
+        bodies, first = [], 0
+        for body in mechanism.bodies:
+            bodies.append((first, own_length(body, parameters)))
+            first += len(body.coordinates)
+        return cls(tuple(bodies), 3 if mechanism.space == "spatial" else 2)
+
+    def size(self, q: Array) -> float:
+        """Return the mechanism's size [m]: the longest body's own length.
+
+        Where all bodies are point masses it is the extent of what they do: the diagonal of the box that holds them.
+
+        Parameters
+        ----------
+        q : Array, shape (k, nq)
+            Coordinates at some times.
+        """
+        longest = max((length for _, length in self.bodies), default=0.0)
+        if longest > 0.0 or not self.bodies or not len(q):
+            return longest
+        places = np.concatenate([q[:, i : i + self.dimension] for i, _ in self.bodies])
+        return float(np.linalg.norm(np.ptp(places, axis=0)))
+
+    def distance(self, a: Array, b: Array) -> float:
+        """Return the largest distance [m] between corresponding points, over all bodies and times.
+
+        Parameters
+        ----------
+        a, b : Array, shape (k, nq)
+            Coordinates at the same times.
+        """
+        return float(self.distances(a, b).max(initial=0.0))
+
+    def distances(self, a: Array, b: Array) -> Array:
+        """Return the largest distance [m] over all bodies at each time, shape (k,)."""
+        largest = np.zeros(len(a))
+        for i, length in self.bodies:
+            centre = a[:, i : i + self.dimension] - b[:, i : i + self.dimension]
+            candidates = [np.linalg.norm(centre, axis=1)]
+            if length > 0.0:
+                j = i + self.dimension
+                tips = self._axes(a, j) - self._axes(b, j)
+                candidates += [np.linalg.norm(centre + length * tips[:, :, k], axis=1) for k in range(self.dimension)]
+            largest = np.maximum(largest, np.max(candidates, axis=0))
+        return largest
+
+    def _axes(self, q: Array, j: int) -> Array:
+        """Return the axes of a body as columns of rotation matrices, from its orientation at column `j`."""
+        if self.dimension == 2:
+            c, s = np.cos(q[:, j]), np.sin(q[:, j])
+            return np.stack([np.stack([c, -s], 1), np.stack([s, c], 1)], 1)
+        e = q[:, j : j + 4]
+        e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
+        return np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)

@@ -1,0 +1,342 @@
+"""The frame of all loops: outputs, accepted states, error control, where to stop; around the step of a scheme.
+
+Plain Python of which loops are instances (`symgen.runtime.instances`). A scheme gives a meaning to the names below, and
+so does what runs it: a processor, vector lanes, a CUDA device.
+
+| name | takes | does |
+| --- | --- | --- |
+| `prepare` | system, scheme, span, run | what the scheme needs once, at the start |
+| `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
+| `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
+| `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
+| `happened` | system, scheme, span, run, t, following, h | what to end with after an accepted step, `DONE` to go on |
+
+`attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
+the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
+`symgen.runtime.records.State`, so a loop that was left can be entered again, in another process too.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import types
+
+from symgen.runtime import abi
+from symgen.runtime.bare import bare, part
+from symgen.runtime.instances import called
+from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
+from symgen.runtime.redundancy import rows_fell
+from symgen.runtime.scales import settle
+from symgen.runtime.vectors import copied
+from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, watch
+
+_STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
+_BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
+_TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
+_MARK, _MARKED, _NO_PROGRESS = abi.MARK, abi.MARKED, abi.NO_PROGRESS
+_FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
+_PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.WINDING, abi.N_STATUS
+_DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
+_NOT_FINITE, _CORRECTION, _TINY_STEP, _NEWTON = abi.NOT_FINITE, abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
+
+# -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
+#: Whether steps follow the error estimate.
+ADAPTIVE = False
+#: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own. Schemes with
+#: dense output cross the zone around a singular position in one step.
+DENSE = False
+#: Smallest change of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
+#: that counts as none.
+SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
+
+#: Times closer than this part of a constant step are the same.
+_SAME = 1e-9
+#: Steps below this part of the time are lost in its rounding.
+_RESOLVED = 4e-16
+#: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
+_HOPELESS = 1e6
+#: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
+_ACROSS = 2.3
+#: Attempts over which progress is judged, at least: as many as all before them.
+_WINDOW = 10_000
+#: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
+DIVERGED, TOO_LARGE = -1.0, -2.0
+
+
+def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+    """Do nothing: a scheme without memory needs nothing at the start."""
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Stand for the step of a scheme."""
+    return DIVERGED
+
+
+def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Do nothing: a scheme without memory keeps nothing of a step."""
+
+
+def refuse(run: Any) -> None:
+    """Do nothing: what a scheme keeps stands for another attempt as well."""
+
+
+def interpolate(
+    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+) -> None:
+    """Stand for the dense output of schemes that have one."""
+
+
+def happened(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> int:
+    """Look for nothing: the place of events, between an accepted state and the outputs before it."""
+    return _DONE
+
+
+# -- what depends on where a loop runs ---------------------------------------------------------------------------------
+
+
+def opened(sizes: Any, state: Any) -> Any:
+    """Return what a run keeps, its working memory in parts."""
+    s, width = bare(state), sizes.width
+    trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
+    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
+    return Run(*kept, s.share, s.metric, s.scales, room)
+
+
+def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
+    """Set `rate` to the rate of the state `y`."""
+    if system.rhs(t, y, run.p, run.w, run.iw, rate) != 0:
+        system.confirm(t, y, run.p, run.w, run.iw, rate)
+
+
+def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
+    """Correct and measure a state, one between steps without keeping anything of it; return the bits of ``accept``."""
+    run.iw[_PROBING] = 1 if between else 0
+    bits = system.accept(t, y, run.p, run.w, run.iw)
+    run.iw[_PROBING] = 0
+    return int(bits)
+
+
+def note_step(run: Any, h: float) -> None:
+    """Tell emitted functions the step being taken."""
+    run.w[_STEP_STATUS] = h
+
+
+@called
+def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
+    """Write output `k`: the state, what ``accept`` measured, and angles with their turns counted."""
+    for i in range(sizes.ny):
+        outputs.states[k, i] = y[i]
+    for i in range(_N_STATUS):
+        outputs.status[k, i] = w[i]
+    for i in range(_N_STATUS, outputs.status.shape[1]):
+        outputs.status[k, i] = w[_WINDING - _N_STATUS + i]
+
+
+def stuck(span: Any, run: Any, t: float) -> bool:
+    """Return whether an adaptive run has taken, or at its present rate would take, more attempts than it may.
+
+    The rate is that of a window of attempts as long as all before it: a passage that takes many of them is none.
+    """
+    attempts, mark = run.control[_STEPS] + run.control[_REJECTED], run.control[_MARKED]
+    if attempts - mark < max(_WINDOW, mark):
+        return bool(attempts >= span.most)
+    rate = (t - run.clock[_MARK]) / (attempts - mark)
+    if mark > 0 and span.until - t > rate * (span.most - attempts):
+        return True
+    run.clock[_MARK], run.control[_MARKED] = t, attempts
+    return False
+
+
+# -- the frame ---------------------------------------------------------------------------------------------------------
+
+
+def integrate(
+    rhs: Any,
+    confirm: Any,
+    accept: Any,
+    turn: Any,
+    residual: Any,
+    tangent: Any,
+    scheme: Any,
+    sizes: Any,
+    span: Any,
+    state: Any,
+    outputs: Any,
+) -> int:
+    """Integrate from where a run stands to the end of `span`.
+
+    Parameters
+    ----------
+    rhs, confirm, accept, turn, residual, tangent : emitted functions
+        Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
+    scheme : record
+        The scheme.
+    sizes : Sizes
+        Of the model.
+    span : Span
+        How far, and by which steps.
+    state : State
+        What the run keeps; changed.
+    outputs : Outputs
+        Written, from output ``control[OUTPUTS]`` on.
+
+    Returns
+    -------
+    int
+        How it ended, see `symgen.runtime.abi`.
+    """
+    system = System(sizes, rhs, confirm, accept, turn, residual, tangent)
+    run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
+    clock, control, times, until = run.clock, run.control, outputs.times, span.until
+    asked, width = times.shape[0], sizes.width
+    tiny = 0.0 if ADAPTIVE else _SAME * span.step
+    if control[_BEGUN] == 0:
+        remember_rank(sizes, run)
+        settle(sizes, span, run)
+        copied(width, run.y, run.trial)
+        correct(system, run, clock[_TIME], run.trial, False)
+        copied(width, run.trial, run.y)
+        begin(run)
+        code = watch(sizes, run, run.y, clock[_TIME])
+        if code != _DONE:
+            return code
+        out = control[_OUTPUTS]
+        while out < asked and times[out] <= clock[_TIME] + tiny:
+            store(sizes, run.w, outputs, out, run.y)
+            out += 1
+        control[_OUTPUTS] = out
+        if ADAPTIVE:
+            clock[_NEXT] = span.step
+        prepare(system, scheme, span, run)
+        control[_BEGUN] = 1
+    t, out = clock[_TIME], control[_OUTPUTS]
+    while t < until - tiny:
+        if control[_STOP] != 0:
+            return _STOPPED
+        if control[_STEPS] >= span.pause:
+            return _PAUSED
+        # -- the step to try
+        crossing = False
+        if ADAPTIVE:
+            if stuck(span, run, t):
+                return _NO_PROGRESS
+            crossing = DENSE and control[_BARRED] == 0 and control[_IN_ZONE] == 1 and run.gauges[_FALL] > 0.0
+            h = approach(min(clock[_NEXT], span.largest), run.gauges)
+            if crossing:
+                h = min(span.largest, _ACROSS * run.gauges[_LAST_SINE] / run.gauges[_FALL])
+            following = t + h
+            if t + 1.01 * h >= until:
+                h, following = until - t, until
+            if not h > _RESOLVED * max(abs(t), abs(until)):
+                return _TINY_STEP
+        else:
+            h, following = span.step, clock[_ORIGIN] + (control[_INDEX] + 1) * span.step
+            if following > until + tiny:
+                h, following = until - t, until
+        between = not DENSE and out < asked and times[out] < following - tiny
+        if between:
+            h, following = times[out] - t, times[out]
+        note_step(run, h)
+        error = attempt(system, scheme, span, run, t, following, h, between)
+        # -- is it good enough?
+        if error < 0.0:
+            if error == TOO_LARGE:
+                return _NO_ROOM
+            if not ADAPTIVE:
+                return _NEWTON
+            control[_REJECTED] += 1
+            control[_REFUSED] = 1
+            clock[_NEXT] = 0.25 * h
+            continue
+        if ADAPTIVE and not between and not (error <= 1.0 or (crossing and error <= _HOPELESS)):
+            if crossing:
+                control[_BARRED] = 1
+            control[_REJECTED] += 1
+            change = max(SHRINK, span.safety * error ** (-1.0 / control[_ORDER])) if math.isfinite(error) else 0.1
+            clock[_NEXT] = h * change
+            refuse(run)
+            control[_REFUSED] = 1
+            continue
+        bits = correct(system, run, following, run.trial, between)
+        if between:
+            keep_maxima(sizes, run, run.trial)
+            store(sizes, run.w, outputs, out, run.trial)
+            out += 1
+            control[_OUTPUTS] = out
+            continue
+        if bits & 1:
+            if not ADAPTIVE:
+                return _CORRECTION if math.isfinite(run.w[_PHI]) else _NOT_FINITE
+            control[_REJECTED] += 1
+            control[_REFUSED] = control[_BARRED] = 1
+            clock[_NEXT] = 0.5 * h
+            continue
+        # -- it is: the state at `following` is accepted
+        control[_STEPS] += 1
+        code = watch(sizes, run, run.trial, following)
+        if code != _DONE:
+            return code
+        code = happened(system, scheme, span, run, t, following, h)
+        if DENSE and out < asked and times[out] < following:
+            interpolate(system, scheme, span, run, outputs, t, following, h)
+            out = control[_OUTPUTS]
+        copied(width, run.trial, run.y)
+        if not ADAPTIVE:
+            control[_INDEX] += 1
+            if following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny:
+                clock[_ORIGIN], control[_INDEX] = until, 0  # the grid of whoever goes on begins here
+        elif crossing:
+            clock[_ALLOWED] = 0.0
+        else:
+            allowed = max(error, FLOOR) ** (-1.0 / control[_ORDER])
+            grow = span.safety * allowed
+            if clock[_ALLOWED] > 0.0:  # errors change from step to step as they just did (Gustafsson 1994)
+                grow *= min(1.0, h / clock[_STEP] * allowed / clock[_ALLOWED])
+            grow = min(GROW, max(SHRINK_ACCEPTED, grow))
+            clock[_NEXT] = h * (min(1.0, grow) if control[_REFUSED] == 1 else grow)
+            clock[_ALLOWED] = allowed
+        control[_REFUSED] = control[_BARRED] = 0
+        t = following
+        clock[_STEP] = h
+        if out < asked and times[out] <= t + tiny:
+            store(sizes, run.w, outputs, out, run.y)
+            out += 1
+            control[_OUTPUTS] = out
+        renew(system, scheme, span, run, t, bits & 2 != 0)
+        if code != _DONE:
+            return code
+        if rows_fell(run):
+            return _CHOOSE
+    return _DONE
+
+
+#: Where functions of the model stand in a loop's arguments, with their types.
+_FUNCTIONS = {
+    **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
+    **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
+}
+
+
+def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
+    """Return the compiled loop around the step of a scheme.
+
+    Parameters
+    ----------
+    module, name : str
+        The module variable that holds it.
+    scheme : Numba type
+        Of the scheme's record.
+    *functions : str
+        Those that it calls beside ``rhs``, ``confirm`` and ``accept``.
+    **meanings
+        What the names of the frame mean.
+    """
+    called = {"rhs", "confirm", "accept", *functions}
+    types_ = (kind if name in called else types.int64 for name, kind in _FUNCTIONS.items())
+    signature = types.int64(*types_, scheme, SIZES, SPAN, STATE, OUTPUTS)
+    return compiled_loop(module, name, integrate, signature, **meanings)

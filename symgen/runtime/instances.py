@@ -1,0 +1,136 @@
+"""Loops as instances of a source: plain Python whose global names are given a meaning, and compiled as one function.
+
+The frame of all loops (`symgen.runtime.frame`) calls its scheme's step, and everything that depends on where it runs,
+by global names. `instance` copies a function with other meanings of such names, and with it every function that it
+calls and that would see the difference. Plain functions are parts: the compiler copies their code into their callers,
+so that nothing is paid for a call or for records as arguments, but those that are marked `called`. Functions made by
+`symgen.store.jit` are compiled by themselves, as elsewhere.
+"""
+
+from __future__ import annotations
+
+import types as python
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+from numba import njit
+from numba.extending import _Intrinsic as Intrinsic
+
+from symgen.store.jit import jit
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+#: Makes a compiled function of a copy; the original, a plain or a compiled function, says what kind it was.
+Compile = Callable[[python.FunctionType, Any], Any]
+
+
+def called(function: Function) -> Function:
+    """Mark a part that is called: a long one that stands in several places, or that is seldom reached."""
+    function.called = True  # type: ignore[attr-defined]
+    return function
+
+
+def part(copy: python.FunctionType, original: Any) -> Any:
+    """Return a part of a loop, compiled for processors, and for other parts only."""
+    return njit(
+        forceinline=not hasattr(original, "called"),
+        no_cpython_wrapper=True,
+        no_cfunc_wrapper=True,
+        nogil=True,
+        error_model="numpy",
+        fastmath={"contract"},
+    )(copy)
+
+
+def instance(function: Any, meanings: Mapping[str, Any], compiled: Compile = part) -> Any:
+    """Return a function of the runtime with other meanings of global names, in it and in what it calls.
+
+    Parameters
+    ----------
+    function : plain or compiled function
+        Its Python source is what counts.
+    meanings : mapping
+        What names mean: plain functions, which are instantiated as well, compiled functions, or constants.
+    compiled : callable
+        What is made of a copy.
+    """
+    return Instances(meanings, compiled).of(function)
+
+
+def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any) -> Any:
+    """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
+
+    Parameters
+    ----------
+    module, name : str
+        The module variable that holds it: a second process finds it there, and the cache tells loops apart by it.
+    function : plain function
+        The source.
+    signature : Signature
+        Its types.
+    **meanings
+        See `instance`.
+    """
+    copy = Instances(meanings, part).copy(function)
+    copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
+    return jit(signature)(copy)
+
+
+class Instances:
+    """Copies of functions under the same meanings, each made once.
+
+    Parameters
+    ----------
+    meanings : mapping
+        What global names mean.
+    compiled : callable
+        What is made of a copy.
+    everything : bool
+        Whether compiled functions are copied too where they would see no difference.
+    """
+
+    def __init__(self, meanings: Mapping[str, Any], compiled: Compile, everything: bool = False) -> None:
+        self.meanings, self.compiled, self.everything = meanings, compiled, everything
+        self.made: dict[Any, Any] = {}
+
+    def of(self, function: Any) -> Any:
+        """Return the instance of a function."""
+        plain = getattr(function, "py_func", function)
+        if plain not in self.made:
+            self.made[plain] = self.compiled(self.copy(plain), function)
+        return self.made[plain]
+
+    def copy(self, function: Any) -> python.FunctionType:
+        """Return a copy of a plain function in which names mean what they shall.
+
+        Raises
+        ------
+        ValueError
+            If it calls what is made for processors only.
+        """
+        names = {name: self.meaning(name, function) for name in function.__code__.co_names}
+        found = {**function.__globals__, **{name: value for name, value in names.items() if value is not None}}
+        result = python.FunctionType(function.__code__, found, function.__name__, function.__defaults__)
+        result.__module__, result.__qualname__ = function.__module__, function.__qualname__
+        return result
+
+    def meaning(self, name: str, function: Any) -> Any:
+        """Return what a global name of a function means in its copy, None where that is no matter."""
+        given = name in self.meanings
+        value = self.meanings[name] if given else function.__globals__.get(name)
+        plain = getattr(value, "py_func", None)
+        if self.everything and not given and isinstance(value, Intrinsic):
+            raise ValueError(f"{function.__name__} needs '{name}' as a device function")
+        if isinstance(value, python.FunctionType):
+            return self.of(value)
+        if plain is not None and not given and (self.everything or self.changes(value, set())):
+            return self.of(value)
+        return value
+
+    def changes(self, value: Any, seen: set[Any]) -> bool:
+        """Whether a compiled function, or one that it calls, would see a difference."""
+        plain = getattr(value, "py_func", None)
+        if plain is None or plain in seen:
+            return False
+        seen.add(plain)
+        names = plain.__code__.co_names
+        return any(n in self.meanings or self.changes(plain.__globals__.get(n), seen) for n in names)

@@ -1,0 +1,384 @@
+"""Arrays and numbers as they travel: named tuples, which compiled code takes like single arguments.
+
+Loops take them apart once, where they are entered, and make their arrays bare (`symgen.runtime.bare`): a field of a
+record that owns its arrays costs a count of references wherever it is read.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+from numba import types
+
+_F, _I = types.float64, types.int64
+_A, _K, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
+
+
+class Sizes(NamedTuple):
+    """What a loop has to know of a model beside its functions.
+
+    Attributes
+    ----------
+    nq, nv, m, ny : int
+        Coordinates, velocities, constraint rows, and length of the state: q, v, then auxiliary states, the work first.
+    width : int
+        Length of arrays that hold a state, see `symgen.runtime.vectors`.
+    controlled : int
+        Elements of the state that take part in error control.
+    unknowns : int
+        Of a stage in the descriptor form; 0 where there is none.
+    pivots, multipliers, mask, change, gauge, jacobian, auxiliary : int
+        Where these begin in ``w``: the pivots of D D^T, the multipliers, the mask of redundant rows, changes of
+        velocities, what makes rank independent of units, the entries of D that vary, and what ``residual`` leaves of
+        the rates of auxiliary states.
+    """
+
+    nq: int
+    nv: int
+    m: int
+    ny: int
+    width: int
+    controlled: int
+    unknowns: int
+    pivots: int
+    multipliers: int
+    mask: int
+    change: int
+    gauge: int
+    jacobian: int
+    auxiliary: int
+
+
+class Span(NamedTuple):
+    """How far a run goes, and by which steps.
+
+    Attributes
+    ----------
+    step : float
+        Constant step, or first step of an adaptive run [s]; 0: chosen from the right-hand side.
+    largest : float
+        Bound of adaptive steps [s].
+    until, duration : float
+        End of what is to be done now, and of the whole run [s].
+    rtol, atol : float
+        Tolerances of an adaptive run.
+    relative : float
+        1 where `atol` is meant for numbers of order 1 (see `State.scales`), 0 where it has the units of the state.
+    safety : float
+        Part of the step that the error estimate would allow.
+    most : float
+        Attempts at an adaptive step that a run may take.
+    pause : float
+        The loop is left when so many steps have been accepted.
+    """
+
+    step: float
+    largest: float
+    until: float
+    duration: float
+    rtol: float
+    atol: float
+    relative: float
+    safety: float
+    most: float
+    pause: float
+
+
+class State(NamedTuple):
+    """All that a run keeps; what a scheme keeps beyond `memory` stands in its own record.
+
+    Attributes
+    ----------
+    y : Array, shape (width,)
+        The accepted state.
+    p, w, iw : Array
+        Parameters, scratch and counters, as emitted functions have them.
+    clock, gauges, control, events : Array
+        See `symgen.runtime.abi`.
+    memory : Array
+        What the scheme keeps from step to step.
+    share : Array, shape (width,)
+        1 for elements of the state that take part in error control, else 0.
+    metric, scales : Array, shape (width,)
+        What makes lengths and speeds of coordinates and velocities, and what makes numbers of order 1 of them; see
+        `symgen.runtime.scales.settle`.
+    room : Array
+        Working memory: nothing in it outlives a step. A state that is tried stands first.
+    """
+
+    y: Any
+    p: Any
+    w: Any
+    iw: Any
+    clock: Any
+    gauges: Any
+    control: Any
+    events: Any
+    memory: Any
+    share: Any
+    metric: Any
+    scales: Any
+    room: Any
+
+
+class Run(NamedTuple):
+    """A `State` opened by a loop: bare arrays, `trial` being the state that is tried and `room` what stands behind."""
+
+    y: Any
+    trial: Any
+    p: Any
+    w: Any
+    iw: Any
+    clock: Any
+    gauges: Any
+    control: Any
+    events: Any
+    memory: Any
+    share: Any
+    metric: Any
+    scales: Any
+    room: Any
+
+
+class Outputs(NamedTuple):
+    """Output times, and what is kept there: states, and what ``accept`` measured followed by angles that count turns.
+
+    Attributes
+    ----------
+    times : Array, shape (k,)
+        Increasing [s].
+    states, status : Array, shapes (k, ny), (k, N_STATUS + windings)
+        Written.
+    """
+
+    times: Any
+    states: Any
+    status: Any
+
+
+class Observed(NamedTuple):
+    """What is evaluated at outputs after a run.
+
+    Attributes
+    ----------
+    accelerations, multipliers : Array, shapes (k, nv), (k, m)
+        v' and lambda.
+    rows : Array, shape (k, m + 2 n)
+        D v' - gamma, then value and rate of every joint coordinate.
+    """
+
+    accelerations: Any
+    multipliers: Any
+    rows: Any
+
+
+class Chunk(NamedTuple):
+    """Rows of an ensemble, and what is kept of them.
+
+    Attributes
+    ----------
+    selected : Array of int64
+        Rows to run.
+    ys, ps, ws : Array, shapes (k, ny), (k, np), (k, nw), flat
+        Starts, parameters and scratch; overwritten.
+    limits : Array
+        Largest violations of position and velocity, largest energy error, and the pivot below which a position is near
+        a singular one.
+    picks : Array of int64
+        (source, column) of each quantity asked for.
+    values : Array, shape (k, quantities, times), flat
+        Result.
+    summary : Array, shape (k, N_SUMMARY), flat
+        Result.
+    rates, joints : int
+        1 where accelerations or multipliers, and joint coordinates, are asked for.
+    entries, constants, dense : Array
+        For `symgen.runtime.redundancy.choose_rows`; `dense`, its working memory, is empty where nothing is chosen anew.
+    """
+
+    selected: Any
+    ys: Any
+    ps: Any
+    ws: Any
+    limits: Any
+    picks: Any
+    values: Any
+    summary: Any
+    rates: int
+    joints: int
+    entries: Any
+    constants: Any
+    dense: Any
+
+
+class Kept(NamedTuple):
+    """What is kept of the run that is being worked on."""
+
+    outputs: Any
+    observed: Any
+
+
+class System(NamedTuple):
+    """A model as schemes see it: its sizes and its functions, 0 in place of those that the scheme does not call."""
+
+    sizes: Any
+    rhs: Any
+    confirm: Any
+    accept: Any
+    turn: Any
+    residual: Any
+    tangent: Any
+
+
+# -- schemes -----------------------------------------------------------------------------------------------------------
+
+
+class Tableau(NamedTuple):
+    """An explicit Runge-Kutta scheme.
+
+    Attributes
+    ----------
+    start, column, value : Array
+        Nonzero coefficients row by row: the stages, b, the stages of dense output, then the error weights. Row r has
+        the entries from ``start[r]`` to ``start[r + 1]``.
+    nodes : Array
+        c of all stages, 1 for the end of the step behind those of the scheme.
+    dense : Array, shape (degree, padded stages), flat
+        y(t + x h) = y + h sum_k K_k sum_j dense[j, k] x^(j + 1); empty where there is no dense output.
+    count : Array of int64
+        0, 1, 2, ... for all stages.
+    stages, estimates, order, degree : int
+        Stages of a step, error estimates, the order of the estimate, and the degree of dense output.
+    ends : int
+        1 where an error estimate needs the stage at the end of the step.
+    """
+
+    start: Any
+    column: Any
+    value: Any
+    nodes: Any
+    dense: Any
+    count: Any
+    stages: int
+    estimates: int
+    order: int
+    degree: int
+    ends: int
+
+
+class Rotations(NamedTuple):
+    """A tableau applied to rotation vectors.
+
+    Attributes
+    ----------
+    tableau : Tableau
+        The scheme.
+    spins : Array of int64
+        Where the angular velocities of bodies begin in v.
+    width : int
+        Length of a stage.
+    """
+
+    tableau: Any
+    spins: Any
+    width: int
+
+
+class Multistep(NamedTuple):
+    """An Adams scheme: its highest order, and Gauss' quadrature on (-1, 1); `count` holds 0, 1, 2, ..."""
+
+    nodes: Any
+    factors: Any
+    count: Any
+    order: int
+
+
+class Stages(NamedTuple):
+    """An implicit Runge-Kutta scheme on the descriptor form.
+
+    Attributes
+    ----------
+    a, b, c : Array
+        The tableau, `a` row by row.
+    errors : Array, shape (s + 1,)
+        Weights of the error estimate on the derivative at the beginning of the step and on those of the stages.
+    filtered : float
+        The estimate is filtered by ``(dF/dk + h filtered dF/dy)^-1 dF/dk``; 0: it is not.
+    stages, together, order : int
+        Stages, 1 where they are solved together, and the order of the estimate.
+    entries : Array of int64
+        Equation of each number that ``tangent`` writes, then its unknown.
+    slopes : Array
+        For what ``tangent`` writes in each stage; the last element is 1.
+    numbers, plan, filter_numbers, filter_plan : Array
+        Of the Newton matrix, and of that of one stage (`symgen.runtime.newton.stage_plan`).
+    """
+
+    a: Any
+    b: Any
+    c: Any
+    errors: Any
+    filtered: float
+    stages: int
+    together: int
+    order: int
+    entries: Any
+    slopes: Any
+    numbers: Any
+    plan: Any
+    filter_numbers: Any
+    filter_plan: Any
+
+
+class Alpha(NamedTuple):
+    """A scheme of Newmark's family, with the sources, numbers and plan of its Newton matrix."""
+
+    alpha_m: float
+    alpha_f: float
+    gamma: float
+    beta: float
+    slopes: Any
+    numbers: Any
+    plan: Any
+
+
+class Projection(NamedTuple):
+    """The trapezoidal rule with projections.
+
+    Attributes
+    ----------
+    penalty : int
+        Where the penalty asked for stands in ``p``.
+    slopes, numbers, plan : Array
+        Of W, see `symgen.runtime.newton.projection_plan`.
+    pulls : Array of int64
+        Row, velocity and source of each entry of D^T.
+    masses : Array of int64
+        Sources of the diagonal of M.
+    """
+
+    penalty: int
+    slopes: Any
+    numbers: Any
+    plan: Any
+    pulls: Any
+    masses: Any
+
+
+#: Fields of schemes' records that belong to what a run keeps.
+KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
+
+#: How compiled loops see the records.
+SIZES = types.NamedUniTuple(_I, len(Sizes._fields), Sizes)
+SPAN = types.NamedUniTuple(_F, len(Span._fields), Span)
+STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
+OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
+OBSERVED = types.NamedUniTuple(_M, 3, Observed)
+KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)
+CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _I, _I, _K, _A, _A), Chunk)
+TABLEAU = types.NamedTuple((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
+ROTATIONS = types.NamedTuple((TABLEAU, _K, _I), Rotations)
+MULTISTEP = types.NamedTuple((_A, _A, _K, _I), Multistep)
+STAGES = types.NamedTuple((_A, _A, _A, _A, _F, _I, _I, _I, _K, _A, _A, _K, _A, _K), Stages)
+ALPHA = types.NamedTuple((_F, _F, _F, _F, _A, _A, _K), Alpha)
+PROJECTION = types.NamedTuple((_I, _A, _A, _K, _K, _K), Projection)

@@ -1,0 +1,113 @@
+"""Which rows stand for all of them where rows depend on others for ever: the choice follows the position.
+
+Rows that are left out have an infinite mask. Any rows that span the others will do, but those that do so at one
+position need not at another: of two pins on one turning body, the row along the line through them is the one that
+repeats.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import types
+
+from symgen.runtime import abi
+from symgen.runtime.exact import exact
+
+_PIVOT, _MASKED, _CHOSEN = abi.PIVOT, abi.MASKED, abi.CHOSEN
+_A, _I, _N = types.float64[::1], types.int64[::1], types.int64
+
+#: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
+FALLEN = 0.25
+#: Up to this many entries of a dense D rows are chosen anew; above, those of the start stay.
+LARGEST = 250_000
+
+
+@exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _A, _A))
+def choose_rows(
+    m: int,
+    n: int,
+    kept: int,
+    entries: Any,
+    constants: Any,
+    jacobian: int,
+    gauge: int,
+    mask: int,
+    w: Any,
+    room: Any,
+) -> int:
+    """Mask all rows but `kept` ones, each the one that is farthest from those chosen before it.
+
+    Parameters
+    ----------
+    m, n, kept : int
+        Rows and columns of D, and how many rows are kept.
+    entries, constants : Array
+        D's structural entries, as in `symgen.runtime.start_records.Layout`.
+    jacobian, gauge, mask : int
+        Where these sections of w begin.
+    w : Array
+        Scratch; D is that of the present position.
+    room : Array, shape (m * n + m,)
+        Working memory.
+
+    Returns
+    -------
+    int
+        1 where other rows are kept than before.
+    """
+    for i in range(m * n + m):
+        room[i] = 0.0
+    for k in range(constants.shape[0]):
+        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
+        value = constants[k] if slot < 0 else w[jacobian + slot]
+        room[row * n + column] = value * math.sqrt(w[gauge + column])
+    lengths, changed = m * n, 0
+    for i in range(m):
+        square = 0.0
+        for j in range(n):
+            square += room[i * n + j] * room[i * n + j]
+        room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
+    for _ in range(kept):
+        best, most = -1, -1.0
+        for i in range(m):
+            if room[lengths + i] >= 0.0:  # of the rows that wait
+                square = 0.0
+                for j in range(n):
+                    square += room[i * n + j] * room[i * n + j]
+                if square * room[lengths + i] > most:
+                    best, most = i, square * room[lengths + i]
+        if most > 0.0:
+            square = most / room[lengths + best]
+            for i in range(m):
+                if i != best and room[lengths + i] >= 0.0:
+                    total = 0.0
+                    for j in range(n):
+                        total += room[i * n + j] * room[best * n + j]
+                    for j in range(n):
+                        room[i * n + j] -= total / square * room[best * n + j]
+        room[lengths + best] = -1.0
+    for i in range(m):
+        left_out = math.inf if room[lengths + i] >= 0.0 else 0.0
+        changed = changed if w[mask + i] == left_out else 1
+        w[mask + i] = left_out
+    return changed
+
+
+def rows_fell(run: Any) -> bool:
+    """Whether rows are left out and those kept have become much poorer since they were chosen."""
+    control, gauges, pivot = run.control, run.gauges, run.w[_PIVOT]
+    if control[_MASKED] == 0:
+        return False
+    if pivot > gauges[_CHOSEN]:
+        gauges[_CHOSEN] = pivot
+    if pivot >= FALLEN * gauges[_CHOSEN]:
+        return False
+    gauges[_CHOSEN] = 0.0
+    return True
+
+
+def never(run: Any) -> bool:
+    """Stand in for `rows_fell` where rows cannot be chosen anew."""
+    return False

@@ -1,0 +1,277 @@
+"""Loops over many runs of one compiled model: no Python between runs, no lock held, memory of one run beside results.
+
+Each run is an instance of the frame of single runs, so it takes the same steps. Several threads call these functions at
+once, each with rows and working memory of its own.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from numba import types
+
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.bare import bare, part
+from symgen.runtime.instances import called
+from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.observe import observe_rates, observe_rows
+from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Observed, Outputs
+from symgen.runtime.redundancy import choose_rows
+from symgen.runtime.schemes import explicit
+from symgen.store.jit import jit
+
+_F8, _A = types.float64, types.float64[::1]
+
+_STATE, _STATUS, _ENERGY, _ENERGY_ERROR = e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR
+_ACCELERATION, _MULTIPLIER = e.ACCELERATION, e.MULTIPLIER
+_N_SUMMARY, _RUNS_DONE, _FIRST = e.N_SUMMARY, e.RUNS_DONE, e.SUMMARY.index("code")
+_STOP, _STOPPED, _DONE, _OUTPUTS, _N_CONTROL = abi.STOP, abi.STOPPED, abi.DONE, abi.OUTPUTS, abi.N_CONTROL
+_STEPS, _REJECTED, _EVALUATIONS, _EVENTS = abi.STEPS, abi.REJECTED, abi.EVALUATIONS, abi.EVENTS
+_TIME, _MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.TIME, abi.MAX_PHI, abi.MAX_DRIFT, abi.MAX_ENERGY
+_ENERGY_START, _ENERGY_SCALE, _JUMP = abi.ENERGY_START, abi.ENERGY_SCALE, abi.MAX_ENERGY_JUMP
+_LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY
+_WARN_PIVOT, _SMALLEST_PIVOT, _LAST_SINE = abi.WARN_PIVOT, abi.SMALLEST_PIVOT, abi.LAST_SINE
+_PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI, abi.DRIFT, abi.KINETIC, abi.POTENTIAL
+_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
+_N_EVENT, _MAX_EVENTS, _EVENT_IN, _EVENT_PIVOT = abi.N_EVENT, abi.MAX_EVENTS, abi.EVENT_IN, abi.EVENT_PIVOT
+_CHOOSE, _MASKED, _LAST_SHORT = abi.CHOOSE, abi.MASKED, abi.LAST_SHORT
+_ITERATIONS, _LIGHT = abi.ITERATIONS, abi.LIGHT
+
+
+def begin_run(state: Any, limits: Any) -> None:
+    """Reset what a run keeps; only the flag that stops is left."""
+    for i in range(state.gauges.shape[0]):
+        state.gauges[i] = 0.0
+    for i in range(state.clock.shape[0]):
+        state.clock[i] = 0.0
+    state.gauges[_LIMIT_PHI], state.gauges[_LIMIT_DRIFT], state.gauges[_LIMIT_ENERGY] = limits[0], limits[1], limits[2]
+    state.gauges[_WARN_PIVOT] = limits[3]
+    state.gauges[_SMALLEST_PIVOT] = state.gauges[_LAST_SINE] = state.gauges[_LAST_SHORT] = 1.0
+    for i in range(_N_CONTROL):
+        if i != _STOP:
+            state.control[i] = 0
+    for i in range(state.iw.shape[0]):
+        state.iw[i] = 0
+
+
+def take(array: Any, first: int, size: int, out: Any) -> None:
+    """Set `out` to elements of an array."""
+    for i in range(size):
+        out[i] = array[first + i]
+
+
+def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: Any) -> None:
+    """Write what is asked for at the outputs of a run, one quantity after the other; nan where there is no output.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    picks : Array of int64
+        (source, column) of each quantity.
+    kept : Kept
+        Of the run.
+    count : int
+        Outputs that it has reached.
+    start : float
+        Its energy at the start [J].
+    values : Array
+        Written.
+    """
+    outputs, observed, work = kept.outputs, kept.observed, sizes.nq + sizes.nv
+    n_times = outputs.states.shape[0]
+    for c in range(picks.shape[0] // 2):
+        source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
+        for k in range(count):
+            if source == _STATE:
+                value = outputs.states[k, column]
+            elif source == _STATUS:
+                value = outputs.status[k, column]
+            elif source == _ENERGY:
+                value = outputs.status[k, _KINETIC] + outputs.status[k, _POTENTIAL]
+            elif source == _ENERGY_ERROR:
+                value = outputs.status[k, _KINETIC] + outputs.status[k, _POTENTIAL] - start - outputs.states[k, work]
+            elif source == _ACCELERATION:
+                value = observed.accelerations[k, column]
+            elif source == _MULTIPLIER:
+                value = observed.multipliers[k, column]
+            else:
+                value = observed.rows[k, sizes.m + column]
+            values[to + k] = value
+        for k in range(count, n_times):
+            values[to + k] = math.nan
+
+
+def summarise(code: int, state: Any, row: Any) -> None:
+    """Write the numbers by which a run is judged, in the order of `symgen.runtime.ensemble_abi.SUMMARY`."""
+    w, clock, gauges, control, events = state.w, state.clock, state.gauges, state.control, state.events
+    narrowest, where = math.nan, math.nan
+    for k in range(min(control[_EVENTS], _MAX_EVENTS)):
+        pivot = events[k * _N_EVENT + _EVENT_PIVOT]
+        if not narrowest <= pivot:
+            narrowest, where = pivot, events[k * _N_EVENT + _EVENT_IN]
+    at = _FIRST
+    for number in (
+        float(code),
+        clock[_TIME],
+        float(control[_OUTPUTS]),
+        float(control[_STEPS]),
+        float(control[_REJECTED]),
+        float(control[_EVALUATIONS]),
+        float(state.iw[_ITERATIONS]),
+        float(state.iw[_LIGHT]),
+        gauges[_MAX_PHI],
+        gauges[_MAX_DRIFT],
+        gauges[_MAX_ENERGY],
+        gauges[_ENERGY_START],
+        gauges[_ENERGY_SCALE],
+        gauges[_JUMP],
+        gauges[_SMALLEST_PIVOT],
+        float(control[_EVENTS]),
+        where,
+        narrowest,
+        w[_PHI],
+        w[_DRIFT],
+        w[_LENGTH],
+        w[_SPEED],
+    ):
+        row[at] = number
+        at += 1
+
+
+@called
+def follow_rows(sizes: Any, chunk: Any, state: Any, w: Any) -> int:
+    """Choose the rows that stand for all at the position of `w`; return 1 where they are others than before."""
+    if chunk.dense.shape[0] == 0:
+        return 0
+    m, kept = sizes.m, sizes.m - state.control[_MASKED]
+    places = sizes.jacobian, sizes.gauge, sizes.mask
+    return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, *places, w, chunk.dense))
+
+
+def end_run(
+    code: int,
+    r: int,
+    rates: Any,
+    confirm: Any,
+    accept: Any,
+    observe: Any,
+    sizes: Any,
+    chunk: Any,
+    state: Any,
+    kept: Any,
+) -> None:
+    """Keep what a run gave.
+
+    Parameters
+    ----------
+    code, r : int
+        How the loop ended, and the row.
+    rates, confirm, accept, observe : emitted functions
+        For what is observed at outputs.
+    sizes, chunk, state, kept
+        As for `run_rows`; `state` is that of the run at its end.
+    """
+    nw, count = state.w.shape[0], state.control[_OUTPUTS]
+    summarise(code, state, part(chunk.summary, r * _N_SUMMARY, _N_SUMMARY))
+    if chunk.rates == 1:
+        for i in range(state.iw.shape[0]):
+            state.iw[i] = 0
+        begun, outputs, observed = part(chunk.ws, r * nw, nw), kept.outputs, kept.observed
+        follows = state.control[_MASKED] > 0 and chunk.dense.shape[0] > 0
+        for k in range(count if follows else 0):  # the rows that stand for all follow the position
+            here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
+            seen = Observed(
+                observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1]
+            )
+            observe_rates(rates, confirm, accept, sizes, here, 1, state.p, begun, state.iw, seen, state.room)
+            if follow_rows(sizes, chunk, state, begun) != 0:
+                observe_rates(rates, confirm, accept, sizes, here, 1, state.p, begun, state.iw, seen, state.room)
+        if not follows:
+            observe_rates(rates, confirm, accept, sizes, outputs, count, state.p, begun, state.iw, observed, state.room)
+    if chunk.joints == 1:
+        observe_rows(observe, sizes, kept.outputs, count, state.p, state.w, kept.observed, state.room)
+    length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
+    values = part(chunk.values, r * length, length)
+    pick(sizes, chunk.picks, kept, count, state.gauges[_ENERGY_START], values)
+    state.control[_RUNS_DONE] += 1
+
+
+def run_rows(
+    rhs: Any,
+    confirm: Any,
+    accept: Any,
+    rates: Any,
+    rates_confirm: Any,
+    observe: Any,
+    scheme: Any,
+    sizes: Any,
+    span: Any,
+    chunk: Any,
+    state: Any,
+    kept: Any,
+) -> int:
+    """Run the selected rows from starts that `symgen.runtime.starting.close_runs` left.
+
+    Parameters
+    ----------
+    rhs, confirm, accept, rates, rates_confirm, observe : emitted functions
+        See `symgen.runtime.abi`; the last three for what is observed at outputs.
+    scheme, sizes, span
+        As for a single run.
+    chunk : Chunk
+        The rows.
+    state : State
+        Memory of one run; `control` has one element more, which counts finished runs.
+    kept : Kept
+        Outputs of one run, at the same times for every run.
+
+    Returns
+    -------
+    int
+        How many of the selected rows are done: all of them, unless the run was stopped.
+    """
+    chunk, state, kept = bare(chunk), bare(state), bare(kept)
+    ny, n_p, nw = sizes.ny, state.p.shape[0], state.w.shape[0]
+    for s in range(chunk.selected.shape[0]):
+        if state.control[_STOP] != 0:
+            return int(s)
+        r = chunk.selected[s]
+        begin_run(state, chunk.limits)
+        take(chunk.ys, r * ny, ny, state.y)
+        take(chunk.ps, r * n_p, n_p, state.p)
+        take(chunk.ws, r * nw, nw, state.w)
+        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+        while code == _CHOOSE:
+            follow_rows(sizes, chunk, state, state.w)
+            code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+        if code == _STOPPED:
+            return int(s)
+        if code == _DONE:  # a grid of steps meets the end up to rounding
+            state.clock[_TIME] = span.until
+        end_run(code, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
+    return int(chunk.selected.shape[0])
+
+
+def integrate(*arguments: Any) -> int:
+    """Stand for the loop over one run."""
+    raise NotImplementedError
+
+
+@jit(types.int64(_F8, _A, _A, _A, _A, _A))
+def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
+    """Stand in for the emitted ``observe`` where no joint coordinate is asked for, so that it is not compiled."""
+    return 0
+
+
+def rows_loop(name: str, loop: Any, scheme: Any) -> Any:
+    """Return the loop over many runs around one over a single run, for a type of its scheme's record."""
+    functions = abi.RHS, abi.RHS, abi.ACCEPT, abi.RHS, abi.RHS, abi.OBSERVE
+    signature = types.int64(*functions, scheme, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)
+    return compiled_loop(__name__, name, run_rows, signature, integrate=loop)
+
+
+constant = rows_loop("constant", explicit.constant, TABLEAU)
+adaptive = rows_loop("adaptive", explicit.adaptive, TABLEAU)

@@ -1,0 +1,152 @@
+"""Scales of a mechanism, by which everything a run decides is independent of the units of length, mass and time.
+
+Angles are compared with lengths by the lengths of bodies: twice the distance from a body's centre of mass at which its
+joints hold it, as the ends of a bar are so far apart. The section ``gauge`` of w holds 1 for translations and 1 / l^2
+for rotations, so that D diag(gauge) D^T, which decides rank, has one unit in every row.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.runtime import abi
+from symgen.runtime.exact import exact
+
+#: Bodies count as at least this part of the longest one: their rounding shall not decide.
+LEAST_LENGTH = 1e-2
+#: Rows count as at least this part of a usual one, squared.
+LEAST_ROW = 1e-2
+
+
+@exact()
+def larger(a: float, b: float) -> float:
+    """Return the larger of two numbers, `a` where one is nan: the same compiled and interpreted."""
+    return b if b > a else a
+
+
+@exact()
+def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
+    """Set the section ``gauge``, and the scales of lengths and masses, from D at the described positions.
+
+    A body's length is twice that of the derivative of a joint's rows in metres by the body's angles, of the joint for
+    which it is largest; that of a body whose joints are all at its centre of mass is the mechanism's.
+    """
+    w, spin, lengths, sums = now.w, layout.spin, work.x, work.scale
+    entries, constants, rows = layout.entries, layout.constants, layout.rows
+    for j in range(layout.nv):
+        w[layout.gauge + j] = 1.0
+        lengths[j] = sums[j] = 0.0
+    geometry(layout.t, now.y, now.p, w)
+    joint, longest = -1, 0.0
+    for k in range(constants.shape[0] + 1):
+        here = -2 if k == constants.shape[0] else rows[2 * entries[3 * k]]
+        if here != joint:
+            for j in range(layout.nv):
+                lengths[j] = 4.0 * sums[j] if 4.0 * sums[j] > lengths[j] else lengths[j]
+                longest = lengths[j] if lengths[j] > longest else longest
+                sums[j] = 0.0
+            joint = here
+        if here >= 0 and rows[2 * entries[3 * k] + 1] == 1 and spin[entries[3 * k + 1]] >= 0:
+            slot = entries[3 * k + 2]
+            value = constants[k] if slot < 0 else w[layout.jacobian + slot]
+            if math.isfinite(value):
+                sums[spin[entries[3 * k + 1]]] += value * value
+    extent = extent_of(layout, now.y)
+    longest = longest if longest > 0.0 else extent * extent
+    longest = longest if longest > 0.0 else 1.0
+    least = LEAST_LENGTH * LEAST_LENGTH * longest
+    for j in range(layout.nv):
+        if spin[j] >= 0:
+            square = lengths[spin[j]]
+            square = longest if square == 0.0 else square
+            w[layout.gauge + j] = 1.0 / (square if square > least else least)
+    w[abi.LENGTH] = larger(math.sqrt(longest), extent)
+    total = 0.0
+    for j in range(layout.nv):
+        total += w[layout.mass + j] * w[layout.gauge + j]
+    w[abi.MEAN_MASS] = total / layout.nv if layout.nv > 0 else 0.0
+
+
+@exact()
+def weigh_rows(layout: Any, now: Any) -> None:
+    """Set the section ``row_weight`` to what makes 1 of the square of each row of D G^1/2 at the start.
+
+    Rows that are short there already count as a tenth of a usual one.
+    """
+    w, weights = now.w, layout.row_weight
+    for i in range(layout.m):
+        w[weights + i] = 0.0
+    for k in range(layout.constants.shape[0]):
+        row, column, slot = layout.entries[3 * k], layout.entries[3 * k + 1], layout.entries[3 * k + 2]
+        value = layout.constants[k] if slot < 0 else w[layout.jacobian + slot]
+        w[weights + row] += value * value * w[layout.gauge + column]
+    for i in range(layout.m):
+        usual = LEAST_ROW / (row_weight(layout, w, i) * row_weight(layout, w, i))
+        w[weights + i] = 1.0 / larger(w[weights + i], usual)
+
+
+@exact()
+def extent_of(layout: Any, y: Any) -> float:
+    """Return the largest coordinate that is a length, 0 where there is none or none is finite."""
+    largest = 0.0
+    for i in range(layout.nq):
+        if layout.lengths[i] != 0.0 and abs(y[i]) > largest and math.isfinite(y[i]):
+            largest = abs(y[i])
+    return largest
+
+
+@exact()
+def free_scale(layout: Any, w: Any, j: int) -> float:
+    """Return the scale of a velocity in the metric in which changes are shortest: a length, or an angle."""
+    return float(w[abi.LENGTH] * math.sqrt(w[layout.gauge + j]))
+
+
+@exact()
+def size_of_change(layout: Any, w: Any, change: Any) -> float:
+    """Return the largest component of a change: angles in radians, lengths over the scale of lengths."""
+    largest = 0.0
+    for j in range(layout.nv):
+        size = abs(change[j]) if layout.spin[j] >= 0 else abs(change[j]) / w[abi.LENGTH]
+        largest = size if size > largest else largest
+    return largest
+
+
+@exact()
+def speed_of(layout: Any, w: Any, v: Any) -> float:
+    """Return the largest speed: angular velocities count as those of points at the body's length."""
+    largest = 0.0
+    for j in range(layout.nv):
+        size = abs(v[j]) / math.sqrt(w[layout.gauge + j])
+        largest = size if size > largest else largest
+    return largest
+
+
+@exact()
+def row_weight(layout: Any, w: Any, i: int) -> float:
+    """Return what makes a row of Phi a length: 1, or the scale of lengths where the row is an angle or a number."""
+    return 1.0 if layout.rows[2 * i + 1] == 1 else float(w[abi.LENGTH])
+
+
+def settle(sizes: Any, span: Any, run: Any) -> None:
+    """Set the scales of a run's states at its beginning, from the lengths that its start has found.
+
+    `run.metric` makes lengths and speeds of coordinates and velocities (0 for angles, and for all behind the
+    velocities); `run.scales` makes numbers of order 1 of them. A motion that begins at rest counts as one that crosses
+    the mechanism in the time of the run.
+    """
+    w, nq = run.w, sizes.nq
+    for j in range(sizes.nv):
+        run.metric[nq + j] = 1.0 / math.sqrt(w[sizes.gauge + j])
+    length = w[abi.LENGTH]
+    speed = max(w[abi.SPEED], length / span.duration)
+    w[abi.SPEED] = speed
+    for i in range(nq):
+        run.scales[i] = 1.0 / length if run.metric[i] != 0.0 else 1.0
+    for j in range(sizes.nv):
+        run.scales[nq + j] = run.metric[nq + j] / speed
+
+
+def weights_of(span: Any, run: Any) -> Any:
+    """Return by what the elements of a state are multiplied where tolerances are asked of them."""
+    return run.scales if span.relative != 0.0 else run.share

@@ -1,0 +1,164 @@
+"""Explicit Runge-Kutta schemes, driven by the tableau: one compilation serves all schemes and all models.
+
+The state is projected after each accepted step only; the error estimate belongs to the unprojected pair; output times
+within an adaptive step are interpolated between unprojected ends, and each output is then projected. Stage derivatives
+live in one flat buffer: views of rows cost more than a stage.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.runtime import abi
+from symgen.runtime.bare import part
+from symgen.runtime.frame import correct, evaluate, loop, store
+from symgen.runtime.instances import called
+from symgen.runtime.records import TABLEAU
+from symgen.runtime.scales import weights_of
+from symgen.runtime.vectors import combine, copied, total, weigh
+from symgen.runtime.watch import keep_maxima
+
+_EVALUATIONS, _OUTPUTS, _KNOWN, _ORDER = abi.EVALUATIONS, abi.OUTPUTS, abi.KNOWN, abi.ORDER
+_NEXT, _N_STATUS = abi.NEXT, abi.N_STATUS
+
+
+def attempt_constant(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a step whose error is not asked for."""
+    width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
+    for s in range(scheme.stages):
+        combine(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
+        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
+    last = scheme.stages
+    combine(width, h, start[last], start[last + 1], column, value, run.room, run.y, run.trial)
+    run.control[_EVALUATIONS] += last
+    return 0.0
+
+
+# -- steps from the error estimate: the first stage is kept ------------------------------------------------------------
+
+
+@called
+def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
+    """Evaluate the first stage; choose a first step as Hairer, Norsett, Wanner, Solving ODEs I, section II.4, do."""
+    t, y, width = run.clock[abi.TIME], run.y, system.sizes.width
+    first, rate = part(run.memory, 0, width), part(run.memory, width, width)
+    run.control[_ORDER] = scheme.order + 1
+    evaluate(system, run, t, y, first)
+    run.control[_EVALUATIONS] += 1
+    if span.step > 0.0:
+        return
+    count, share, least = system.sizes.controlled, weights_of(span, run), 1e-6 * span.duration
+    d0 = math.sqrt(weigh(width, y, share, y, y, span.rtol, span.atol) / count)
+    d1 = math.sqrt(weigh(width, first, share, y, y, span.rtol, span.atol) / count)
+    h0 = least if d0 < 1e-5 or d1 * span.duration < 1e-5 else 0.01 * d0 / d1
+    h0 = min(h0, span.until - t)
+    for i in range(width):
+        run.trial[i] = y[i] + h0 * first[i]
+    evaluate(system, run, t + h0, run.trial, rate)
+    run.control[_EVALUATIONS] += 1
+    for i in range(width):
+        rate[i] -= first[i]
+    d2 = math.sqrt(weigh(width, rate, share, y, y, span.rtol, span.atol) / count) / h0
+    # their guess takes seconds for the unit of time; here it is the time in which the state changes by its own size
+    unit = 100.0 * h0
+    largest = max(d1 * unit, d2 * unit * unit)
+    h1 = max(least, 1e-3 * h0) if largest <= 1e-15 else unit * (0.01 / largest) ** (1.0 / (scheme.order + 1.0))
+    run.clock[_NEXT] = min(100.0 * h0, h1)
+
+
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Try a step; return its error over the tolerance. The unprojected end is kept in working memory."""
+    width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
+    stages, last = run.memory, scheme.stages
+    new, error, other = part(run.room, 0, width), part(run.room, width, width), part(run.room, 2 * width, width)
+    for s in range(1, last):
+        combine(width, h, start[s], start[s + 1], column, value, stages, run.y, run.trial)
+        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
+    combine(width, h, start[last], start[last + 1], column, value, stages, run.y, new)
+    run.control[_EVALUATIONS] += last - 1
+    run.control[_KNOWN] = scheme.ends
+    if scheme.ends == 1:
+        evaluate(system, run, t + h, new, part(stages, last * width, width))
+        run.control[_EVALUATIONS] += 1
+    copied(width, new, run.trial)
+    # error weights stand behind all stages in the table
+    row, count = scheme.nodes.shape[0], system.sizes.controlled
+    total(width, h, start[row], start[row + 1], column, value, stages, error)
+    share = weights_of(span, run)
+    first = weigh(width, error, share, run.y, new, span.rtol, span.atol)
+    if scheme.estimates == 1:
+        return math.sqrt(first / count)
+    total(width, h, start[row + 1], start[row + 2], column, value, stages, other)
+    second = weigh(width, other, share, run.y, new, span.rtol, span.atol)
+    if first == 0.0:
+        return 0.0
+    return float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+
+
+def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Have the first stage of the next step: the last of this one, unless a correction has changed the state."""
+    width, first = system.sizes.width, part(run.memory, 0, system.sizes.width)
+    if changed or run.control[_KNOWN] == 0:
+        evaluate(system, run, t, run.y, first)
+        run.control[_EVALUATIONS] += 1
+    else:
+        copied(width, part(run.memory, scheme.stages * width, width), first)
+
+
+@called
+def interpolate(
+    system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
+) -> None:
+    """Write the outputs inside a step, each projected; what ``accept`` measured at the end of the step is kept."""
+    width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
+    stages, last, every, count = run.memory, scheme.stages, scheme.nodes.shape[0], scheme.count
+    degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
+    new, kept = part(run.room, 0, width), part(run.room, width, width)
+    powers, weights = part(run.room, 3 * width, lanes), part(run.room, 3 * width + lanes, lanes)
+    for i in range(_N_STATUS):
+        kept[i] = run.w[i]
+    if run.control[_KNOWN] == 0:
+        evaluate(system, run, following, new, part(stages, last * width, width))
+        run.control[_EVALUATIONS] += 1
+        run.control[_KNOWN] = 1
+    for s in range(last + 1, every):
+        combine(width, h, start[s], start[s + 1], column, value, stages, run.y, new)
+        evaluate(system, run, t + scheme.nodes[s] * h, new, part(stages, s * width, width))
+        run.control[_EVALUATIONS] += 1
+    out = run.control[_OUTPUTS]
+    while out < outputs.times.shape[0] and outputs.times[out] < following:
+        x = (outputs.times[out] - t) / h
+        power = 1.0
+        for j in range(degree):
+            power *= x
+            powers[j] = power
+        total(lanes, 1.0, 0, degree, count, powers, scheme.dense, weights)
+        combine(width, h, 0, every, count, weights, stages, run.y, new)
+        correct(system, run, outputs.times[out], new, True)
+        keep_maxima(system.sizes, run, new)
+        store(system.sizes, run.w, outputs, out, new)
+        out += 1
+    run.control[_OUTPUTS] = out
+    for i in range(_N_STATUS):
+        run.w[i] = kept[i]
+
+
+def room(width: int, scheme: Any) -> int:
+    """Return the working memory of a step behind the state that is tried."""
+    return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) if scheme.degree else int(scheme.stages) * width
+
+
+#: What the names of the frame mean.
+CONSTANT_PARTS = {"attempt": attempt_constant}
+ADAPTIVE_PARTS = {
+    **{"ADAPTIVE": True, "DENSE": True, "prepare": prepare, "attempt": attempt},
+    **{"renew": renew, "interpolate": interpolate},
+}
+
+constant = loop(__name__, "constant", TABLEAU, **CONSTANT_PARTS)
+adaptive = loop(__name__, "adaptive", TABLEAU, **ADAPTIVE_PARTS)

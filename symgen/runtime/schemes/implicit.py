@@ -1,0 +1,223 @@
+"""Implicit Runge-Kutta schemes on the descriptor form F(t, y, k) = 0.
+
+Stages are solved one after the other where the scheme allows (diagonally implicit), else together. Newton's iteration
+uses the exact Jacobian that was emitted with the residual, evaluated at the stage's own iterate and kept while it
+converges fast. Rates of auxiliary states come with the residual, so each iteration has those of the iterate before.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from symgen.runtime import abi, sparse
+from symgen.runtime.bare import part
+from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
+from symgen.runtime.instances import called
+from symgen.runtime.records import STAGES
+from symgen.runtime.scales import weights_of
+from symgen.runtime.sparse import leave_out_rest, solve
+from symgen.runtime.vectors import copied, weigh
+
+_EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
+_KNOWN, _ORDER, _SCALE = abi.KNOWN, abi.ORDER, abi.ENERGY_SCALE
+_LENGTH, _SPEED, _KINETIC, _POTENTIAL = abi.LENGTH, abi.SPEED, abi.KINETIC, abi.POTENTIAL
+_DIVERGED, _TOO_LARGE = DIVERGED, TOO_LARGE
+_MOST_ITERATIONS = 15
+#: As in the frame: whether steps follow the error estimate.
+ADAPTIVE = False
+
+
+@called
+def begin_step(system: Any, run: Any, t: float) -> None:
+    """Have the unknowns k at the beginning of the step, and the rates of auxiliary states, in the memory of the run."""
+    sizes = system.sizes
+    first, n, m = sizes.nq + sizes.nv, sizes.unknowns, sizes.m
+    rate = part(run.room, 0, sizes.width)
+    evaluate(system, run, t, run.y, rate)
+    run.control[_EVALUATIONS] += 1
+    for i in range(n):
+        if i < first:
+            run.memory[i] = rate[i]
+        else:
+            run.memory[i] = run.w[sizes.multipliers + i - first] if i < first + m else 0.0
+    for i in range(first, sizes.ny):
+        run.memory[n + i - first] = rate[i]
+    run.control[_KNOWN] = 1
+
+
+@called
+def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any, rates: Any) -> None:
+    """Set ``run.trial`` to y + h sum_j a[stage, j] y'_j; rates of auxiliary states stand stage by stage in `rates`."""
+    first, n, ny = system.sizes.nq + system.sizes.nv, system.sizes.unknowns, system.sizes.ny
+    copied(system.sizes.width, run.y, run.trial)
+    for j in range(scheme.stages):
+        factor = h * scheme.a[stage * scheme.stages + j]
+        if factor != 0.0:
+            for i in range(first):
+                run.trial[i] += factor * k[j * n + i]
+            for i in range(first, ny):
+                run.trial[i] += factor * rates[j * (ny - first) + i - first]
+
+
+@called
+def attempt(
+    system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
+) -> float:
+    """Solve the stages of a step."""
+    sizes, s_count = system.sizes, scheme.stages
+    first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
+    more = ny - first
+    if run.control[_KNOWN] == 0:
+        begin_step(system, run, t)
+    k = part(run.room, sizes.width, s_count * n)
+    rates = part(run.room, sizes.width + s_count * n, s_count * more)
+    at = sizes.width + s_count * (n + more)
+    unknowns = s_count * n if scheme.together == 1 else n
+    right, change = part(run.room, at, unknowns), part(run.room, at + unknowns, unknowns)
+    factors = part(run.room, at + 2 * unknowns, s_count * s_count + 1)
+    factors[0] = 1.0
+    for s in range(s_count):
+        for i in range(n):
+            k[s * n + i] = run.memory[i]
+        for i in range(more):
+            rates[s * more + i] = run.memory[n + i]
+    groups = 1 if scheme.together == 1 else s_count
+    for group in range(groups):
+        if scheme.together == 0 and scheme.a[group * s_count + group] == 0.0:
+            continue  # an explicit first stage is the derivative that is known
+        low, high = (0, s_count) if scheme.together == 1 else (group, group + 1)
+        last, fresh, converged = math.inf, True, False
+        for _ in range(_MOST_ITERATIONS):
+            if fresh:
+                for s in range(low, high):
+                    stage_state(system, scheme, run, h, s, k, rates)
+                    slopes = part(scheme.slopes, (s - low) * count, count)
+                    system.tangent(t + scheme.c[s] * h, run.trial, part(k, s * n, n), run.p, run.w, slopes)
+                    for j in range(low, high):
+                        factors[1 + (s - low) * (high - low) + j - low] = h * scheme.a[s * s_count + j]
+                if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
+                    return _TOO_LARGE
+                run.control[_JACOBIANS] += 1
+                fresh = False
+            moved, size = 0.0, 0.0
+            for s in range(low, high):
+                stage_state(system, scheme, run, h, s, k, rates)
+                own, rest = part(k, s * n, n), part(right, (s - low) * n, n)
+                system.residual(t + scheme.c[s] * h, run.trial, own, run.p, run.w, rest)
+                leave_out_rest(sizes, run.w, own, rest)
+                for i in range(more):
+                    rate = run.w[sizes.auxiliary + i]
+                    share = run.share[first + i]  # 1 where it takes part in error control, else 0
+                    moved += share * (rate - rates[s * more + i]) ** 2
+                    size += share * rate**2
+                    rates[s * more + i] = rate
+                run.control[_EVALUATIONS] += 1
+            solve(scheme.plan, scheme.numbers, right, change)
+            run.control[_ITERATIONS] += 1
+            for s in range(low, high):
+                for i in range(n):
+                    k[s * n + i] -= change[(s - low) * n + i]
+                    if i < first:
+                        moved += (run.scales[i] * change[(s - low) * n + i]) ** 2
+                        size += (run.scales[i] * k[s * n + i]) ** 2
+            # stiff forces turn rounding of positions into noise of derivatives: how far the state moves counts
+            length = 1.0
+            for i in range(first):
+                length = max(length, run.scales[i] * abs(run.trial[i]))
+            at_floor = math.sqrt(moved) * h < 1e-12 * length
+            moved = math.sqrt(moved) / (run.w[_SPEED] / run.w[_LENGTH] + math.sqrt(size))
+            if not math.isfinite(moved):
+                break
+            if moved < 1e-13 or (moved > 0.3 * last and (moved < 1e-9 or at_floor)):
+                converged = True
+                break
+            fresh = moved > 0.05 * last
+            last = moved
+        if not converged:
+            return _DIVERGED
+    if n > first + sizes.m:
+        # multipliers of index 2 are of lower order than the state: these rates come from the law's own
+        rate = part(run.room, 0, sizes.width)
+        for s in range(s_count):
+            stage_state(system, scheme, run, h, s, k, rates)
+            evaluate(system, run, t + scheme.c[s] * h, run.trial, rate)
+            for i in range(more):
+                rates[s * more + i] = rate[first + i]
+        run.control[_EVALUATIONS] += s_count
+    copied(sizes.width, run.y, run.trial)
+    for s in range(s_count):
+        for i in range(first):
+            run.trial[i] += h * scheme.b[s] * k[s * n + i]
+        for i in range(more):
+            run.trial[first + i] += h * scheme.b[s] * rates[s * more + i]
+    return step_error(system, scheme, span, run, t, h, k, rates) if ADAPTIVE and not between else 0.0
+
+
+@called
+def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float, k: Any, rates: Any) -> float:
+    """Return the error estimate over the tolerance, filtered; `k` and `rates` are those of the stages."""
+    sizes, s_count, errors = system.sizes, scheme.stages, scheme.errors
+    first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
+    more, size = ny - first, max(n, sizes.width)
+    at = sizes.width + s_count * (n + more)
+    right, change = part(run.room, at, size), part(run.room, at + size, size)
+    run.control[_ORDER] = scheme.order + 1
+    for i in range(size):
+        right[i] = change[i] = 0.0
+    for i in range(first):
+        total = errors[0] * run.memory[i]
+        for s in range(s_count):
+            total += errors[s + 1] * k[s * n + i]
+        change[i] = h * total
+    if scheme.filtered > 0.0:
+        factors = part(run.room, at + 2 * size, 2)
+        system.tangent(t, run.y, run.memory, run.p, run.w, part(scheme.slopes, 0, count))
+        for e in range(count):
+            if scheme.entries[count + e] < first:
+                right[scheme.entries[e]] += scheme.slopes[e] * change[scheme.entries[count + e]]
+        factors[0], factors[1] = 1.0, h * scheme.filtered
+        if sparse.prepare(scheme.filter_plan, scheme.slopes, factors, scheme.filter_numbers) < 0:
+            return _TOO_LARGE
+        solve(scheme.filter_plan, scheme.filter_numbers, right, change)
+    for i in range(first, sizes.width):
+        change[i] = 0.0
+    for i in range(more):
+        total = errors[0] * run.memory[n + i]
+        for s in range(s_count):
+            total += errors[s + 1] * rates[s * more + i]
+        change[first + i] = h * total
+    share = weights_of(span, run)
+    error = math.sqrt(weigh(sizes.width, change, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
+    # the work enters no rate, so it needs no filter; where every coordinate is driven nothing else is integrated, since
+    # constraints in every stage make the other estimates 0
+    scale = max(run.gauges[_SCALE], abs(run.y[first]), abs(run.trial[first]))
+    if span.relative != 0.0:
+        least = span.atol * (run.w[_KINETIC] + abs(run.w[_POTENTIAL]))
+    else:
+        least = span.atol
+    allowed = least + span.rtol * scale
+    return float(max(error, abs(change[first]) / allowed)) if allowed > 0.0 else float(error)
+
+
+def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
+    """Have the next step evaluate its beginning."""
+    run.control[_KNOWN] = 0
+
+
+def memory(unknowns: int, more: int) -> int:
+    """Return the numbers kept of the beginning of a step: unknowns, and rates of `more` auxiliary states."""
+    return unknowns + more
+
+
+def room(width: int, unknowns: int, more: int, stages: int, together: bool) -> int:
+    """Return the working memory of a step behind the state that is tried."""
+    solved = max(width, unknowns, stages * unknowns if together else 0)
+    return width + stages * (unknowns + more) + 2 * solved + stages * stages + 2
+
+
+_PARTS: dict[str, Any] = {"attempt": attempt, "renew": renew}
+_ADAPTIVE: dict[str, Any] = {**_PARTS, "ADAPTIVE": True, "GROW": 8.0, "FLOOR": 1e-12}
+
+constant = loop(__name__, "constant", STAGES, "residual", "tangent", **_PARTS)
+adaptive = loop(__name__, "adaptive", STAGES, "residual", "tangent", **_ADAPTIVE)

@@ -1,0 +1,94 @@
+"""Run times that mean something: a warm-up, then the best of several, with the spread."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from statistics import median
+from typing import TYPE_CHECKING
+
+from symgen.runtime.run import integrate
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.integrator import Integrator
+    from symgen.runtime.run import Outcome, RunSpec
+
+#: Timed runs at most, unless more are asked for.
+MOST = 30
+
+
+@dataclass(frozen=True)
+class Timed:
+    """Repeated runs, which are all the same but for the clock.
+
+    Attributes
+    ----------
+    outcome : Outcome
+        Of the last whole run. `run_seconds` is the shortest of all; `interrupted` if the repetitions were cut short.
+    seconds : tuple of float
+        Of every timed run [s]; empty where there were none beside a first one.
+    """
+
+    outcome: Outcome
+    seconds: tuple[float, ...]
+
+    @property
+    def spread(self) -> float:
+        """Longest minus shortest run time [s]; 0 for a single run."""
+        return max(self.seconds) - min(self.seconds) if self.seconds else 0.0
+
+    @property
+    def median(self) -> float:
+        """Median run time [s]."""
+        return median(self.seconds) if self.seconds else self.outcome.run_seconds
+
+
+def timed(
+    compiled: CompiledModel,
+    tableau: Integrator,
+    start: Start,
+    spec: RunSpec,
+    repeat: int,
+    progress: Callable[[float], None] | None = None,
+    at_least: float = 0.0,
+) -> Timed:
+    """Run once to warm up and `repeat` times for the clock.
+
+    Parameters
+    ----------
+    compiled, tableau, start, spec, progress
+        As for `symgen.runtime.run.integrate`.
+    repeat : int
+        How many runs are timed; 1 runs once and has no warm-up.
+    at_least : float, optional
+        Seconds that the timed runs take together at least, so that short ones are repeated more often, up to `MOST`
+        times.
+    """
+    first = integrate(compiled, tableau, start, spec, progress)
+    if repeat <= 1 or first.interrupted:
+        return Timed(first, ())
+    outcome, seconds = first, list[float]()
+    while len(seconds) < repeat or (sum(seconds) < at_least and len(seconds) < MOST):
+        last = integrate(compiled, tableau, start, spec, progress)
+        if last.interrupted:  # an earlier run is whole, so nothing is lost but repetitions
+            shortest = min([*seconds, first.run_seconds])
+            return Timed(replace(outcome, run_seconds=shortest, interrupted=True), tuple(seconds))
+        outcome = last
+        seconds.append(last.run_seconds)
+    best = replace(outcome, run_seconds=min(seconds), compile_seconds=first.compile_seconds)
+    return Timed(best, tuple(seconds))
+
+
+def repeated(
+    compiled: CompiledModel,
+    tableau: Integrator,
+    start: Start,
+    spec: RunSpec,
+    repeat: int,
+    progress: Callable[[float], None] | None = None,
+) -> tuple[Outcome, float]:
+    """Return outcome and spread of `timed`, whose arguments these are."""
+    found = timed(compiled, tableau, start, spec, repeat, progress)
+    return found.outcome, found.spread

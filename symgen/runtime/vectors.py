@@ -1,0 +1,286 @@
+"""Arithmetic on whole states in vectors of eight numbers.
+
+Arrays are as long as `symgen.runtime.blocks` says, filled up with zeros, so no loop has a remainder; and vectors are
+written as such, because compilers that have to find them by themselves first ask at run time whether arrays overlap,
+which takes as long as the work on a small state. Processors with shorter vectors do a block in several parts.
+
+Where nothing is compiled, and on CUDA devices, plain loops stand in: the functions of `PLAIN`, by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from llvmlite import ir
+from numba import config, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from symgen.runtime.blocks import BLOCK
+
+_F64, _I64 = ir.DoubleType(), ir.IntType(64)
+_VECTOR, _INDICES = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK)
+#: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
+_FLAGS = ("contract",)
+
+
+# -- plain loops -------------------------------------------------------------------------------------------------------
+
+
+def _combine(
+    width: int, h: float, first: int, last: int, column: Any, value: Any, rows: Any, base: Any, out: Any
+) -> None:
+    """Set out = base + h sum of value times row, over the entries from `first` to `last` of a packed table.
+
+    Parameters
+    ----------
+    width : int
+        Length of `base`, `out` and each row: a multiple of `BLOCK`.
+    h : float
+        Factor of the sum.
+    column, value : Array
+        Row and coefficient of each entry.
+    rows : Array
+        One row after the other.
+    base, out : Array, shape (width,)
+        May be the same.
+    """
+    for i in range(width):
+        out[i] = base[i]
+    for k in range(first, last):
+        factor, at = h * value[k], column[k] * width
+        for i in range(width):
+            out[i] += factor * rows[at + i]
+
+
+def _total(width: int, h: float, first: int, last: int, column: Any, value: Any, rows: Any, out: Any) -> None:
+    """Set out = h sum of value times row; as `_combine`."""
+    for i in range(width):
+        out[i] = 0.0
+    for k in range(first, last):
+        factor, at = h * value[k], column[k] * width
+        for i in range(width):
+            out[i] += factor * rows[at + i]
+
+
+def _copied(width: int, array: Any, out: Any) -> None:
+    """Set `out` to an array."""
+    for i in range(width):
+        out[i] = array[i]
+
+
+def _weigh(width: int, error: Any, share: Any, y: Any, new: Any, rtol: float, atol: float) -> float:
+    """Return the sum of the squares of share times error over ``atol + rtol share max(|y|, |new|)``; 0 / 0 counts 0."""
+    total = 0.0
+    for i in range(width):
+        allowed = atol + rtol * (share[i] * max(abs(y[i]), abs(new[i])))
+        if share[i] * error[i] != 0.0:
+            total += (share[i] * error[i] / allowed) ** 2
+    return total
+
+
+def _largest(width: int, array: Any, weights: Any, first: int, last: int) -> float:
+    """Return the largest weighted magnitude of the elements from `first` to `last`, at least 0; nan is passed over."""
+    largest = 0.0
+    for i in range(first, last):
+        if abs(array[i]) * weights[i] > largest:
+            largest = abs(array[i]) * weights[i]
+    return largest
+
+
+def _finite(width: int, array: Any) -> bool:
+    """Return whether all elements are finite."""
+    total = 0.0
+    for i in range(width):
+        total += array[i] - array[i]
+    return total == 0.0
+
+
+PLAIN: dict[str, Callable[..., Any]] = {
+    "combine": _combine,
+    "total": _total,
+    "copied": _copied,
+    "weigh": _weigh,
+    "largest": _largest,
+    "finite": _finite,
+}
+
+
+# -- the same as vectors -----------------------------------------------------------------------------------------------
+
+
+def _data(context: Any, builder: Any, signature: Any, arguments: Any, *which: int) -> list[Any]:
+    """Return where the data of some array arguments begin."""
+    return [context.make_array(signature.args[i])(context, builder, arguments[i]).data for i in which]
+
+
+def _load(builder: Any, data: Any, at: Any) -> Any:
+    return builder.load(builder.bitcast(builder.gep(data, [at]), _VECTOR.as_pointer()), align=8)
+
+
+def _store(builder: Any, vector: Any, data: Any, at: Any) -> None:
+    builder.store(vector, builder.bitcast(builder.gep(data, [at]), _VECTOR.as_pointer()), align=8)
+
+
+def _spread(builder: Any, number: Any, kind: Any = _VECTOR) -> Any:
+    """Return a vector of equal numbers."""
+    undefined = ir.Constant(kind, ir.Undefined)
+    one = builder.insert_element(undefined, number, ir.Constant(ir.IntType(32), 0))
+    return builder.shuffle_vector(one, undefined, ir.Constant(ir.VectorType(ir.IntType(32), BLOCK), [0] * BLOCK))
+
+
+def _magnitude(builder: Any, vector: Any) -> Any:
+    kind, name = ir.FunctionType(_VECTOR, [_VECTOR]), f"llvm.fabs.v{BLOCK}f64"
+    return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), [vector])
+
+
+def _greater(builder: Any, a: Any, b: Any) -> Any:
+    """Return the greater of two, element by element; b where they cannot be compared."""
+    return builder.select(builder.fcmp_ordered(">", a, b), a, b)
+
+
+def _folded(builder: Any, vector: Any, join: Callable[[Any, Any], Any]) -> Any:
+    """Return one number from the elements of a vector, joined in halves."""
+    numbers = [builder.extract_element(vector, ir.Constant(ir.IntType(32), i)) for i in range(BLOCK)]
+    while len(numbers) > 1:
+        half = len(numbers) // 2
+        numbers = [join(a, b) for a, b in zip(numbers[:half], numbers[half:], strict=True)]
+    return numbers[0]
+
+
+def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], Any]) -> Any:
+    """Return a vector that is carried from block to block: ``carried = block(index, carried)``, from `begin` on."""
+    carried = cgutils.alloca_once_value(builder, begin)
+    with cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+        builder.store(block(i, builder.load(carried)), carried)
+    return builder.load(carried)
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_combine(
+    typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
+) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        base, out = _data(context, builder, signature, arguments, 7, 8)
+        for i, change in _sums(context, builder, signature, arguments):
+            _store(builder, builder.fadd(_load(builder, base, i), change, flags=_FLAGS), out, i)
+        return context.get_dummy_value()
+
+    return types.void(*_TABLE, column, value, rows, base, out), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_total(
+    typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, out: Any
+) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        (out,) = _data(context, builder, signature, arguments, 7)
+        for i, total in _sums(context, builder, signature, arguments):
+            _store(builder, total, out, i)
+        return context.get_dummy_value()
+
+    return types.void(*_TABLE, column, value, rows, out), generate
+
+
+#: Types of width, h, first and last.
+_TABLE = types.int64, types.float64, types.int64, types.int64
+
+
+def _sums(context: Any, builder: Any, signature: Any, arguments: Any) -> Iterator[tuple[Any, Any]]:
+    """Give each block's index and h times its sum of values times rows, inside the loop over blocks."""
+    width, h, first, last = arguments[:4]
+    column, value, rows = _data(context, builder, signature, arguments, 4, 5, 6)
+    zero, factor = ir.Constant(_VECTOR, [0.0] * BLOCK), _spread(builder, h)
+    with cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+        total = cgutils.alloca_once(builder, _VECTOR)
+        builder.store(zero, total)
+        with cgutils.for_range_slice(builder, first, last, _I64(1), _I64, inc=True) as (k, _):
+            row = builder.mul(builder.load(builder.gep(column, [k])), width)
+            weight = _spread(builder, builder.load(builder.gep(value, [k])))
+            term = builder.fmul(weight, _load(builder, rows, builder.add(row, i)), flags=_FLAGS)
+            builder.store(builder.fadd(builder.load(total), term, flags=_FLAGS), total)
+        yield i, builder.fmul(factor, builder.load(total), flags=_FLAGS)
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_copied(typing: Any, width: Any, array: Any, out: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        data, to = _data(context, builder, signature, arguments, 1, 2)
+        with cgutils.for_range_slice(builder, _I64(0), arguments[0], _I64(BLOCK), _I64, inc=True) as (i, _):
+            _store(builder, _load(builder, data, i), to, i)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, array, out), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_weigh(typing: Any, width: Any, error: Any, share: Any, y: Any, new: Any, rtol: Any, atol: Any) -> Any:
+    signature = types.float64(types.int64, error, share, y, new, types.float64, types.float64)
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        error, share, y, new = _data(context, builder, signature, arguments, 1, 2, 3, 4)
+        rtol, atol = _spread(builder, arguments[5]), _spread(builder, arguments[6])
+        zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
+
+        def block(i: Any, total: Any) -> Any:
+            larger = _greater(
+                builder, _magnitude(builder, _load(builder, y, i)), _magnitude(builder, _load(builder, new, i))
+            )
+            weight = _load(builder, share, i)
+            larger = builder.fmul(weight, larger)
+            scale = builder.fadd(atol, builder.fmul(rtol, larger, flags=_FLAGS), flags=_FLAGS)
+            error_here = builder.fmul(weight, _load(builder, error, i))
+            none = builder.fcmp_ordered("==", error_here, zero)
+            part = builder.select(none, zero, builder.fdiv(error_here, scale))
+            return builder.fadd(total, builder.fmul(part, part, flags=_FLAGS), flags=_FLAGS)
+
+        total = _blocks(builder, arguments[0], zero, block)
+        return _folded(builder, total, builder.fadd)
+
+    return signature, generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_largest(typing: Any, width: Any, array: Any, weights: Any, first: Any, last: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        width, _, _, first, last = arguments
+        data, factors = _data(context, builder, signature, arguments, 1, 2)
+        zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
+
+        low, high = _spread(builder, first, _INDICES), _spread(builder, last, _INDICES)
+
+        def block(i: Any, largest: Any) -> Any:
+            index = builder.add(_spread(builder, i, _INDICES), ir.Constant(_INDICES, list(range(BLOCK))))
+            inside = builder.and_(builder.icmp_signed(">=", index, low), builder.icmp_signed("<", index, high))
+            size = builder.fmul(_magnitude(builder, _load(builder, data, i)), _load(builder, factors, i))
+            size = builder.select(inside, size, zero)
+            return _greater(builder, size, largest)
+
+        found = _blocks(builder, width, zero, block)
+        return _folded(builder, found, lambda a, b: _greater(builder, a, b))
+
+    return types.float64(types.int64, array, weights, types.int64, types.int64), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_finite(typing: Any, width: Any, array: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        (data,) = _data(context, builder, signature, arguments, 1)
+
+        def block(i: Any, total: Any) -> Any:
+            vector = _load(builder, data, i)
+            return builder.fadd(total, builder.fsub(vector, vector))
+
+        total = _blocks(builder, arguments[0], ir.Constant(_VECTOR, [0.0] * BLOCK), block)
+        return builder.fcmp_ordered("==", _folded(builder, total, builder.fadd), ir.Constant(_F64, 0.0))
+
+    return types.boolean(types.int64, array), generate
+
+
+total: Any = _total if config.DISABLE_JIT else _vector_total
+copied: Any = _copied if config.DISABLE_JIT else _vector_copied
+combine: Any = _combine if config.DISABLE_JIT else _vector_combine
+weigh: Any = _weigh if config.DISABLE_JIT else _vector_weigh
+largest: Any = _largest if config.DISABLE_JIT else _vector_largest
+finite: Any = _finite if config.DISABLE_JIT else _vector_finite

@@ -1,0 +1,202 @@
+"""The settings of a run: one table of names, kinds, defaults, units and words.
+
+Python's arguments, the options of every command and the tables of the documentation are made from it or checked
+against it. Nothing is imported here, as ``--help`` asks for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, cast
+
+from symgen import arguments
+from symgen.errors import InputError, nearest
+
+SHAPES = ("auto", "straight", "looped")
+
+
+@dataclass(frozen=True)
+class About:
+    """What is known of a setting beside its name and default.
+
+    Attributes
+    ----------
+    text : str
+        One sentence, ``{unit}`` standing where its unit belongs.
+    kind : type
+        Of its values: float, int, str, bool, dict (values by name) or tuple (numbers).
+    check : callable
+        (where, value) -> the value as a run takes it, or `InputError`.
+    unit : str
+        Its unit, empty where it has none.
+    flag : str
+        The option of commands; ``--name`` unless given.
+    metavar : str
+        What stands for a value in the help of commands.
+    otherwise : str
+        What is done where it is not given, if that is no plain default.
+    """
+
+    text: str
+    kind: type
+    check: Callable[[str, Any], Any]
+    unit: str = ""
+    flag: str = ""
+    metavar: str = ""
+    otherwise: str = ""
+
+    @property
+    def help(self) -> str:
+        """The sentence with its unit."""
+        return self.text.format(unit=f" [{self.unit}]" if self.unit else "")
+
+
+def _positive(where: str, value: object) -> float:
+    return arguments.number(where, value, positive=True)
+
+
+def _name(where: str, value: object) -> str:
+    return arguments.text(where, value, "a name")
+
+
+def _values(where: str, value: object) -> dict[str, float]:
+    found = arguments.mapping(where, value, "numbers by the names of parameters")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+
+
+def _repeat(where: str, value: object) -> int:
+    return arguments.whole(where, value, 1, 1000)
+
+
+def _shape(where: str, value: object) -> str:
+    return arguments.one_of(where, value, SHAPES)
+
+
+def _options(where: str, value: object) -> dict[str, str | float]:
+    found = arguments.mapping(where, value, "values by the names of options, such as 'method.alpha'")
+    return {k: v if isinstance(v, str) else arguments.number(f"{where} '{k}'", v) for k, v in found.items()}
+
+
+def _times(where: str, value: object) -> Sequence[float]:
+    # an array is checked by who makes it one; it may be long
+    return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]
+
+
+def _setting(default: object, text: str, kind: type, check: Callable[[str, Any], Any], **further: str) -> Any:
+    about = {"about": About(text, kind, check, **further)}
+    if isinstance(default, dict):
+        return field(default_factory=dict, metadata=about)
+    return field(default=default, metadata=about)
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything that shapes a run beside the model; `Model.simulate` says what each setting means.
+
+    Raises
+    ------
+    InputError
+        If a value is of the wrong kind or out of its range.
+    """
+
+    method: str = _setting("direct-correction", "Constraint stabilisation method, or auto.", str, _name)
+    integrator: str | None = _setting(
+        None, "Integrator, or auto.", str, _name, otherwise="the method's own, mostly rk4"
+    )
+    step: float | None = _setting(
+        None,
+        "Step{unit}: constant, or the first one of an adaptive integrator.",
+        float,
+        _positive,
+        unit="s",
+        otherwise="of the mechanism; chosen",
+    )
+    rtol: float | None = _setting(
+        None, "Relative tolerance of an adaptive integrator.", float, _positive, otherwise="1e-8"
+    )
+    atol: float | None = _setting(
+        None, "Absolute tolerance of an adaptive integrator.", float, _positive, otherwise="1e-10"
+    )
+    until: float | None = _setting(None, "End time{unit}.", float, _positive, unit="s", otherwise="of the mechanism")
+    output_step: float | None = _setting(
+        None,
+        "Time between outputs{unit}.",
+        float,
+        _positive,
+        unit="s",
+        otherwise="of the mechanism; every step, or 1001 times of an adaptive run",
+    )
+    times: Sequence[float] | None = _setting(None, "Output times{unit}.", tuple, _times, unit="s", metavar="T,T,...")
+    parameters: Mapping[str, float] = _setting(
+        {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
+    )
+    options: Mapping[str, str | float] = _setting(
+        {}, "Option, such as method.alpha=5.", dict, _options, flag="--option", metavar="KEY=VALUE"
+    )
+    strict: bool = _setting(False, "Refuse a start that is not consistent.", bool, arguments.switch)
+    verify: bool = _setting(
+        False, "Estimate the error by a second run with finer steps, and settle doubts by it.", bool, arguments.switch
+    )
+    max_violation: float = _setting(
+        1e-6,
+        "Largest violation of positions and of velocities, as fractions of the mechanism's length and speed.",
+        float,
+        _positive,
+    )
+    max_energy_error: float = _setting(
+        0.05, "Largest energy error that is tolerated, as a fraction of the energy in motion.", float, _positive
+    )
+    max_steps: float | None = _setting(
+        None,
+        "Attempts at steps after which a run ends as failed; constant steps that would be more are refused.",
+        float,
+        _positive,
+        otherwise="1e8 adaptive, 2e9 constant",
+    )
+    repeat: int = _setting(1, "Warm up and time that many runs.", int, _repeat, metavar="N")
+    shape: str = _setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
+
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            value = getattr(self, f.name)
+            if value is not None or f.name in ("parameters", "options") or f.default is not None:
+                object.__setattr__(self, f.name, about(f.name).check(f.name, value))
+
+
+def about(name: str) -> About:
+    """Return what is known of the setting called `name`."""
+    return _ABOUT[name]
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of all settings, in the order of the table."""
+    return tuple(_ABOUT)
+
+
+def default(name: str) -> Any:
+    """Return what a setting is where it is not given."""
+    return getattr(Settings(), name)
+
+
+def flag(name: str) -> str:
+    """Return the option of commands that is the setting called `name`."""
+    return about(name).flag or f"--{name.replace('_', '-')}"
+
+
+def changed(settings: Settings | None, changes: Mapping[str, object]) -> Settings:
+    """Return settings, by default the usual ones, with some replaced.
+
+    Raises
+    ------
+    InputError
+        If a name is not a setting (says the nearest one), or a value is of the wrong kind.
+    """
+    for name in changes:
+        if name not in _ABOUT:
+            raise InputError("settings", "the name of a setting", f"'{name}'", nearest(name, _ABOUT))
+    base = Settings() if settings is None else arguments.of_kind("settings", settings, Settings, "Settings")
+    return replace(base, **cast(dict[str, Any], dict(changes)))
+
+
+_ABOUT: dict[str, About] = {f.name: f.metadata["about"] for f in fields(Settings)}

@@ -1,0 +1,277 @@
+"""Functions of emitted modules: put into machine code without Numba's front end where they are plain enough.
+
+Most of the time that Numba takes for such a function goes into finding out what it says itself: its types. Where a
+function is in the language of `symgen.native`, its machine code is made from its source, with the operations that Numba
+would put, in the same order, so results are the same to the last bit (`tests/native/test_judge.py`). Any other function
+is compiled by Numba, and so is every function where Numba is not as expected. The environment variable `COMPILER` says
+which of the two is wanted.
+
+Machine code is kept in the cache like that of Numba's functions (`symgen.store.jit`): an entry holds a function's own,
+and names the functions it calls, which are loaded first.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import gc
+import hashlib
+import marshal
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from numba.core import event, sigutils
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.registry import CPUDispatcher
+
+from symgen.errors import InputError, nearest
+from symgen.native.library import Library, arguments_of, kinds_of, kinds_of_function, result
+from symgen.native.machine import codegen, compiled, load
+from symgen.store import private
+from symgen.store.identity import digest, sources_digest
+from symgen.store.jit import Loading, MachineCode, attach, environment, plain_name, unusable
+from symgen.store.paths import cache_location
+from symgen.store.stats import counters
+from symgen.store.upkeep import NATIVE
+
+if TYPE_CHECKING:
+    from symgen.native.language import Function, Scalar
+    from symgen.native.read import Kind
+
+#: Environment variable: "source", the default, for machine code from the source where that can be; "explain" for the
+#: same with a line on standard error for each function that is left to Numba; "numba" for all functions by Numba.
+COMPILER = "SYMGEN_COMPILER"
+_COMPILERS = ("source", "explain", "numba")
+#: How emitted functions are decorated; with other options a function is Numba's to compile.
+_OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nopython": True, "boundscheck": None}
+#: Functions of up to so many statements are copied into those that call them, if LLVM thinks that good.
+_SHORT = 60
+
+
+class Origin(NamedTuple):
+    """Where a function comes from: digest of all sources it depends on, its file, and the digest of that file."""
+
+    stamp: str
+    path: Path
+    content: str
+
+
+class _Entry(NamedTuple):
+    """Machine code as it is kept: type of the result, functions called with the types of their arguments, object."""
+
+    returned: Scalar
+    called: tuple[tuple[str, tuple[Kind, ...]], ...]
+    code: bytes
+
+
+class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
+    """A dispatcher that makes machine code from the source of its function, or else as every dispatcher does."""
+
+    _origin: Origin | None = None
+    _symbols: dict[tuple[Kind, ...], str]
+    _foreign: set[tuple[Kind, ...]]
+
+    @classmethod
+    def of(cls, dispatcher: Any, origin: Origin) -> None:
+        """Make a function of an emitted module one of these.
+
+        Parameters
+        ----------
+        dispatcher : Dispatcher
+            Made by ``numba.njit``; anything else, such as a plain function under ``NUMBA_DISABLE_JIT=1``, is left as
+            it is.
+        origin : Origin
+            Where the function comes from.
+
+        Raises
+        ------
+        InputError
+            If the environment names no compiler.
+        """
+        if _compiler() == "numba":
+            attach(dispatcher, f"{origin.stamp} by Numba")  # what judges the other never takes its place in the cache
+            return
+        attach(dispatcher, origin.stamp)
+        if type(dispatcher) is CPUDispatcher and not unusable():
+            # An object of its own would take as long to make as all else that loading does with a function.
+            dispatcher.__class__ = cls
+            dispatcher._origin, dispatcher._symbols, dispatcher._foreign = origin, {}, set()
+
+    def compile(self, sig: Any) -> Any:
+        """Compile a signature, or load it from the cache."""
+        if self._origin is not None:
+            with global_compiler_lock:
+                self._compile_directly(sig)
+        return super().compile(sig)
+
+    def add_overload(self, result: Any) -> None:
+        """Enter a result; calls from Python learn of one that comes from the source when the first of them is made."""
+        if isinstance(result.library, Library):
+            self.overloads[tuple(result.signature.args)] = result
+        else:
+            super().add_overload(result)
+
+    def is_direct(self, kinds: tuple[Kind, ...]) -> bool:
+        """Compile, or load from the cache; return whether the machine code comes from the source."""
+        arguments = arguments_of(kinds)
+        self.compile(arguments)
+        return isinstance(self.overloads[arguments].library, Library)
+
+    def read(self, kinds: tuple[Kind, ...]) -> Function:
+        """Return the function in the language of `symgen.native`.
+
+        Raises
+        ------
+        Foreign
+            If it is not in the language.
+        """
+        from symgen.native.read import read
+
+        collecting = gc.isenabled()
+        gc.disable()  # many objects, of which none is garbage
+        try:
+            return read(self, kinds, _definition)
+        finally:
+            if collecting:
+                gc.enable()
+
+    def symbol(self, kinds: tuple[Kind, ...]) -> str:
+        """Return the name in machine code, which holds a digest of all that the machine code depends on."""
+        if kinds not in self._symbols:
+            name = f"{self.__name__}_{digest(self._key(kinds))[:32]}"
+            self._symbols[kinds] = f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
+        return self._symbols[kinds]
+
+    def _key(self, kinds: tuple[Kind, ...]) -> str:
+        assert self._origin is not None, "a function of an emitted module"
+        parts = (self.__name__, self._origin.stamp, repr(kinds), repr(codegen().magic_tuple()), environment())
+        return "\n".join(("from the source", *parts, sources_digest("native")))
+
+    def _compile_directly(self, sig: Any) -> None:
+        """Enter a result for a signature, if the function is in the language."""
+        arguments = tuple(sigutils.normalize_signature(sig)[0])
+        kinds = kinds_of(arguments)
+        if kinds is None or arguments in self.overloads or kinds in self._foreign:
+            return
+        location = cache_location()
+        name = f"{self.__name__}-{digest(self._key(kinds))[:32]}{private.SUFFIX}"
+        path = location.path / NATIVE / plain_name(self.__module__, 100) / name
+        entry = self._kept(path, kinds) if location.persistent else None
+        if entry is None and isinstance(self._cache, MachineCode) and self._cache.has(sig, self.targetctx):
+            self._foreign.add(kinds)  # as it turned out to be in another process
+            return
+        if entry is None:
+            details = {"dispatcher": self, "args": arguments, "return_type": None}
+            with event.trigger_event("numba:compile", data=details):
+                entry = self._made(kinds)
+                if entry is not None and location.persistent:
+                    private.write(path, self._key(kinds), marshal.dumps(tuple(entry)))
+        if entry is None:
+            self._foreign.add(kinds)
+            counters["foreign"] += 1
+        else:
+            self.add_overload(self._result(arguments, kinds, entry))
+
+    def _kept(self, path: Path, kinds: tuple[Kind, ...]) -> _Entry | None:
+        """Return what the cache holds, with everything in memory that it calls."""
+        with Loading() as clock:
+            data = private.read(path, self._key(kinds))
+            if data is None:
+                return None
+            entry = _Entry(*marshal.loads(data))
+            if not all(self.py_func.__globals__[name].is_direct(called) for name, called in entry.called):
+                return None
+            clock.loaded = True
+            counters["hits"] += 1
+            return entry
+
+    def _made(self, kinds: tuple[Kind, ...]) -> _Entry | None:
+        """Return machine code made from the source, with everything in memory that it calls; None if it is foreign."""
+        from symgen.native import internals
+        from symgen.native.llvm import module
+        from symgen.native.read import Foreign
+
+        if not internals.usable():
+            return self._leave("Numba is not as expected, or asked to check or to debug")
+        try:
+            function = self.read(kinds)
+        except Foreign as foreign:
+            return self._leave(str(foreign))
+        for f in function.called:
+            if not _dispatcher(f).is_direct(kinds_of_function(f)):
+                return self._leave(f"it calls '{f.name}', which is")
+        names = {id(value): name for name, value in self.py_func.__globals__.items()}
+        called = tuple((names[id(f.source)], kinds_of_function(f)) for f in function.called)
+        try:
+            code = compiled(module(function, _symbol, _is_short), _symbol(function))
+        except RuntimeError as error:  # an LLVM that does not know the language any more
+            return self._leave(str(error))
+        counters["misses"] += 1
+        counters["translated"] += 1
+        return _Entry(function.returned, called, code)
+
+    def _leave(self, why: str) -> _Entry | None:
+        """Say, if that is wanted, why the function is left to Numba."""
+        if _compiler() == "explain":
+            print(f"{self.__module__}.{self.__name__} is left to Numba: {why}", file=sys.stderr)
+        return None
+
+    def _result(self, arguments: tuple[Any, ...], kinds: tuple[Kind, ...], entry: _Entry) -> Any:
+        """Put machine code into memory."""
+        symbol = self.symbol(kinds)
+        codes = [argument._code for argument in arguments]
+        library = Library(load(entry.code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(kinds))
+        return result(self.py_func, arguments, entry.returned, symbol, library, lambda f: self._insert(codes, f, False))
+
+    def _linkable(self, kinds: tuple[Kind, ...]) -> str:
+        """Return the text of a module that holds the function and all it calls."""
+        from symgen.native.llvm import module
+
+        return module(self.read(kinds), _symbol, lambda called: True)
+
+
+def _compiler() -> str:
+    """Return the compiler that the environment names."""
+    name = os.environ.get(COMPILER) or _COMPILERS[0]
+    if name not in _COMPILERS:
+        raise InputError(COMPILER, "one of " + ", ".join(_COMPILERS), f"'{name}'", nearest(name, _COMPILERS))
+    return name
+
+
+def _dispatcher(function: Function) -> EmittedFunction:
+    assert isinstance(function.source, EmittedFunction), "functions are read from dispatchers of this kind"
+    return function.source
+
+
+def _symbol(function: Function) -> str:
+    return _dispatcher(function).symbol(kinds_of_function(function))
+
+
+def _is_short(function: Function) -> bool:
+    return len(function.body) <= _SHORT
+
+
+def _definition(function: Any) -> ast.FunctionDef | None:
+    """Return the syntax tree of an emitted function, None where its source cannot be had."""
+    if not isinstance(function, EmittedFunction) or function._origin is None or function.targetoptions != _OPTIONS:
+        return None
+    first = function.py_func.__code__.co_firstlineno - 1
+    lines = _lines(function._origin.path, function._origin.content)
+    last = next((i for i in range(first + 2, len(lines)) if lines[i][:1].strip()), len(lines))
+    try:
+        found = ast.parse("\n".join(lines[first:last])).body
+    except SyntaxError:
+        return None
+    return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None
+
+
+@functools.lru_cache(maxsize=4)
+def _lines(path: Path, content: str) -> tuple[str, ...]:
+    """Return the lines of a file if its content is still what it was."""
+    try:
+        data = path.read_bytes()
+    except OSError:
+        return ()
+    return tuple(data.decode().split("\n")) if hashlib.sha256(data).hexdigest() == content else ()

@@ -1,0 +1,53 @@
+"""Elementary functions of formulas: the one table from which every stage knows them.
+
+Each has the same name here, in files, in `math`, NumPy and SymPy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Elementary:
+    """An elementary function of one number.
+
+    Parameters
+    ----------
+    evaluate : callable
+        The function itself.
+    slope : callable
+        Its derivative on an expression graph: takes the `symgen.ir.graph.Graph` and the nodes of the argument and of
+        the function, and returns a node.
+    everywhere : bool
+        Whether it is a number for every argument that is one.
+    """
+
+    evaluate: Callable[[float], float]
+    slope: Callable[[Any, int, int], int]
+    everywhere: bool = True
+
+
+def _cosine(g: Any, a: int) -> int:
+    """Return sqrt(1 - a^2)."""
+    found: int = g.call("sqrt", g.sub(g.one, g.mul(a, a)))
+    return found
+
+
+ELEMENTARY: Mapping[str, Elementary] = {
+    "sqrt": Elementary(math.sqrt, lambda g, a, n: g.div(g.constant(0.5), n), everywhere=False),
+    "exp": Elementary(math.exp, lambda g, a, n: n),
+    "log": Elementary(math.log, lambda g, a, n: g.div(g.one, a), everywhere=False),
+    "sin": Elementary(math.sin, lambda g, a, n: g.call("cos", a)),
+    "cos": Elementary(math.cos, lambda g, a, n: g.neg(g.call("sin", a))),
+    "tan": Elementary(math.tan, lambda g, a, n: g.add(g.one, g.mul(n, n))),
+    "asin": Elementary(math.asin, lambda g, a, n: g.div(g.one, _cosine(g, a)), everywhere=False),
+    "acos": Elementary(math.acos, lambda g, a, n: g.neg(g.div(g.one, _cosine(g, a))), everywhere=False),
+    "atan": Elementary(math.atan, lambda g, a, n: g.div(g.one, g.add(g.one, g.mul(a, a)))),
+    "sinh": Elementary(math.sinh, lambda g, a, n: g.call("cosh", a)),
+    "cosh": Elementary(math.cosh, lambda g, a, n: g.call("sinh", a)),
+    "tanh": Elementary(math.tanh, lambda g, a, n: g.sub(g.one, g.mul(n, n))),
+}

@@ -1,0 +1,180 @@
+"""Every operation that a printer of blocks can print, in random combinations, compiled both ways."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from symgen.emit.printer import ElementAccess, print_block
+from symgen.ir.graph import FUNCTIONS, Graph
+from symgen.ir.program import Block, Layout, Target
+
+from .twofold import arguments_of, differences, load_twice, written
+
+INPUTS, OUTPUTS = 12, 8
+UNARY = ("neg", *"sqrt exp log sin cos tan asin acos atan sinh cosh tanh abs floor sign".split())
+BINARY = tuple("add sub mul div pow atan2 min max step".split())
+COMPARISONS = tuple("lt le gt ge".split())
+ALL = (*UNARY, *BINARY, *COMPARISONS, "and", "or", "not", "defined", "where", "table:bump")
+TABLE = '''
+def table_bump(x):
+    """Linear interpolation."""
+    if x <= 0.0:
+        return 1.0
+    if x >= 3.0:
+        return -2.0
+    low = 0
+    high = 3
+    while high - low > 1:
+        middle = (low + high) // 2
+        if x < BUMP_X[middle]:
+            high = middle
+        else:
+            low = middle
+    part = (x - BUMP_X[low]) / (BUMP_X[high] - BUMP_X[low])
+    return BUMP_Y[low] + part * (BUMP_Y[high] - BUMP_Y[low])
+'''
+HEAD = """import math
+
+import numpy as np
+from numba import njit
+
+BUMP_X = np.array([0.0, 0.5, 1.25, 3.0])
+BUMP_Y = np.array([1.0, 4.0, -0.5, -2.0])
+
+"""
+_counter = itertools.count()
+
+
+def printed(graph: Graph, outputs: list[int], flag: int | None) -> str:
+    """Return nodes as an emitted function."""
+    block = Block("f", "test", graph, tuple((Target("out", i), n) for i, n in enumerate(outputs)), ("y", "out"), flag)
+    layout = Layout(nq=INPUTS, nv=0, m=0, parameters=0, sections={})
+    lines = print_block(block, ElementAccess(layout, {}))
+    body = [*lines.inputs, *lines.terms, *lines.outputs, f"return {f'int({lines.flag})' if lines.flag else 0}"]
+    return "def f(y, out):\n" + "".join(f"    {line}\n" for line in body)
+
+
+def judged(tmp_path, *functions: str) -> list[str]:
+    folder = tmp_path / f"operations{next(_counter)}"
+    direct, plain = load_twice(written(folder, TABLE, *functions, head=HEAD))
+    return differences(direct.f, plain.f, arguments_of(direct.f), 64, rounds=8)
+
+
+def test_the_list_of_operations_is_complete():
+    arithmetic = {"add", "sub", "mul", "div", "pow", "neg"}
+    assert {name.partition(":")[0] for name in ALL} == FUNCTIONS | arithmetic | {"table"}
+
+
+@st.composite
+def programs(draw):
+    """Draw a graph, its outputs and its flag."""
+    graph = Graph()
+    numbers = [graph.input("q", i) for i in range(INPUTS)]
+    numbers += [graph.constant(draw(st.sampled_from((0.5, 2.0, -3.0, 1e-3, math.pi, 1.0, 7.0)))) for _ in range(3)]
+    truths = [graph.call("gt", numbers[0], numbers[1])]
+    names = draw(st.lists(st.sampled_from(ALL), min_size=10, max_size=40))
+
+    def some(nodes: list[int]) -> int:
+        return nodes[draw(st.integers(0, len(nodes) - 1))]
+
+    for name in names:
+        if name in COMPARISONS:
+            truths.append(graph.call(name, some(numbers), some(numbers)))
+        elif name in ("and", "or"):
+            truths.append(graph.call(name, some(truths), some(truths)))
+        elif name == "defined":
+            truths.append(graph.call(name, some(numbers)))
+        elif name == "not":
+            truths.append(graph.call(name, some(truths)))
+        elif name == "where":
+            numbers.append(graph.call(name, some(truths), some(numbers), some(numbers)))
+        else:
+            count = 1 if name in UNARY or name == "table:bump" else 2
+            arguments = tuple(some(numbers) for _ in range(count))
+            numbers.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
+    return graph, [some(numbers[-20:]) for _ in range(OUTPUTS)], some(truths) if draw(st.booleans()) else None
+
+
+@given(program=programs())
+@settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True, database=None)
+def test_random_programs(tmp_path_factory, program):
+    assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
+
+
+@pytest.mark.slow
+@given(program=programs())
+@settings(max_examples=150, deadline=None, suppress_health_check=list(HealthCheck), database=None)
+def test_more_random_programs(tmp_path_factory, program):
+    assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
+
+
+def test_each_operation_alone(tmp_path):
+    graph, outputs = Graph(), []
+    a, b, c = (graph.input("q", i) for i in range(3))
+    truth = graph.call("lt", a, b)
+    for name in ALL:
+        if name in (*COMPARISONS, "and", "or", "not"):
+            arguments = (a, b) if name in COMPARISONS else (truth, graph.call("ge", b, c))[: 1 if name == "not" else 2]
+            outputs.append(graph.call("where", graph.call(name, *arguments), c, graph.neg(a)))
+        elif name == "where":
+            outputs.append(graph.call(name, truth, graph.mul(a, b), c))
+        else:
+            arguments = (a,) if name in UNARY or ":" in name else (a, b)
+            outputs.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
+    assert judged(tmp_path, printed(graph, outputs, truth)) == []
+
+
+def test_sums_of_products_are_contracted_in_the_same_way(tmp_path):
+    products = " + ".join(f"y[{2 * i}]*y[{2 * i + 1}]" for i in range(6))
+    text = f"""
+def f(y, out):
+    a = y[0]*y[1]
+    b = y[2]*y[3]
+    out[0] = a + b
+    out[1] = a - b
+    out[2] = b - a
+    out[3] = -a*y[4] - b
+    out[4] = {products}
+    out[5] = 2.0*(y[0]*y[1]) + 2.0*(y[2]*y[3])
+    out[6] = (y[0] + y[1])*(y[2] - y[3]) - y[4]*(y[5]*y[6])
+    out[7] = y[3]*y[2] + y[1]*y[0]
+    out[8] = 1.0/(y[0]*y[1] + y[2])
+    out[9] = y[4]**2 + y[5]**3 - y[6]**5*y[7]**0
+    return 0
+"""
+    assert judged(tmp_path, text) == []
+
+
+def test_loops_and_branches(tmp_path):
+    text = """
+def f(y, out):
+    total, largest, place = 0.0, -1.0, -1
+    for i in range(10):
+        if y[i] > largest:
+            largest, place = y[i], i
+        elif not y[i] <= 0.0:
+            continue
+        total += y[i]*y[i + 1]
+        if total > 1e9 or place == 7 and i != 3:
+            break
+    k = 9
+    while k > 2 and y[k] < 0.5:
+        k -= 2
+        out[k + 1], out[k] = out[k], out[k + 1]
+    for r in range(5, -1, -2):
+        for c in range(r):
+            out[r] += y[c] if c % 2 == 0 else -y[r]
+    bits = 1
+    if largest > 1.0:
+        bits |= 2
+    out[11] = total / (1 + place) + float(bits) - 1.0*(largest > total) + math.copysign(2.0, y[0])
+    out[12] = max(total, y[1], y[2]) + min(3, y[3])
+    out[13] = math.sqrt(abs(y[5])) if bits & 2 == 2 else math.inf
+    return bits * 10 + int(y[1] > y[2]) + abs(place - 5) + place // 3
+"""
+    assert judged(tmp_path, text) == []

@@ -1,0 +1,148 @@
+"""What would need more memory or disk than there is, is refused in a sentence before anything is allocated."""
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from symgen import memory
+from symgen.errors import InputError
+
+#: Runs commands in a process whose address space is bounded, and says how much of it they took at most.
+SCRIPT = """\
+import json, re, resource, sys
+import numba, numpy, symgen.api, symgen.ensemble.sweep, symgen.study.compare, symgen.study.stress
+from symgen.cli import main
+limit = 6_000_000_000
+resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+code = main(json.loads(sys.argv[1]))
+# ru_maxrss would count what the process that started this one had taken
+print(code, *re.findall(r"VmHWM:\\s*(\\d+)", open("/proc/self/status").read()))
+"""
+ASKED = {
+    "an axis": (
+        ["sweep", "pendulum", "--vary", "bob.vy=lin(0,1,1000000000)", "--until", "0.02"],
+        r"--vary bob.vy: expected lin\(first, last, count\) with no more than 80% of the free memory, \S+ GB, got "
+        r"1e\+09 values, about 24 GB",
+    ),
+    "a random axis": (
+        ["sweep", "pendulum", "--vary", "bob.vy=uniform(0,1,1e9,7)", "--until", "0.02"],
+        "1e\\+09 values",
+    ),
+    "a logarithmic axis": (["sweep", "pendulum", "--vary", "bob.vy=log(1,2,1e9)", "--until", "0.02"], "1e\\+09 values"),
+    "a product of axes": (
+        [
+            *(
+                "sweep",
+                "pendulum",
+                "--vary",
+                "bob.vy=lin(0,1,30000)",
+                "--vary",
+                "bob.vx=lin(0,1,30000)",
+                "--until",
+                "0.02",
+            )
+        ],
+        r"sweep: expected no more than 80% of the free memory, \S+ GB, got 9e\+08 runs, about 360 GB",
+    ),
+    "outputs of many runs": (
+        [
+            "sweep",
+            "pendulum",
+            "--vary",
+            "bob.vy=lin(0,1,20000)",
+            "--until",
+            "1",
+            "--output-step",
+            "1e-5",
+            "--quantity",
+            "q",
+        ],
+        r"got 20000 runs, each with 2 quantities at 100001 times, about 32 GB",
+    ),
+    "outputs": (
+        ["run", "n-four-bar:1000", "--until", "0.01", "--output-step", "1e-9"],
+        r"output_step: expected no more than 80% of the free memory, \S+ GB, got 1e\+07 outputs, about \S+ GB",
+    ),
+    "outputs as JSON": (
+        ["run", "n-four-bar:1000", "--until", "0.01", "--output-step", "1e-9", "--json"],
+        "1e\\+07 outputs",
+    ),
+    "every step of a large mechanism": (
+        ["run", "n-four-bar:1000", "--step", "1e-6", "--until", "1", "--output-step", "1e-6"],
+        "1e\\+06 outputs",
+    ),
+    "a file": (
+        ["run", "andrews", "--output-step", "1e-8", "--until", "0.03", "--save", "a.nc"],
+        r"--save: expected no more than 80% of the free memory, \S+ GB, got 3e\+06 outputs of andrews",
+    ),
+    "a comparison": (["compare", "four-bar", "--until", "1", "--output-step", "1e-7"], "output_step: expected no more"),
+}
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="bounds the address space")
+@pytest.mark.parametrize(("words", "sentence"), ASKED.values(), ids=ASKED)
+def test_one_sentence_before_anything_is_allocated(tmp_path, words, sentence):
+    found = subprocess.run(
+        [sys.executable, "-c", SCRIPT, json.dumps(words)], capture_output=True, text=True, cwd=tmp_path, timeout=600
+    )
+    code, kilobytes = found.stdout.split()[-2:]
+    assert code == "2", found.stderr
+    assert found.stderr.startswith("symgen: ") and found.stderr.count("\n") == 1
+    assert re.search(sentence, found.stderr), found.stderr
+    assert int(kilobytes) < 600_000
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_is_too_small(tmp_path, monkeypatch):
+    import symgen
+
+    monkeypatch.setattr(memory.shutil, "disk_usage", lambda path: memory.shutil._ntuple_diskusage(9, 8, 1000))
+    with pytest.raises(
+        InputError, match=r"folder '.*': expected no more than the disk has, 1e-06 GB, got 9 runs, each"
+    ):
+        symgen.sweep("pendulum", {"bob.vy": "lin(0, 1, 9)"}, until=0.01, output=tmp_path / "rows")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_requests(monkeypatch):
+    monkeypatch.setattr(memory, "available", lambda: 1e9)
+    memory.require("x", "little", 7.9e8)
+    with pytest.raises(
+        InputError, match=r"^x: expected no more than 80% of the free memory, 0.8 GB, got much, about 2 GB$"
+    ):
+        memory.require("x", "much", 2e9)
+    monkeypatch.setattr(memory, "available", lambda: None)
+    memory.require("x", "anything", 1e30)
+
+
+def groups(root: Path, name: str, limit: str, used: int, files: int, old: bool) -> None:
+    names = memory._OLD if old else ("memory.max", "memory.current")
+    folder = root / name
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / names[0]).write_text(f"{limit}\n")
+    (folder / names[1]).write_text(f"{used}\n")
+    (folder / "memory.stat").write_text(f"anon 1\n{'total_inactive_file' if old else 'inactive_file'} {files}\n")
+
+
+@pytest.mark.parametrize("old", [False, True])
+def test_groups_of_a_container_count(tmp_path, monkeypatch, old):
+    root = tmp_path / "cgroup"
+    line = "4:memory:/user/run\n" if old else "0::/user/run\n"
+    base = root / "memory" if old else root
+    groups(base, "user/run", "max" if not old else str(2**62), 0, 0, old)
+    groups(base, "user", "5000", 3000, 500, old)
+    monkeypatch.setattr(memory, "_GROUPS", root)
+    real = Path.read_text
+    monkeypatch.setattr(Path, "read_text", lambda p, *a: line if str(p) == "/proc/self/cgroup" else real(p, *a))
+    assert min(memory._of_groups()) == 2500.0
+    groups(base, "", "1000", 900, 0, old)  # a container sees its own group as the root
+    assert min(memory._of_groups()) == 100.0
+
+
+def test_this_machine_says_something():
+    found = memory.available()
+    assert found is None or 1e6 < found < 1e15

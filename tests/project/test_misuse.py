@@ -1,0 +1,505 @@
+"""Defensive programming: every public function gets nonsense for every argument, and answers in one sentence.
+
+Each row is a call and what its sentence must say. Nothing may be run, written or compiled by it beyond what made the
+object that is asked.
+"""
+
+import copy
+import inspect
+import math
+import pickle
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import InputError, SymgenError
+from symgen.settings import Settings
+from symgen.study.stress import stress
+
+NAN, INF = math.nan, math.inf
+NUMBERS = ("step", "rtol", "atol", "until", "output_step", "max_violation", "max_energy_error")
+#: What is no number above 0 -> how a sentence calls it.
+NO_NUMBER = {
+    "0": 0,
+    "-1.0": -1.0,
+    "nan": NAN,
+    "inf": INF,
+    "True": True,
+    "'1e-3'": "1e-3",
+    "an array of shape (2,)": np.array([1.0, 2.0]),
+    "a list of 1": [1e-3],
+    "a dict of 0": {},
+    "the function len": len,
+    "1j": 1j,
+    "False": np.bool_(False),
+    "b'1'": b"1",
+    "the class float": float,
+}
+NO_TEXT = {
+    "3": 3,
+    "None": None,
+    "True": True,
+    "a list of 1": ["lagrange"],
+    "the class int": int,
+    "1.5": np.float64(1.5),
+}
+NO_MAPPING = {"3": 3, "'a=1'": "a=1", "a list of 1": [("a", 1)], "the function len": len, "a set of 1": {"a"}}
+NO_SWITCH = {"1": 1, "'yes'": "yes", "None": None, "a list of 0": [], "0.0": 0.0}
+
+
+class Thing:
+    """Something that no function knows."""
+
+
+@pytest.fixture(scope="module")
+def model():
+    return symgen.load("pendulum")
+
+
+@pytest.fixture(scope="module")
+def result(model):
+    return model.simulate(until=0.02)
+
+
+@pytest.fixture(scope="module")
+def sweep(model):
+    return symgen.sweep(model, {"bob.vy": [0.0, 1.0]}, until=0.01)
+
+
+@pytest.fixture(scope="module")
+def study(model):
+    return symgen.compare(model, "lagrange", "rk4", 1e-2, until=0.1, repeat=1)
+
+
+def settings_rows():
+    """Rows of settings: name, value, sentence."""
+    for name in NUMBERS:
+        for shown, value in NO_NUMBER.items():
+            yield name, value, f"{name}: expected a finite number above 0, got {shown}"
+    for name, least in (("method", 0), ("integrator", 0)):
+        for shown, value in NO_TEXT.items():
+            if not (name == "integrator" and value is None) and least == 0:
+                yield name, value, f"{name}: expected a name, got {shown}"
+    for shown, value in NO_TEXT.items():
+        yield "shape", value, f"shape: expected one of auto, straight, looped, got {shown}"
+    yield "shape", "lopped", "did you mean 'looped'?"
+    yield "method", "lagrang", "did you mean 'lagrange'?"
+    yield "integrator", "rk", "expected an integrator, got 'rk'"
+    for name in ("parameters", "options"):
+        for shown, value in NO_MAPPING.items():
+            yield name, value, f", got {shown}"
+        yield name, {3: 1.0}, "named by texts, got 3"
+        yield name, {"x": [1.0]}, f"{name} 'x': expected a finite number, got a list of 1"
+        yield name, {"x": NAN}, f"{name} 'x': expected a finite number, got nan"
+        yield name, {"x": lambda t: t}, f"{name} 'x': expected a finite number, got the function <lambda>"
+        yield name, {"x": True}, f"{name} 'x': expected a finite number, got True"
+    yield "parameters", {"x": "1"}, "parameters 'x': expected a finite number, got '1'"
+    yield "parameters", {"x": 1.0}, "parameter 'x': expected a parameter of pendulum, got none of that name"
+    yield "options", {"alpha": 1.0}, "option alpha: expected method.NAME or integrator.NAME"
+    yield "options", {"method.weight": "long"}, "expected one of identity, mass, got 'long'"
+    for name in ("strict", "verify"):
+        for shown, value in NO_SWITCH.items():
+            yield name, value, f"{name}: expected True or False, got {shown}"
+    for value in (0, -1, 1.5, 1001, "3", None, True, [1], NAN):
+        yield "repeat", value, "repeat: expected a whole number from 1 to 1000, got "
+    for value in ("0.01", {"a": 1}, [[0.0, 0.01]], [0.0, "x"], [0.0, None], len):
+        yield "times", value, "times: expected "
+    for value in ([0.01, 0.0], [0.0, NAN], [-1.0, 0.0], [0.0, 5.0], np.zeros((2, 2)), np.array(["a"]), np.array([{}])):
+        yield "times", value, "times: expected "
+    yield "step", 0.03, "step: expected at most until = 0.02, got 0.03"
+    yield "nonsense", 1, "settings: expected the name of a setting, got 'nonsense'"
+
+
+SETTINGS = list(settings_rows())
+
+
+@pytest.mark.parametrize(("name", "value", "sentence"), SETTINGS, ids=[f"{r[0]}-{i}" for i, r in enumerate(SETTINGS)])
+def test_settings(model, name, value, sentence):
+    for call in (model.simulate, lambda **k: symgen.simulate(model, **k)):
+        with pytest.raises(InputError) as error:
+            call(**{"until": 0.02, name: value})
+        assert sentence in str(error.value) and "\n" not in str(error.value)
+        assert len(str(error.value)) < 500
+
+
+def rows():
+    """Rows of everything else: label, call on the fixtures, sentence."""
+    for shown, value in {"3": 3, "None": None, "a list of 1": ["a"], "b'a'": b"a", "a Thing": Thing()}.items():
+        yield f"load {shown}", lambda x, v=value: symgen.load(v), f"model: expected a path, got {shown}"
+        yield f"simulate {shown}", lambda x, v=value: symgen.simulate(v), f"model: expected a path, got {shown}"
+        yield f"compare {shown}", lambda x, v=value: symgen.compare(v), f"model: expected a path, got {shown}"
+        yield f"sweep {shown}", lambda x, v=value: symgen.sweep(v, {"a": [1.0]}), f"model: expected a path, got {shown}"
+        yield (
+            f"Model {shown}",
+            lambda x, v=value: symgen.Model(v),
+            "mechanism: expected a Mechanism; symgen.load takes",
+        )
+    yield "load empty", lambda x: symgen.load(""), "got ''"
+    yield "load null", lambda x: symgen.load("a\0b"), "got 'a\\x00b'"
+    for value in ("lagrange", 3, {}, Settings):
+        yield f"settings {value!r:.9}", lambda x, v=value: x.model.simulate(v), "settings: expected Settings, got "
+        yield (
+            f"sweep settings {value!r:.9}",
+            lambda x, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, settings=v),
+            ("settings: expected Settings, got "),
+        )
+    for value in (3, "yes", []):
+        for name, call in {
+            "simulate": lambda x, v: x.model.simulate(progress=v),
+            "sweep": lambda x, v: symgen.sweep(x.model, {"bob.vy": [1.0]}, progress=v),
+            "compare": lambda x, v: symgen.compare(x.model, progress=v),
+        }.items():
+            yield f"progress of {name} {value!r}", lambda x, v=value, c=call: c(x, v), "progress: expected a function"
+    # models
+    for shown, value in NO_MAPPING.items():
+        yield f"parameters {shown}", lambda x, v=value: x.model.parameters(v), f"got {shown}"
+        yield f"compile options {shown}", lambda x, v=value: x.model.compile("lagrange", v), f"got {shown}"
+        yield f"assemble {shown}", lambda x, v=value: x.model.assemble(x.compiled, v), f"got {shown}"
+        yield f"assemble method {shown}", lambda x, v=value: x.model.assemble(x.compiled, {}, v), f"got {shown}"
+    yield "parameter text", lambda x: x.model.parameters({"x": "1"}), "expected a parameter of pendulum"
+    for shown, value in NO_TEXT.items():
+        yield f"compile {shown}", lambda x, v=value: x.model.compile(v), f"expected a method, got {shown}"
+        yield (
+            f"shape {shown}",
+            lambda x, v=value: x.model.compile("lagrange", shape=v),
+            "shape: expected one of straight",
+        )
+    yield "compile auto", lambda x: x.model.compile("lagrange", shape="auto"), "one of straight, looped, got 'auto'"
+    yield (
+        "compile option",
+        lambda x: x.model.compile("lagrange", {"weight": 1}),
+        "option 'weight': expected a text, got 1",
+    )
+    yield "assemble what", lambda x: x.model.assemble(3), "compiled: expected what Model.compile returned, got 3"
+    yield (
+        "assemble other",
+        lambda x: symgen.load("four-bar").assemble(x.compiled),
+        "compiled code of four-bar, got that",
+    )
+    yield "assemble strict", lambda x: x.model.assemble(x.compiled, strict="no"), "strict: expected True or False"
+    yield "assemble alpha", lambda x: x.model.assemble(x.compiled, {}, {"alpha": 1.0}), "a parameter of lagrange, got"
+    yield "body", lambda x: x.model.mechanism.body("bo"), "body: expected a body of pendulum, got 'bo'; did you mean"
+    yield "body 3", lambda x: x.model.mechanism.body(3), "body: expected a body of pendulum, got 3"
+    # results
+    for shown, value in {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}.items():
+        yield f"q {shown}", lambda x, v=value: x.result.q[v], f"got {shown}; outputs are rows: table.values[-1]"
+        yield f"column {shown}", lambda x, v=value: x.result[v], f"got {shown}; outputs are rows: result.q.values[-1]"
+        yield f"unit {shown}", lambda x, v=value: x.result.q.unit(v), f"got {shown}"
+        yield (
+            f"reaction {shown}",
+            lambda x, v=value: x.result.reaction(v),
+            f"joint: expected the name of a joint, got {shown}",
+        )
+    yield "column", lambda x: x.result["bob.z"], "result: expected the name of a column, got 'bob.z'; did you mean"
+    yield "column long", lambda x: x.result["x" * 9999], "got 'xxxxxxxxxxxx"
+    yield "labelled", lambda x: x.result.q["bob.z"], "did you mean"
+    yield "reaction", lambda x: x.result.reaction("lin"), "joint: expected the name of a joint, got 'lin'"
+    for value in (99, -99, "last", None, 1.5, [0]):
+        yield f"row {value!r}", lambda x, v=value: x.result.q.row(v), "row: expected a whole number from -"
+    for shown, value in {"3": 3, "None": None, "b'a.csv'": b"a.csv", "a list of 1": ["a.csv"]}.items():
+        yield f"save {shown}", lambda x, v=value: x.result.save(v), f"save: expected a path, got {shown}"
+        yield f"plot {shown}", lambda x, v=value: x.result.plot(v), f"plot: expected a path, got {shown}"
+        yield f"study {shown}", lambda x, v=value: x.study.save(v), f"save: expected a path, got {shown}"
+        yield f"sweep save {shown}", lambda x, v=value: x.sweep.save(v), f"save: expected a path, got {shown}"
+    yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
+    yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
+    yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a file that can be written"
+    yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
+    yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
+    # studies
+    for name in ("methods", "integrators"):
+        for shown, value in {"3": 3, "a dict of 0": {}, "the function len": len}.items():
+            yield (
+                f"compare {name} {shown}",
+                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
+                (f"{name}: expected a list of names, got {shown}"),
+            )
+        yield f"compare {name}", lambda x, n=name: symgen.compare(x.model, **{n: ["x", 3]}), f"{name}: expected a list"
+    for name in ("steps", "rtols"):
+        for value in ("1e-3", [0.0], [-1.0], [NAN], ["x"], [None], [True], {"a": 1}, np.zeros((2, 2)), len):
+            yield (
+                f"compare {name} {value!r:.20}",
+                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
+                (f"{name[:-1]}: expected a "),
+            )
+    for name in ("until", "output_step", "max_violation", "max_energy_error"):
+        for value in (0, -1.0, NAN, "1", True, [1.0]):
+            yield (
+                f"compare {name} {value!r}",
+                lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
+                (f"{name}: expected a finite number above 0, got "),
+            )
+    for value in (0, 1.5, "3", None):
+        yield (
+            f"compare repeat {value}",
+            lambda x, v=value: symgen.compare(x.model, repeat=v),
+            "repeat: expected a whole",
+        )
+        yield (
+            f"compare jobs {value}",
+            lambda x, v=value: symgen.compare(x.model, jobs=v),
+            "jobs: expected a whole number",
+        )
+    yield (
+        "compare journal",
+        lambda x: symgen.compare(x.model, journal="file"),
+        "journal: expected a symgen.study.journal",
+    )
+    yield "compare by", lambda x: symgen.compare(x.model, reference_by=3), "--reference: expected one of auto"
+    yield "compare shape", lambda x: symgen.compare(x.model, shape="round"), "shape: expected one of auto"
+    yield "compare options", lambda x: symgen.compare(x.model, options=3), "options: expected values by the names"
+    yield "compare parameters", lambda x: symgen.compare(x.model, parameters={"g": "x"}), "expected a finite number"
+    for name, value in {"cases": 3, "methods": len}.items():
+        yield f"stress {name}", lambda x, n=name, v=value: stress(**{n: v}), f"{name}: expected a list of names"
+    yield "stress models", lambda x: stress([3]), "model: expected a path, got 3"
+    yield "stress jobs", lambda x: stress(jobs=0), "jobs: expected a whole number"
+    yield "stress quick", lambda x: stress(quick="no"), "quick: expected True or False"
+    yield "stress compilation", lambda x: stress(compilation="long"), "compilation: expected"
+    # sweeps
+    for name in ("vary", "runs"):
+        for shown, value in NO_MAPPING.items():
+            yield (
+                f"{name} {shown}",
+                lambda x, n=name, v=value: symgen.sweep(x.model, **{n: v}),
+                f"{name}: expected values",
+            )
+        yield f"{name} 3", lambda x, n=name: symgen.sweep(x.model, **{n: {3: [1.0]}}), "named by texts, got 3"
+        for value in (3.0, None, [], [[1.0]], ["x"], [NAN], [None], len, {"a": 1}, "lin(0,1)", "cube(1,2,3)", [1j]):
+            yield (
+                f"{name} bob.vy {value!r:.20}",
+                lambda x, n=name, v=value: symgen.sweep(x.model, **{n: {"bob.vy": v}}),
+                ("bob.vy: expected "),
+            )
+    yield "vary nothing", lambda x: symgen.sweep(x.model, {}), "sweep: expected something that varies, got nothing"
+    yield "vary name", lambda x: symgen.sweep(x.model, {"bob.vz": [1.0]}), "did you mean 'bob.v"
+    for value in (0, 5000, 1.5, "3", True):
+        yield (
+            f"sweep jobs {value}",
+            lambda x, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, jobs=v),
+            "jobs: expected",
+        )
+    for name, value, sentence in (
+        ("quantities", 3, "quantities: expected a list of names"),
+        ("quantities", ["bob.z"], "quantity 'bob.z': expected a quantity of pendulum"),
+        ("quantities", [3], "quantities: expected a list of names, got 3"),
+        ("output", 3, "output: expected a path, got 3"),
+        ("output", "a.csv", "output: expected a file ending in .nc"),
+        ("resume", "yes", "resume: expected True or False"),
+        ("resume", True, "resume: expected an output that was begun"),
+        ("scheduler", 3, "scheduler: expected the address of a Dask scheduler, or a client, got 3"),
+        ("target", 3, "target: expected one of cpu"),
+        ("target", "gpu", "target: expected one of cpu, lanes, cuda, got 'gpu'"),
+        ("verify", True, "verify: expected single runs"),
+        ("repeat", 2, "repeat: expected single runs"),
+        ("method", 3, "method: expected a name, got 3"),
+    ):
+        yield (
+            f"sweep {name} {value!r}",
+            lambda x, n=name, v=value: symgen.sweep(x.model, {"bob.vy": [1.0]}, **{n: v}),
+            (sentence),
+        )
+    for shown, value in {"3": 3, "None": None, "'bob.z'": "bob.z"}.items():
+        yield (
+            f"sweep column {shown}",
+            lambda x, v=value: x.sweep[v],
+            "sweep: expected a quantity that was kept, or a number",
+        )
+    yield "sweep reasons", lambda x: x.sweep.reasons("all"), "most: expected a whole number"
+    # builders
+    for shown, value in {"3": 3, "None": None, "a list of 0": []}.items():
+        yield (
+            f"builder {shown}",
+            lambda x, v=value: symgen.MechanismBuilder(v).body("a", mass=1).build(),
+            "mechanism.name",
+        )
+        for part in ("parameter", "table", "body", "joint", "force"):
+            extra = {"parameter": (1.0,), "table": ([0, 1], [0, 1]), "joint": ("rigid",), "force": ("torque",)}.get(
+                part, ()
+            )
+            yield (
+                f"{part} {shown}",
+                lambda x, v=value, p=part, e=extra: getattr(symgen.MechanismBuilder("a"), p)(v, *e),
+                (f"expected a text, got {shown}"),
+            )
+    for key, value in (
+        *(("mass", v) for v in (None, "", [], NAN, INF, -1.0, True, Thing(), len, 1j, 10**400, {"a": 1})),
+        *(("inertia", v) for v in (np.eye(3), object, float("-inf"))),
+        *(("position", v) for v in (1.0, [1.0], [1.0, 2.0, 3.0], ["x", "y"], np.zeros((2, 2)), [NAN, 0.0], len)),
+        ("points", [1.0]),
+        ("points", {"a": 1.0}),
+        ("points", {3: [0.0, 0.0]}),
+        ("nonsense", 1.0),
+    ):
+        keys = {"mass": 1.0, "inertia": 1.0, key: value}
+        yield (
+            f"body {key} {value!r:.15}",
+            lambda x, k=keys: symgen.MechanismBuilder("a").body("b", **k).build(),
+            ("builder 'a': bodies.b"),
+        )
+    yield (
+        "table",
+        lambda x: symgen.MechanismBuilder("a").table("f", 3, 4).body("b", mass=1, inertia=1).build(),
+        ("tables.f.x: expected a list of numbers, got 3"),
+    )
+    yield (
+        "joint type",
+        lambda x: symgen.MechanismBuilder("a").body("b", mass=1, inertia=1).joint("j", 3).build(),
+        ("joints.j.type: expected a joint type, got 3"),
+    )
+    yield (
+        "run",
+        lambda x: symgen.MechanismBuilder("a").run(until="long").body("b", mass=1, inertia=1).build(),
+        "run.until",
+    )
+    yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
+
+
+ROWS = list(rows())
+
+
+@pytest.fixture(scope="module")
+def things(model, result, sweep, study):
+    class Things:
+        pass
+
+    found = Things()
+    found.model, found.result, found.sweep, found.study = model, result, sweep, study
+    found.compiled = model.compile("lagrange")
+    return found
+
+
+@pytest.mark.parametrize(("call", "sentence"), [row[1:] for row in ROWS], ids=[row[0] for row in ROWS])
+def test_everything_else(things, tmp_path, monkeypatch, call, sentence):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(SymgenError) as error:
+        call(things)
+    assert isinstance(error.value, InputError)
+    assert sentence in str(error.value) and str(error.value).isprintable()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_function_with_arguments_is_left_out():
+    """Every public name that can be called, and every method of a public class that takes something, has rows."""
+    tested = {
+        *("load", "simulate", "compare", "sweep", "Model", "Settings", "MechanismBuilder"),
+        *("Model.parameters", "Model.compile", "Model.assemble", "Model.simulate", "Mechanism.body"),
+        *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
+        *("Sweep.save", "Sweep.reasons"),
+        *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "table", "body", "joint", "force")),
+    }
+    # what only the package makes or calls
+    inner = {
+        "Result",
+        "Labelled",
+        "Study",
+        "Sweep",
+        "Mechanism",
+        "Model.compiled",
+        "Model.ready",
+        "Model.initial_state",
+    }
+    found = set()
+    for name in symgen.__all__:
+        thing = getattr(symgen, name)
+        if not callable(thing) or (isinstance(thing, type) and issubclass(thing, SymgenError)):
+            continue
+        found.add(name)
+        if isinstance(thing, type):
+            for method, function in inspect.getmembers(thing, inspect.isfunction):
+                if not method.startswith("_") and len(inspect.signature(function).parameters) > 1:
+                    found.add(f"{name}.{method}")
+    assert found - inner == tested
+    assert len(SETTINGS) + len(ROWS) > 184
+
+
+# -- what has a sensible meaning ---------------------------------------------------------------------------------------
+
+
+def test_nothing_given_is_nothing(model):
+    plain = model.simulate(until=0.02)
+    given = model.simulate(
+        None, None, until=0.02, options=None, parameters=None, integrator=None, step=None, times=None
+    )
+    assert given.to_json()["final"] == plain.to_json()["final"]
+    assert symgen.load(model) is model
+    assert model.parameters(None) == model.parameters({})
+
+
+@pytest.mark.parametrize("kind", [float, np.float64, np.float32, np.array, Fraction])
+def test_numbers_of_every_kind(model, kind):
+    found = model.simulate(until=kind(0.25), step=kind(0.125))
+    assert (found.until, found.step) == (0.25, 0.125) and type(found.until) is float
+
+
+def test_whole_numbers_of_every_kind(model):
+    for value in (2, 2.0, np.int64(2), np.float64(2.0)):
+        assert model.simulate(until=0.01, repeat=value).ok
+    assert model.simulate(until=1, step=np.int32(1)).until == 1.0
+    assert model.simulate(until=0.01, strict=np.True_).ok
+
+
+def test_single_words_and_numbers_are_lists_of_one(model, study):
+    assert [row.method for row in study.rows] == ["lagrange"] and study.rows[0].step == 1e-2
+    assert model.simulate(until=0.02, times=0.01).t.tolist() == [0.01]
+    assert symgen.sweep(model, {"bob.vy": [0.0]}, until=0.01, quantities="q").ensemble.recipe.quantities
+
+
+# -- copies and other processes ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize("name", ["four-bar", "bricard"])
+def test_a_result_travels_with_its_tables(name, shape, tmp_path):
+    made = symgen.load(name).simulate(until=0.02, shape=shape)
+    (tmp_path / "result").write_bytes(pickle.dumps(made))
+    for found in (pickle.loads(pickle.dumps(made)), copy.deepcopy(made), copy.copy(made)):
+        assert found.to_json() == made.to_json() and found.shape == shape
+        for label, table in made.tables().items():
+            assert np.array_equal(found.tables()[label].values, table.values), label
+            assert found.tables()[label].names == table.names
+        assert found.non_unique_reactions == made.non_unique_reactions
+        assert found.save(tmp_path / "a.csv").read_bytes() == made.save(tmp_path / "b.csv").read_bytes()
+        with pytest.raises(InputError, match=r"result.outcome: expected a result of this process, got one that was"):
+            _ = found.outcome
+        assert not hasattr(found, "nonsense")
+    copied = copy.deepcopy(made)
+    copied.q.values[:] = 0.0
+    assert made.q.values.any()
+    script = (  # neither the model nor Numba are needed to read it
+        "import pickle, sys; found = pickle.load(open(sys.argv[1], 'rb'))\n"
+        "print(found.status, found.lam.values.shape, 'numba' in sys.modules)"
+    )
+    read = subprocess.run(
+        [sys.executable, "-c", script, tmp_path / "result"], capture_output=True, text=True, check=True, timeout=600
+    )
+    assert read.stdout.split() == [*f"{made.status} {made.lam.values.shape} False".split()]
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+def test_a_compiled_model_travels_as_what_made_it(model, shape, tmp_path):
+    made = model.compile("direct-correction", {"weight": "mass"}, shape=shape)
+    assert copy.deepcopy(made) is made
+    found = pickle.loads(pickle.dumps(made))
+    assert (found.shape, found.info, found.law) == (made.shape, made.info, made.law)
+    (tmp_path / "compiled").write_bytes(pickle.dumps((model, made)))
+    script = (
+        "import pickle, sys; model, compiled = pickle.load(open(sys.argv[1], 'rb'))\n"
+        "print(compiled.shape, sorted(compiled.law.options), model.assemble(compiled).rank)"
+    )
+    read = subprocess.run(
+        [sys.executable, "-c", script, tmp_path / "compiled"], capture_output=True, text=True, check=True, timeout=600
+    )
+    assert read.stdout == f"{shape} {sorted(made.law.options)} {model.assemble(made).rank}\n"
+
+
+def test_models_studies_settings_and_errors_travel(model, study):
+    for thing in (model, model.mechanism, Settings(step=1e-3, options={"method.alpha": 1.0})):
+        assert pickle.loads(pickle.dumps(thing)) == thing and copy.deepcopy(thing) == thing
+    again = pickle.loads(pickle.dumps(study))
+    assert again.to_json() == study.to_json()
+    error = pickle.loads(pickle.dumps(InputError("a", "b", "c", "d")))
+    assert str(error) == "a: expected b, got c; d" and (error.where, error.hint) == ("a", "d")

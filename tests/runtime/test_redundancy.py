@@ -1,0 +1,72 @@
+"""Rows that depend on others for ever: which of them stand for all follows the position."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.runtime.exact import plain_form
+from symgen.runtime.redundancy import choose_rows
+from tests.verification.running import DEFECTS, off, raw, reference
+
+SETTINGS = (
+    {"method": "lagrange", "integrator": "rk4"},
+    {"method": "lagrange", "integrator": "dop853"},
+    {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-10},
+    {"method": "direct-correction", "integrator": "rk4", "shape": "looped"},
+    {"method": "direct-correction", "integrator": "radau5"},
+    {"method": "coordinate-partitioning", "integrator": "rk4"},
+    {"method": "null-space", "integrator": "dop853"},
+)
+
+
+@pytest.mark.parametrize("settings", SETTINGS, ids=lambda s: " ".join(map(str, s.values())))
+@pytest.mark.parametrize("name", ["two_pins", "two_pins_tilted"])
+def test_two_pins_of_one_turning_body(name: str, settings: dict) -> None:
+    """A body held twice by one that turns: the row that repeats is another one at every angle."""
+    times = [0.0, 0.5, 1.0]
+    system, q, _ = reference(raw(name), times)
+    result = symgen.load(DEFECTS / f"{name}.toml").simulate(until=1.0, times=times, **settings)
+    assert result.status == "ok", result.reason
+    assert result.rank.rows - result.rank.rank == 1 == len(result.rank.redundant_rows)
+    assert not result.rank_events
+    assert off(result, system, q) < 1e-7
+    # accelerations are found after the run, with rows chosen anew
+    ahead, _, later = reference(raw(name), [0.0, 1.0, 1.0 + 1e-5])
+    slope = (later[2] - later[1]) / 1e-5
+    assert [n.rpartition(".")[0] for n in ahead.names_v] == [n.rpartition(".")[0] for n in result.a.names]
+    np.testing.assert_allclose(result.a.values[-1], slope, rtol=0, atol=1e-3 * np.abs(slope).max())
+
+
+@pytest.mark.parametrize("target", ["cpu", "lanes"])
+def test_rows_of_a_sweep_follow_as_well(target: str, tmp_path: Path) -> None:
+    """Every number of a row of a sweep is that of the run alone, accelerations after the run too."""
+    settings = {"method": "direct-correction", "integrator": "rk4", "step": 2e-3, "times": [0.0, 0.3, 0.6, 1.0]}
+    model = symgen.load(DEFECTS / "two_pins_tilted.toml")
+    speeds, names = [2.0, 3.0], ("plate.x", "plate.omega", "plate.alpha")
+    found = symgen.sweep(model, {"crank.omega": speeds}, quantities=names, target=target, until=1.0, **settings)
+    assert found.counts["ok"] == 2
+    for i, speed in enumerate(speeds):
+        file = tmp_path / f"{i}.toml"
+        text = (DEFECTS / "two_pins_tilted.toml").read_text(encoding="utf-8")
+        file.write_text(text.replace("angular_velocity = 3.0", f"angular_velocity = {speed}"), encoding="utf-8")
+        alone = symgen.load(file).simulate(until=1.0, **settings)
+        for k, name in enumerate(names):
+            table = (alone.q, alone.v, alone.a)[k]
+            np.testing.assert_allclose(found.values[i, k], table[name], rtol=0, atol=1e-9, err_msg=name)
+
+
+def test_kept_rows_span_the_others() -> None:
+    rng = np.random.default_rng(3)
+    d = rng.uniform(-1.0, 1.0, (3, 6))
+    d = np.vstack([d, d[0] + d[1], 1e3 * d[2], d[1] - 2.0 * d[2]])[rng.permutation(6)]
+    entries = np.array([(i, j, 6 * i + j) for i in range(6) for j in range(6)], dtype=np.int64).ravel()
+    w = np.concatenate([d.ravel(), np.ones(6), np.zeros(6)])
+    changed = plain_form(choose_rows)(6, 6, 3, entries, np.zeros(36), 0, 36, 42, w, np.zeros(42))
+    kept = w[42:] == 0.0
+    assert changed == 1 and kept.sum() == 3
+    rows = d[kept] / np.linalg.norm(d[kept], axis=1, keepdims=True)
+    assert np.linalg.svd(rows, compute_uv=False)[-1] > 0.05

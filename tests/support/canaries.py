@@ -1,0 +1,124 @@
+"""Text planted in every place of a mechanism file that may hold text, found by walking the file's JSON schema."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from support.models import EVERYTHING
+from support.random_space import make
+from symgen.describe.schema import schema
+from symgen.forces import FORCES
+from symgen.joints import JOINTS
+
+#: What would run if it left the comment or docstring that it is printed into.
+CODE = "import builtins; builtins.planted = True"
+#: Ways out of a comment or docstring, one each, and text that is not Python inside of it.
+CANARIES = (
+    f'm"""\n{CODE}\n"""',
+    f"]\n{CODE}\n#",
+    f"]\r{CODE}\r#",
+    f"m\x0c\n{CODE}\n",
+    f"\u2028{CODE}\u2029",
+    f"'''\n{CODE}\n'''",
+    "\\N{no such name} \\x \\u12",
+    '"',
+    "\\",
+    "{{ 7*7 }}{% for %}",
+    "a\x00b",
+    "m" * 3000,
+)
+#: Alternatives of bodies in the schema -> the mechanisms they belong to.
+_SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
+#: Sections whose entries are all of one kind.
+_ALIKE = ("parameters", "tables", "bodies")
+
+
+def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
+    """Yield the path of every text of the schema: keys, ``*`` for any name, indices, and names of alternatives."""
+    part = schema() if part is None else part
+    kinds = part.get("type", ())
+    if "string" in ([kinds] if isinstance(kinds, str) else kinds) and "enum" not in part:
+        yield path
+    for key in ("anyOf", "oneOf"):
+        for i, choice in enumerate(part.get(key, ())):
+            kind = choice.get("properties", {}).get("type", {}).get("enum", [])
+            name = kind[0] if key == "oneOf" else choice.get("title", i)
+            yield from places(choice, (*path, ("either", name)))
+    for name, value in part.get("properties", {}).items():
+        yield from places(value, (*path, name))
+    if isinstance(part.get("additionalProperties"), dict):
+        yield (*path, "* itself")
+        yield from places(part["additionalProperties"], (*path, "*"))
+    for i, item in enumerate(part.get("prefixItems", ())):
+        yield from places(item, (*path, i))
+    if isinstance(part.get("items"), dict):
+        yield from places(part["items"], (*path, 0))
+
+
+#: A description with something in every section, quickly emitted.
+SMALL: dict[str, Any] = {
+    "mechanism": {"name": "small", "gravity": [0.0, "-g"]},
+    "parameters": {"g": {"value": 9.81, "unit": "m/s^2"}, "k": 2.0},
+    "tables": {"tab": {"x": [0.0, 1.0], "y": [1.0, 3.0]}},
+    "bodies": {"rod": {"mass": "k", "inertia": 1.0, "points": {"P": ["k", 0.0]}}},
+    "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "P"]}},
+    "forces": {"push": {"type": "torque", "body": "rod", "torque": "k*tab(rod.omega) + g"}},
+}
+
+
+def bases(path: tuple[Any, ...]) -> Iterator[dict[str, Any]]:
+    """Yield valid descriptions that have what a path leads through, in the plane and in space."""
+    section, kind = path[0], next((p[1] for p in path if isinstance(p, tuple)), None)
+    if section not in ("joints", "forces") or kind is None:
+        spatial = _SPACES.get(str(kind)) == "spatial"
+        yield make(np.random.default_rng(1), ["revolute"])[0] if spatial else copy.deepcopy(SMALL)
+        return
+    found = False
+    if kind in {keys["type"] for keys in EVERYTHING[section].values()}:
+        found = True
+        yield copy.deepcopy(EVERYTHING)
+    struct = (JOINTS if section == "joints" else FORCES).get(str(kind), "schema")
+    if "spatial" in struct.SPACES:
+        found = True
+        yield make(np.random.default_rng(1), *(([kind], []) if section == "joints" else ([], [kind])))[0]
+    assert found, f"no description has an entry of kind {kind!r} in [{section}]: support.canaries needs one"
+
+
+def planted(path: tuple[Any, ...], text: str) -> Iterator[dict[str, Any]]:
+    """Yield descriptions with a text in one place, otherwise valid."""
+    for raw in bases(path):
+        steps = [step for step in path if not isinstance(step, tuple)]
+        kind = next((p[1] for p in path if isinstance(p, tuple)), None)
+        if len(steps) > 1 and steps[1] == "*":
+            entries = raw[path[0]]
+            steps[1] = next(n for n, keys in entries.items() if path[0] in _ALIKE or keys["type"] == kind)
+        yield _put(raw, steps, text)
+
+
+def _put(value: Any, steps: list[Any], text: str) -> Any:
+    """Return a value with a text at the end of some steps, containers made where there are none."""
+    if not steps:
+        return text
+    step, rest = steps[0], steps[1:]
+    if isinstance(step, int):
+        items = list(value) if isinstance(value, list | tuple) else [0.0] * (step + 1)
+        items[step] = _put(items[step], rest, text)
+        return items
+    entries = dict(value) if isinstance(value, dict) else {}
+    if step == "* itself":
+        first = next(iter(entries), None)
+        return {text if name == first else name: entry for name, entry in entries.items()} or {text: 1.0}
+    name = next(iter(entries), "any") if step == "*" else step
+    if _wants_table(entries.get(name), rest):
+        entries[name] = {"value": entries[name]}
+    entries[name] = _put(entries.get(name), rest, text)
+    return entries
+
+
+def _wants_table(value: Any, rest: list[Any]) -> bool:
+    """Whether a parameter is given as a number where keys of its table are wanted."""
+    return rest[:1] in (["unit"], ["note"], ["value"]) and not isinstance(value, dict)

@@ -1,0 +1,114 @@
+"""Small samples of what `benchmarks` verifies at length, and the pages that describe it."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def run(*words: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", *words]
+    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+
+
+def lines(path: Path) -> list[dict]:
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+
+
+def verified(output: Path, *words: str) -> list[dict]:
+    done = run("benchmarks.verify", "--output", str(output), "--jobs", "1", *words)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
+    return [line for line in lines(output) if "runs" in line]
+
+
+@pytest.mark.parametrize("space", ["planar", "spatial"])
+def test_a_few_random_mechanisms(space: str, tmp_path: Path) -> None:
+    """Emitted code is run as Python here, so that nothing has to be compiled."""
+    words = ("--interpreted", "--shapes", "straight", "--mechanisms", "3", "--seed", "21", "--space", space)
+    moving = [line for line in verified(tmp_path / "verify.jsonl", *words) if "contradiction" not in line]
+    assert moving and all(run["right"] and run["status"] == "ok" for line in moving for run in line["runs"])
+    again = run("benchmarks.verify", "--output", str(tmp_path / "verify.jsonl"), "--jobs", "1", *words)
+    assert again.returncode == 0 and ": lagrange" not in again.stderr, "what is there is not run again"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("space", ["planar", "spatial"])
+def test_random_mechanisms_in_all_shapes(space: str, tmp_path: Path) -> None:
+    words = ("--shapes", "straight,looped,auto", "--mechanisms", "12", "--seed", "22", "--space", space)
+    assert len(verified(tmp_path / "verify.jsonl", *words)) > 6
+
+
+@pytest.mark.slow
+def test_many_random_mechanisms(tmp_path: Path) -> None:
+    words = ("--interpreted", "--shapes", "straight", "--mechanisms", "60", "--seed", "23")
+    assert len(verified(tmp_path / "verify.jsonl", *words)) > 40
+
+
+@pytest.mark.slow
+def test_random_mechanisms_by_every_method(tmp_path: Path) -> None:
+    words = ("--interpreted", "--shapes", "straight", "--methods", "--mechanisms", "4", "--seed", "24")
+    assert len(verified(tmp_path / "verify.jsonl", *words)) > 1
+
+
+def fuzzed(output: Path, *words: str) -> None:
+    done = run("benchmarks.fuzz", "--jobs", "1", "--output", str(output), *words)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
+    assert "exit codes" in done.stdout and not lines(output)
+
+
+def test_a_few_hundred_broken_files(tmp_path: Path) -> None:
+    fuzzed(tmp_path / "fuzz.jsonl", "--files", "300", "--seed", "21", "--whole", "0.1")
+
+
+@pytest.mark.slow
+def test_thousands_of_broken_files(tmp_path: Path) -> None:
+    fuzzed(tmp_path / "fuzz.jsonl", "--files", "4000", "--seed", "22", "--whole", "0.2")
+
+
+def flipped(output: Path, count: int) -> None:
+    done = run("benchmarks.flips", "--flips", str(count), "--seed", "21", "--output", str(output))
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
+    assert len(lines(output)) == count
+
+
+def test_a_few_flipped_bits(tmp_path: Path) -> None:
+    flipped(tmp_path / "flips.jsonl", 4)
+
+
+@pytest.mark.slow
+def test_many_flipped_bits(tmp_path: Path) -> None:
+    flipped(tmp_path / "flips.jsonl", 60)
+
+
+def in_units(output: Path, *words: str) -> None:
+    done = run("benchmarks.units", "--output", str(output), *words)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
+    assert all(not line["first"] for line in lines(output))
+
+
+def test_a_few_mechanisms_in_other_units(tmp_path: Path) -> None:
+    in_units(tmp_path / "units.jsonl", "--entries", "pendulum,four-bar", "--mechanisms", "1", "--seed", "21")
+
+
+@pytest.mark.slow
+def test_mechanisms_in_other_units_compiled(tmp_path: Path) -> None:
+    in_units(tmp_path / "units.jsonl", "--mechanisms", "12", "--seed", "22", "--compiled")
+
+
+def test_commands_of_the_page_are_there() -> None:
+    """Options that the page names are options of its commands."""
+    page = (ROOT / "docs" / "verification.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^python -m (benchmarks\.\w+)(.*?)(?:  #.*)?$", page, re.MULTILINE)
+    assert {name for name, _ in commands} == {f"benchmarks.{n}" for n in ("verify", "fuzz", "flips", "units")}
+    for name, rest in commands:
+        helped = run(name, "--help")
+        assert helped.returncode == 0
+        for option in re.findall(r"--[a-z-]+", rest):
+            assert option in helped.stdout, (name, option)
