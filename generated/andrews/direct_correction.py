@@ -8,9 +8,9 @@ option weight = identity
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_identity_f6c203d4e9731759 import accept
-from .confirm_b0bb89c84b3bfc94 import confirm
-from .metric_identity_165ee99f81de8ebe import geometry, spread
+from .accept_identity_a5205bd9f56d15a6 import accept
+from .confirm_0ba950601ba405bd import confirm
+from .metric_identity_93bec27c735d516f import geometry, spread
 from .prepare_5e6f3af61bb320e5 import prepare
 from .rhs_direct_d28bf56970332796 import rhs
 

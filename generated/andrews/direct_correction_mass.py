@@ -8,9 +8,9 @@ option weight = mass
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_mass_2e7703257e7249ee import accept
-from .confirm_32f9f79960a8ab22 import confirm
-from .metric_mass_fd7673c2279817a6 import geometry, spread
+from .accept_mass_4ce087688087d600 import accept
+from .confirm_6ad1383c643d1eea import confirm
+from .metric_mass_b9d3125f57b691c7 import geometry, spread
 from .prepare_5e6f3af61bb320e5 import prepare
 from .rhs_direct_d28bf56970332796 import rhs
 

@@ -8,9 +8,9 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_4aa48accf5ee94b5 import accept
-from .confirm_f9adc96fd8364d8c import confirm
-from .metric_identity_c1e14ec1f4b1331f import geometry, spread
+from .accept_identity_9a3bf3e2ef22ec22 import accept
+from .confirm_262835d6874beff8 import confirm
+from .metric_identity_2f02993ee7c6882a import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_deacf1a33f51e6f8 import rhs
 

@@ -8,9 +8,9 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_ed647afd99f5296a import accept
-from .confirm_e1b2ae6944b805b0 import confirm
-from .metric_mass_d3ded5acba615086 import geometry, spread
+from .accept_mass_4020a61e9a0fd389 import accept
+from .confirm_c140b8eeead76369 import confirm
+from .metric_mass_534890caa995df17 import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_deacf1a33f51e6f8 import rhs
 

@@ -8,9 +8,9 @@ option weight = identity
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_identity_47726bcb1e614b8c import accept
-from .confirm_3f975fd0b435fec4 import confirm
-from .metric_identity_bac1d1cf2b25d2c8 import geometry, spread
+from .accept_identity_232d08cdf343e4c1 import accept
+from .confirm_b275963f20c58f52 import confirm
+from .metric_identity_4de06df68f34cc70 import geometry, spread
 from .prepare_0494c6b384c6ba41 import prepare
 from .rhs_direct_8a7fba9f1fed74e8 import rhs
 

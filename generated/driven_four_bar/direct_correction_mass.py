@@ -8,9 +8,9 @@ option weight = mass
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_mass_554e864b1d91cbca import accept
-from .confirm_8ced41021bad947a import confirm
-from .metric_mass_7b422694bfda9fad import geometry, spread
+from .accept_mass_bb6cf0c7657069d0 import accept
+from .confirm_ca71c356a6115fcb import confirm
+from .metric_mass_ee601c3fa8a1a90e import geometry, spread
 from .prepare_0494c6b384c6ba41 import prepare
 from .rhs_direct_8a7fba9f1fed74e8 import rhs
 

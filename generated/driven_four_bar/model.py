@@ -80,7 +80,7 @@ def prepare(p):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def geometry(t, y, p, w):
-    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 268 operations, 367497 before sharing."""
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 261 operations, 142124 before sharing."""
     # inputs
     p3 = p[3]  # crank_start [rad]
     p4 = p[4]  # crank_speed [rad/s]
@@ -158,13 +158,13 @@ def geometry(t, y, p, w):
     s49 = s38 + s39*s45
     s50 = 1.0 - s40 + s42*s45
     s51 = 1.0*(s48 > mask_7 + 1e-12*s43)
-    s52 = s51/(s48 + 1.0 - s51)
+    s52 = s51/max(s48, 1e-300)
     s53 = s49*s52
     s54 = s50*s52
     s55 = s37 - s39*s46 - s49*s53
     s56 = s31 + s38 + s42*s46 + s50*s53
     s57 = 1.0*(s55 > mask_4 + 1e-12*s37)
-    s58 = s57/(s55 + 1.0 - s57)
+    s58 = s57/max(s55, 1e-300)
     s59 = s56*s58
     s60 = s32*s58
     s61 = s35*s58
@@ -172,7 +172,7 @@ def geometry(t, y, p, w):
     s63 = s32*s59 - s31
     s64 = -1.0 + s33 - s35*s59
     s65 = 1.0*(s62 > mask_5 + 1e-12*s41)
-    s66 = s65/(s62 + 1.0 - s65)
+    s66 = s65/max(s62, 1e-300)
     s67 = s63*s66
     s68 = s64*s66
     s69 = 1.0/s24
@@ -186,7 +186,7 @@ def geometry(t, y, p, w):
     s77 = s26*s70 - s1*s18
     s78 = -1.0 + s27 - s74
     s79 = 1.0*(s75 > mask_1 + 1e-12*s28)
-    s80 = s79/(s75 + 1.0 - s79)
+    s80 = s79/max(s75, 1e-300)
     s81 = s76*s80
     s82 = s77*s80
     s83 = s78*s80
@@ -194,13 +194,13 @@ def geometry(t, y, p, w):
     s85 = s17 - s26*s72 - s77*s81
     s86 = s25*s72 - s18 - s78*s81
     s87 = 1.0*(s84 > mask_8 + 1e-12*gauge_2)
-    s88 = s87/(s84 + 1.0 - s87)
+    s88 = s87/max(s84, 1e-300)
     s89 = s85*s88
     s90 = s86*s88
     s91 = s30 - s32*s60 - s63*s67 - s26*s73 - s77*s82 - s85*s89
     s92 = s35*s60 - (s25 + s31) - s64*s67 + s25*s73 - s78*s82 - s86*s89
     s93 = 1.0*(s91 > mask_2 + 1e-12*s30)
-    s94 = s93/(s91 + 1.0 - s93)
+    s94 = s93/max(s91, 1e-300)
     s95 = s92*s94
     s96 = s34 - s35*s61 - s64*s68 - s74 - s78*s83 - s86*s90 - s92*s95
     s97 = 1.0*(s96 > mask_3 + 1e-12*s34)
@@ -277,7 +277,7 @@ def geometry(t, y, p, w):
     w[146] = s80
     w[147] = s88
     w[148] = s94
-    w[149] = s97/(s96 + 1.0 - s97)
+    w[149] = s97/max(s96, 1e-300)
     return 0
 
 

@@ -10,6 +10,6 @@ p[25] a (default 1.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_5841513f02cb3da2 import rhs
+from .rhs_iterated_a4cefc69e5505bdf import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -7,8 +7,8 @@ p[31] penalty (default 10000000.0)
 p[32] iteration_tolerance (default 1e-13)
 """
 
-from .accept_mass_36fe646cd7b2438f import accept
-from .metric_mass_090b2d05ce4f72a2 import geometry, spread
+from .accept_mass_6fefa74509ed0cfa import accept
+from .metric_mass_d8a07bb272618830 import geometry, spread
 from .prepare_125d79b48aac268a import prepare
 from .rhs_iterated_7e4ee035ba5e4561 import rates, rhs
 

@@ -10,6 +10,6 @@ p[27] beta (default 5.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_b7ed4244fa7ba925 import prepare
-from .rhs_iterated_90c3a3a97ab2d2d9 import rhs
+from .rhs_iterated_9459264a13991d38 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

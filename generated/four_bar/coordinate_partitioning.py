@@ -7,10 +7,10 @@ option solver = elimination
 p[28] tolerance (default 1e-13)
 """
 
-from .accept_independent_a653a50f37f14ee6 import accept
-from .confirm_6c5e8a110ba7c2e5 import confirm
-from .metric_independent_09731851e2d798bb import geometry, spread
+from .accept_independent_7f2e190846084892 import accept
+from .confirm_e135ec6d80b73872 import confirm
+from .metric_independent_dba3048d724a8293 import geometry, spread
 from .prepare_030af4547de87394 import prepare
-from .rhs_closed_655bd289283f09ec import rhs
+from .rhs_closed_58d4a2a22dbd889c import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = augmented
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_independent_37240ece5bcf640d import accept
-from .metric_independent_c2fe86939576e538 import geometry, spread
+from .accept_independent_1ff915060c67d058 import accept
+from .metric_independent_3ab9c1a38c7d8eeb import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_closed_a3138f28056e9697 import rhs
+from .rhs_closed_bd65dfcdf1967c40 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = dense
 p[21] tolerance (default 1e-13)
 """
 
-from .accept_independent_c2df0b9013a7a58b import accept
-from .metric_independent_3dd4332dbb9b8c2f import geometry, spread
+from .accept_independent_4ddda63d890df46b import accept
+from .metric_independent_9bae25bde7017317 import geometry, spread
 from .prepare_925146d10b1178fc import prepare
-from .rhs_closed_64cadb2a1db08ac8 import rhs
+from .rhs_closed_6249c5a8ef11a56b import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ option weight = identity
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_identity_17ed99a528523d99 import accept
-from .metric_identity_ddba224c4fe4df01 import geometry, spread
+from .accept_identity_ca66e38c0b8b0234 import accept
+from .metric_identity_6f4d8e54d731205b import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_6e7d495dd204cab6 import rhs
+from .rhs_iterated_270a07b4c3e23db7 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ option weight = identity
 p[28] tolerance (default 1e-13)
 """
 
-from .accept_identity_87a7a91fe1bbe342_cuda import accept
-from .confirm_eb7e97385226f58c_cuda import confirm
-from .metric_identity_6aa85bcb625c1425_cuda import geometry, spread
+from .accept_identity_f46658582e956740_cuda import accept
+from .confirm_a7ee9355b2045c63_cuda import confirm
+from .metric_identity_baa69988008b4fbd_cuda import geometry, spread
 from .prepare_fb15419ced2f3f16_cuda import prepare
 from .rhs_direct_5ec2304b56977532_cuda import rhs
 

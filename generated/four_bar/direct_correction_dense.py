@@ -8,8 +8,8 @@ option weight = identity
 p[21] tolerance (default 1e-13)
 """
 
-from .accept_identity_e989c63b15fb6bba import accept
-from .metric_identity_9657e8cb88d90326 import geometry, spread
+from .accept_identity_cfd68419b913121f import accept
+from .metric_identity_633c8f30009b53e0 import geometry, spread
 from .prepare_925146d10b1178fc import prepare
 from .rhs_dense_23a402b45809043e import rhs
 

@@ -8,10 +8,10 @@ option weight = identity
 p[28] tolerance (default 1e-13)
 """
 
-from .accept_identity_ce41fb6114211f01 import accept
-from .confirm_c292bb894ec2ecc0 import confirm
+from .accept_identity_7b2dd8ea15a28639 import accept
+from .confirm_1590cea5faa16a58 import confirm
 from .form_acceleration_7c3db2ad6ffef854 import residual, tangent
-from .metric_identity_373a3f74302147f8 import geometry, spread
+from .metric_identity_718fe1511f11ea96 import geometry, spread
 from .prepare_05d5faeb278ce90b import prepare
 from .rhs_direct_e37dc391c4609e3f import rhs
 

@@ -8,8 +8,8 @@ p[25] iteration_tolerance (default 1e-13)
 p[26] tolerance (default 1e-13)
 """
 
-from .accept_augmented_23a88455c4a51b9f import accept
-from .metric_augmented_82eb72809cdd5963 import geometry, spread
+from .accept_augmented_e124e5ee0dc0edf7 import accept
+from .metric_augmented_1de868c20434265e import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
 from .rhs_iterated_aeca487b6c79d5ff import rhs
 

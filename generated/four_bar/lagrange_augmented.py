@@ -8,6 +8,6 @@ option solver = augmented
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_6e7d495dd204cab6 import rhs
+from .rhs_iterated_270a07b4c3e23db7 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -8,9 +8,9 @@ p[24] penalty (default 10000000.0)
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_augmented_1ffc8e458d76161d import accept
-from .metric_augmented_51dd81883df6a02f import geometry, spread
+from .accept_augmented_eb5142c3c200c9ef import accept
+from .metric_augmented_b0c9c79fd77a2a6a import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_6e7d495dd204cab6 import rhs
+from .rhs_iterated_270a07b4c3e23db7 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,8 +8,8 @@ p[21] penalty (default 10000000.0)
 p[22] tolerance (default 1e-13)
 """
 
-from .accept_augmented_686f6a1f366fb7cf import accept
-from .metric_augmented_289940bdb9c50572 import geometry, spread
+from .accept_augmented_c8518426a92ab827 import accept
+from .metric_augmented_370561b608fabf2a import geometry, spread
 from .prepare_925146d10b1178fc import prepare
 from .rhs_dense_23a402b45809043e import rhs
 

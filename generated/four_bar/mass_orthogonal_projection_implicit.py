@@ -8,10 +8,10 @@ p[28] penalty (default 10000000.0)
 p[29] tolerance (default 1e-13)
 """
 
-from .accept_augmented_bbb0e18b4b6bf52f import accept
-from .confirm_256ac6711d63aa97 import confirm
+from .accept_augmented_2be1b22eddf47ef0 import accept
+from .confirm_579dcc9375cf53ec import confirm
 from .form_acceleration_8754c883271a7423 import residual, tangent
-from .metric_augmented_f2208269da8e5abc import geometry, spread
+from .metric_augmented_4d06215bbf4d7dbd import geometry, spread
 from .prepare_1fa6c94700d82bf8 import prepare
 from .rhs_direct_e37dc391c4609e3f import rhs
 

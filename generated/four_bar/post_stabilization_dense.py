@@ -7,8 +7,8 @@ option solver = dense
 option weight = identity
 """
 
-from .accept_identity_184341e4206fda99 import accept
-from .metric_identity_9657e8cb88d90326 import geometry, spread
+from .accept_identity_40ee78b9218c84bf import accept
+from .metric_identity_633c8f30009b53e0 import geometry, spread
 from .prepare_925146d10b1178fc import prepare
 from .rhs_dense_23a402b45809043e import rhs
 

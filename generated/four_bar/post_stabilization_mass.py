@@ -7,9 +7,9 @@ option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_196089103f96c7d9 import accept
-from .confirm_dc3e09902c1421bc import confirm
-from .metric_mass_4a9d46ba8fd3051c import geometry, spread
+from .accept_mass_ec2e9e740f35d35e import accept
+from .confirm_44e5389406f90ba9 import confirm
+from .metric_mass_72efe034d2ae2fc4 import geometry, spread
 from .prepare_030af4547de87394 import prepare
 from .rhs_direct_e37dc391c4609e3f import rhs
 

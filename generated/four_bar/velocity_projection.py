@@ -7,9 +7,9 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_d99cf725fe6d6872 import accept
-from .confirm_c292bb894ec2ecc0 import confirm
-from .metric_identity_373a3f74302147f8 import geometry, spread
+from .accept_identity_f82f287b693c0a83 import accept
+from .confirm_1590cea5faa16a58 import confirm
+from .metric_identity_718fe1511f11ea96 import geometry, spread
 from .prepare_030af4547de87394 import prepare
 from .rhs_direct_e37dc391c4609e3f import rhs
 

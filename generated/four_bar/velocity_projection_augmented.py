@@ -7,9 +7,9 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_3694fc455f7f2105 import accept
-from .metric_identity_ddba224c4fe4df01 import geometry, spread
+from .accept_identity_d6f245f47f0bfb68 import accept
+from .metric_identity_6f4d8e54d731205b import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_6e7d495dd204cab6 import rhs
+from .rhs_iterated_270a07b4c3e23db7 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

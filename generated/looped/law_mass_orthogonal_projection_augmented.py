@@ -11,6 +11,6 @@ parameter 1: tolerance (default 1e-13)
 from .accept_augmented_7a1cfe7df40a0198 import accept
 from .metric_augmented_8e2987a496ec4a74 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_8ac372ca8bca282b import rhs
+from .rhs_iterated_5a627e152f52c5b5 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_7edcabf9e01eee29 import accept
-from .confirm_51c9a78ca6eeda99 import confirm
-from .metric_identity_6703581cbdb7b4f7 import geometry, spread
+from .accept_identity_fbac53d33ba49c66 import accept
+from .confirm_161f6f8b3071df55 import confirm
+from .metric_identity_479e853def44aa16 import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_911a6ef66568fc79 import rhs
 

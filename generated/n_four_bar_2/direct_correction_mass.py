@@ -8,9 +8,9 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_f20326132fdff6f7 import accept
-from .confirm_3697ca6c4dce41d2 import confirm
-from .metric_mass_e9e21a122b3d9ae9 import geometry, spread
+from .accept_mass_6da9820386cdd7a8 import accept
+from .confirm_1afe5301dafd694a import confirm
+from .metric_mass_70da6e8a9a089b74 import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_911a6ef66568fc79 import rhs
 

@@ -10,6 +10,6 @@ p[6] a (default 1.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_9453fdd88df6ad59 import rhs
+from .rhs_iterated_d581bd8600371225 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

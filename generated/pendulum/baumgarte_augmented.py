@@ -10,6 +10,6 @@ p[8] beta (default 5.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_2a7c890a3e12952b import prepare
-from .rhs_iterated_1a8b6d9ab61117db import rhs
+from .rhs_iterated_9544ebd56248e847 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -10,6 +10,6 @@ p[5] tolerance (default 1e-13)
 from .accept_independent_bf172c4066f5ef36 import accept
 from .metric_independent_99bfdc23b142cc2d import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_closed_fbda6099dc26817f import rhs
+from .rhs_closed_7b682fdaa8d45b2c import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -11,6 +11,6 @@ p[5] tolerance (default 1e-13)
 from .accept_identity_26c7571ca5c910e3 import accept
 from .metric_identity_49240e77c6c0a03c import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_e7805d4eef4a5fb4 import rhs
+from .rhs_iterated_1f3841eb5e64b92f import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

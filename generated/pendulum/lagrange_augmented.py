@@ -8,6 +8,6 @@ option solver = augmented
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_e7805d4eef4a5fb4 import rhs
+from .rhs_iterated_1f3841eb5e64b92f import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

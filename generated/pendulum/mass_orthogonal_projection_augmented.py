@@ -11,6 +11,6 @@ p[6] tolerance (default 1e-13)
 from .accept_augmented_7640b373256e7bcb import accept
 from .metric_augmented_c8569a974723b193 import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_e7805d4eef4a5fb4 import rhs
+from .rhs_iterated_1f3841eb5e64b92f import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -10,6 +10,6 @@ option weight = identity
 from .accept_identity_39b52e062e244440 import accept
 from .metric_identity_49240e77c6c0a03c import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_e7805d4eef4a5fb4 import rhs
+from .rhs_iterated_1f3841eb5e64b92f import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

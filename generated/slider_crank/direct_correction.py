@@ -8,9 +8,9 @@ option weight = identity
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_identity_ea43e70b878d405e import accept
-from .confirm_75787e2750a15b5b import confirm
-from .metric_identity_49de92fb7077ac8a import geometry, spread
+from .accept_identity_b9f7c30b780f6c1e import accept
+from .confirm_96f9483320e2e7af import confirm
+from .metric_identity_15f1d2b2672b2423 import geometry, spread
 from .prepare_43188d6f48219e8a import prepare
 from .rhs_direct_4076c3e3d5b7a910 import rhs
 

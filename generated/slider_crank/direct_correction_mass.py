@@ -8,9 +8,9 @@ option weight = mass
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_mass_7bce9fb25398e65d import accept
-from .confirm_33395dad3afdeed9 import confirm
-from .metric_mass_99b7dd44e8a37faa import geometry, spread
+from .accept_mass_0547be04f86804d8 import accept
+from .confirm_98ec0e33d7fb7f5a import confirm
+from .metric_mass_99bf0459dda01d83 import geometry, spread
 from .prepare_af5f5b3313db3c68 import prepare
 from .rhs_direct_4076c3e3d5b7a910 import rhs
 

@@ -8,6 +8,8 @@ SUSPICIOUS = 1e-6
 SKIP = 1e-12
 #: A pivot of D D^T (rows scaled) below this is near a singular position and is reported.
 WARN = 1e-4
+#: What divides 0 where a row is skipped, so that no pivot of 0 does; pivots that count are larger in all units.
+TINY = 1e-300
 
 #: What templates decide by, under the names by which they ask for it.
 NUMBERS: dict[str, float] = {

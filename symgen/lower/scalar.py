@@ -9,7 +9,7 @@ from typing import Any
 
 from symgen.formulate.equations import Equations, MassBlock
 from symgen.ir.derivative import jacobian
-from symgen.ir.numerics import SKIP, SUSPICIOUS
+from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.program import STATUS, Entry, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
 from symgen.lower.replay import Nodes, Replay
@@ -344,7 +344,7 @@ class Scalars(Replay):
             return g.div(g.one, pivot)
         # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
         keep = g.call("step", deciding, self.least(row, diagonal))
-        return g.div(keep, g.add(pivot, g.sub(g.one, keep)))
+        return g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
     def least(self, row: int, diagonal: int) -> int:
         """Return what a pivot of D D^T must exceed for its row to be kept."""

@@ -256,7 +256,7 @@ def multiplier_law(system: System, gamma: Vector) -> Acceleration:
     return Acceleration(system.minv(system.f - system.D.transposed(multipliers)), multipliers)
 
 
-def augmented_iteration(system: System, penalty: Scalar, target: Vector) -> Iteration:
+def augmented_iteration(system: System, penalty: Scalar | Vector, target: Vector) -> Iteration:
     """Return the augmented Lagrangian iteration for D v' = target.
 
     ``(M + a D^T D) dv' = f - M v' - D^T (lambda + a (D v' - target))``, ``v' += dv'``, ``lambda += a (D v' -

@@ -211,9 +211,12 @@ class System(Protocol):
         return self.tape.named(Scalar, "status", name)
 
     @property
-    def heavy_penalty(self) -> Scalar:
-        """1e5 times the mean mass, that of rotations being I / l^2: few iterations, and few digits lost [kg]."""
-        return self.tape.constant(1e5) * self.scale("mean_mass")
+    def heavy_penalty(self) -> Vector:
+        """1e5 times the mean mass, that of rotations being I / l^2, for rows whose derivatives are brought to length 1.
+
+        So much takes few iterations and loses few digits [kg, or kg m^2 for rows that are angles].
+        """
+        return (self.tape.constant(1e5) * self.scale("mean_mass")) * self.variable("row_weight", "m")
 
     @property
     def inverse_step(self) -> Scalar:
@@ -265,8 +268,8 @@ class System(Protocol):
         """Return the factor of B B^T for a scaled constraint matrix B, with masks and flags as for `solve_schur`."""
         return matrix.made(Factor, "pseudoinverse", matrix)
 
-    def penalties(self, penalty: Scalar) -> Vector:
-        """Return the penalty of each row, 0 for rows that the runtime leaves out.
+    def penalties(self, penalty: Scalar | Vector) -> Vector:
+        """Return the penalty of each row, of all alike or by rows, 0 for rows that the runtime leaves out.
 
         A row that depends on others where the constraints hold does so no more at the stages of a step, where they hold
         to the integrator's error only: a penalty on what it adds there would pull at the motion itself.

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import sys
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -101,7 +103,22 @@ def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
     summed = {
         str(name): {"fletcher32": True} for name, v in dataset.variables.items() if v.dtype.kind in "fi" and v.size
     }
-    return lambda file: dataset.to_netcdf(file, engine="h5netcdf", encoding=summed)
+
+    def write(file: io.BytesIO) -> None:
+        with _in_this_process():
+            dataset.to_netcdf(file, engine="h5netcdf", encoding=summed)
+
+    return write
+
+
+def _in_this_process() -> AbstractContextManager[object]:
+    """Return what keeps xarray from asking a Dask cluster for a lock: a file in memory has no name to lock by."""
+    if "dask" not in sys.modules:
+        return nullcontext()
+    import dask
+
+    alone: AbstractContextManager[object] = dask.config.set(scheduler="synchronous")
+    return alone
 
 
 def to_dataframe(result: Result) -> pd.DataFrame:

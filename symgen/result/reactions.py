@@ -82,8 +82,8 @@ class Forces:
         info = self.compiled.info
         found = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant:
-            d = jacobian(self.outcome, 0.0, self.outcome.start.y)
-            left, singular, _ = np.linalg.svd(d, full_matrices=True)
+            columns, _ = _weighed(self.outcome, 0.0, self.outcome.start.y)
+            left, singular, _ = np.linalg.svd(columns.T, full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)
             found |= {row.joint for row, x in zip(info.rows, share, strict=True) if x > _SHARE}
@@ -196,9 +196,22 @@ def _minimum_norm(outcome: Outcome) -> Array:
     values = outcome.multipliers.copy()
     usable = np.isfinite(values).all(axis=1) & np.isfinite(outcome.states).all(axis=1)
     for k in np.flatnonzero(dependent & usable):
-        transposed = jacobian(outcome, float(outcome.times[k]), outcome.states[k]).T
-        values[k] = np.linalg.lstsq(transposed, transposed @ values[k], rcond=CUTOFF)[0]
+        columns, weights = _weighed(outcome, float(outcome.times[k]), outcome.states[k])
+        forces = values[k] / weights
+        values[k] = weights * np.linalg.lstsq(columns, columns @ forces, rcond=CUTOFF)[0]
     return values
+
+
+def _weighed(outcome: Outcome, t: float, y: Array) -> tuple[Array, Array]:
+    """Return G^1/2 D^T R, shape (nv, m), and the diagonal of R, shape (m,): all of its entries have one unit.
+
+    R makes lengths of rows that are angles, by the mechanism's length; G makes lengths of angles, by those of bodies:
+    what has a norm, or is small, is so in all units. Multipliers over R are forces.
+    """
+    compiled, w = outcome.compiled, outcome.w
+    weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
+    gauge = compiled.section(w, "gauge")
+    return np.sqrt(gauge)[:, np.newaxis] * jacobian(outcome, t, y).T * weights, weights
 
 
 def multiplier_unit(row_unit: str) -> str:

@@ -1,7 +1,8 @@
 """Shortest changes: the x with D x = right whose x / scale is shortest, for D of any rank, dense or sparse.
 
-Both solvers take what ``geometry`` left in the scratch array. They are handed to the functions of a start as
-first-class functions: copied to every place they are called from, they would take seconds to compile.
+Both solvers take what ``geometry`` left in the scratch array, and weigh rows so that all have the unit of length. They
+are handed to the functions of a start as first-class functions: copied to every place they are called from, they would
+take seconds to compile.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from numba import types
 from symgen.runtime import abi, decisions
 from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
+from symgen.runtime.scales import free_scale, row_weight
 from symgen.runtime.start_records import INSTANT, LAYOUT, WORK
 
 _SIGNATURE = types.int64(abi.MOVE, LAYOUT, INSTANT, WORK)
@@ -28,7 +30,10 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
         numbers[i] = 0.0
     for k in range(constants.shape[0]):
         row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
-        numbers[row * n + column] = (constants[k] if slot < 0 else w[jacobian + slot]) * scale[column]
+        value = (constants[k] if slot < 0 else w[jacobian + slot]) * scale[column]
+        numbers[row * n + column] = row_weight(layout, w, row) * value
+    for i in range(m):
+        work.right[i] *= row_weight(layout, w, i)
     rank = least_norm(numbers, m, n, work.right, x, part(numbers, m * n, m * min(m, n) + m + n), work.order)
     for j in range(n):
         x[j] *= scale[j]
@@ -37,16 +42,16 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
 
 @exact(_SIGNATURE)
 def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
-    """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the identity, else by iteration.
+    """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the gauge, else by iteration.
 
     Conjugate gradients on the normal equations (CGLS) begin at 0 and so never leave the row space.
     """
     m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
-    uniform = True
+    free = True
     for j in range(n):
         x[j] = 0.0
-        uniform = uniform and scale[j] == 1.0
-    if uniform:
+        free = free and scale[j] == free_scale(layout, w, j)
+    if free:
         for i in range(m):
             w[layout.residual + i] = -right[i]
         spread(now.p, w)
@@ -56,6 +61,8 @@ def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     gradient, direction = part(work.numbers, 0, n), part(work.numbers, n, n)
     product = part(work.numbers, 2 * n, m)
     size = first = 0.0
+    for i in range(m):
+        right[i] *= row_weight(layout, w, i)
     for k in range(decisions.ITERATIONS_A_ROW * m + decisions.ITERATIONS_AT_LEAST):
         _multiply_transposed(layout, w, right, gradient)
         before, size = size, 0.0
@@ -71,6 +78,7 @@ def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
         multiply(layout, w, gradient, product)
         square = 0.0
         for i in range(m):
+            product[i] *= row_weight(layout, w, i)
             square += product[i] * product[i]
         for i in range(m):
             right[i] -= size / square * product[i]
@@ -92,13 +100,14 @@ def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
 
 @exact()
 def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
-    """Set `result` to D^T y."""
+    """Set `result` to D^T y, where y is of rows that are weighed."""
     entries, constants, jacobian = layout.entries, layout.constants, layout.jacobian
     for j in range(layout.nv):
         result[j] = 0.0
     for k in range(constants.shape[0]):
-        slot = entries[3 * k + 2]
-        result[entries[3 * k + 1]] += (constants[k] if slot < 0 else w[jacobian + slot]) * y[entries[3 * k]]
+        row, slot = entries[3 * k], entries[3 * k + 2]
+        weighed = row_weight(layout, w, row) * y[row]
+        result[entries[3 * k + 1]] += (constants[k] if slot < 0 else w[jacobian + slot]) * weighed
 
 
 @exact()

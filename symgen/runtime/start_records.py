@@ -20,7 +20,7 @@ class Layout(NamedTuple):
     nq, nv, m, windings : int
         Coordinates, velocities, constraint rows, angles whose turns are counted.
     sparse, ask_light : int
-        1 where ``spread`` gives the changes that are shortest in the metric of the identity; where it shall be said
+        1 where ``spread`` gives the changes that are shortest in the metric of the gauge; where it shall be said
         whether bodies are too light.
     mass, residual, nu, jacobian, pivot, mask, change, gauge, row_weight : int
         Where these sections of w begin.

@@ -8,6 +8,7 @@ import pytest
 from benchmarks import all_orders
 from benchmarks.motions import motion, second_order
 from symgen.api import load
+from symgen.ir.numerics import SKIP
 from symgen.methods import METHODS
 from symgen.result.points import Points
 
@@ -110,7 +111,13 @@ def check_violations(name, method, until, step):
     assert result.status == "ok", result.reason
     largest, fastest = np.abs(np.asarray(result.q)).max(), np.abs(np.asarray(result.v)).max()
     assert result.position_violation_max <= 1e-12 * max(1.0, largest)
-    assert result.velocity_violation_max <= 1e-12 * max(1.0, fastest)
+    # a row that is skipped at a singular position is not corrected: what its velocity is off by, of the order of the
+    # speed, is seen by the sine of its angle to the others
+    skipped = any(event.smallest_pivot < SKIP for event in result.rank_events)
+    assert result.velocity_violation_max <= (SKIP**0.5 if skipped else 1e-12) * max(1.0, fastest)
+    regular = [not any(e.t_in <= t <= e.t_out for e in result.rank_events) for t in np.asarray(result.t)]
+    velocities = np.asarray(result.violations)[regular, result.violations.names.index("velocity")]
+    assert velocities.size > 50 and velocities.max() <= 1e-12 * max(1.0, fastest)
 
 
 @pytest.mark.parametrize("method", EXACT)

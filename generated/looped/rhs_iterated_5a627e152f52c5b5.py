@@ -1,0 +1,64 @@
+"""Right-hand side, for any mechanism, in the looped shape. Emitted by symgen; do not edit.
+
+format 3, generator of-golden-trees
+"""
+
+import math
+
+import numpy as np
+from numba import njit
+
+from .iterate_28241fcd1b410fe0 import finish, iterate
+from .machine import (
+    AUGMENTED_FACTOR, FORCE, FRAMES, M, MASK, MOTION, MULTIPLIERS, PLAIN_FACTOR, ROW_WEIGHT, augment,
+    factorise, inverse_mass_times, run, tables,
+)
+
+MEAN_MASS = 11  # places in w and T
+POWER = 18
+KEPT_PENALTIES = 62
+KEPT_ACCELERATION = 63
+AUGMENTED_LOWER = 64
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def begin(t, y, p, w):
+    """matrices and start of the iteration."""
+    T = tables(w)
+    m = np.int64(T[M])
+    multipliers = np.int64(T[MULTIPLIERS])
+    mask = np.int64(T[MASK])
+    row_weight = np.int64(T[ROW_WEIGHT])
+    force = np.int64(T[FORCE])
+    augmented_lower = np.int64(T[AUGMENTED_LOWER])
+    kept_acceleration = np.int64(T[KEPT_ACCELERATION])
+    kept_penalties = np.int64(T[KEPT_PENALTIES])
+    w[POWER] = 0.0
+    run(FRAMES, t, y, p, w, T, w)
+    run(MOTION, t, y, p, w, T, w)
+    a0 = 100000.0*w[MEAN_MASS]
+    for j in range(m):
+        w[kept_penalties + j] = w[row_weight + j]*a0*(1.0*(1.0 > w[mask + j]))
+    inverse_mass_times(T, p, w, force, kept_acceleration)
+    augment(T, p, w, kept_penalties, augmented_lower)
+    factorise(T, p, w, AUGMENTED_FACTOR, augmented_lower, PLAIN_FACTOR)
+    for j in range(m):
+        w[multipliers + j] = 0.0
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def rhs(t, y, p, w, iw, ydot):
+    """Rates of the state by iteration until v' changes no more, at most 30 times."""
+    begin(t, y, p, w)
+    last = math.inf
+    for _ in range(30):
+        iterate(p, w)
+        iw[6] += 1
+        increment = w[13]
+        # at the floor of rounding another iteration gains nothing
+        if increment <= 1e-13 or (increment > 0.5 * last and increment < 1e-6):
+            break
+        last = increment
+    finish(t, y, p, w, ydot)
+    return 0
