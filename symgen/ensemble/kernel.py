@@ -16,9 +16,10 @@ from symgen.integrators import INTEGRATORS
 from symgen.model import CompiledModel
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembly import Assembly, entries_of
+from symgen.runtime.assembly import Assembly
 from symgen.runtime.integrator import Integrator, Setup
-from symgen.runtime.run import RunSpec, new_state, sizes_of
+from symgen.runtime.run import RunSpec
+from symgen.runtime.simulation import new_state, sizes_of, span_of
 from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.starts import Rows
     from symgen.model import ModelInfo
-    from symgen.runtime.records import Kept, Span
+    from symgen.runtime.records import Kept
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -85,14 +86,6 @@ class Kernel:
             If there is no loop over many runs for it.
         """
         return integrator_of_rows(self.recipe.integrator, self.recipe.spec)
-
-    def span(self, setup: Setup) -> Span:
-        """Return how far runs go, and by which steps."""
-        from symgen.runtime.records import Span
-
-        spec = self.recipe.spec
-        numbers = setup.step, spec.largest_step, spec.until, spec.until, spec.rtol, spec.atol, spec.relative
-        return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, np.inf)))
 
     @cached_property
     def first(self) -> _Prepared:
@@ -174,11 +167,12 @@ class Kernel:
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
         confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
         seen = rates, confirms[1], model.compiled.model.observe if observes else observe_nothing
-        sizes, span, kept = sizes_of(model.compiled), self.span(model.setup), self._kept(info)
+        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info)
         wants = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT})), int(observes)
         picks = recipe.picks, values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, _REDUNDANT] > 0.0) and info.m * info.nv <= LARGEST
-        places = *entries_of(info), np.zeros(info.m * (info.nv + 1) if redundant else 0)
+        layout = model.assembly.layout
+        places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + 1) if redundant else 0)
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
@@ -230,7 +224,9 @@ class Kernel:
 
         recipe = self.recipe
         need = need_of(compiled, setup, recipe.spec.adaptive, recipe.sources)
-        return DeviceRuns(compiled, need, setup.scheme, self.span(setup), recipe.limits, recipe.times, recipe.picks)
+        return DeviceRuns(
+            compiled, need, setup.scheme, span_of(recipe.spec, setup), recipe.limits, recipe.times, recipe.picks
+        )
 
 
 def integrator_of_rows(name: str, spec: RunSpec) -> Integrator:

@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from symgen import __version__
 from symgen.ensemble.quantities import Quantity
+from symgen.ir.numerics import WARN
 from symgen.model import CompiledModel, load_compiled
-from symgen.runtime.run import WARN, RunSpec
+from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.ir.numerics import WARN
 from symgen.result.judge import JUMP_FAILURE, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembly import refusal
-from symgen.runtime.run import WARN, RankEvent, end_reason
+from symgen.runtime.run import RankEvent, end_reason
+from symgen.runtime.start_words import refusal
 
 if TYPE_CHECKING:
     from symgen.model import LawInfo, ModelInfo

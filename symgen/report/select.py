@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from symgen.study.rows import YARDSTICK, Row, Study, Trace
+from symgen.study.rows import Row, Study, Trace
 
 #: The integrator and the step of the source, by which methods are compared where they have it.
 USUAL = "rk4"
@@ -58,8 +58,3 @@ def settings_text(study: Study) -> str:
     text = f"{integrator}, {setting(step, rtol)}"
     others = [f"{row.method} ({row.integrator}, {setting(row.step, row.rtol)})" for row in rows if row.setting != most]
     return text + (f"; {', '.join(others)}" if others else "")
-
-
-def yardstick_was_run(study: Study) -> bool:
-    """Whether there is something to divide run times by."""
-    return any(row.method == YARDSTICK for row in study.rows)

@@ -10,9 +10,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
+from symgen.ir.numerics import WARN
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
-from symgen.runtime.run import WARN
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

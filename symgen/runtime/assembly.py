@@ -14,47 +14,27 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import AssemblyError, InputError
 from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.exact import compiled_form, plain_form
 from symgen.runtime.least_norm import dense_change, sparse_change
 from symgen.runtime.manifold import stay
+from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
 from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Asked, Instant, Layout, new_work
+from symgen.runtime.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
 from symgen.runtime.starting import close_row, close_rows, follow_nothing, prepare_rows
 from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel, ModelInfo
+    from symgen.model import CompiledModel
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 _START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
 _WHERE, _SIZE, _LIGHT = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size"), e.SUMMARY.index("light")
-
-#: Changed coordinates that a note tells one by one.
-_TOLD = 6
-
-
-@dataclass(frozen=True)
-class Change:
-    """A coordinate or given velocity that was changed to make a start consistent.
-
-    Attributes
-    ----------
-    name, unit : str
-        What it is.
-    before, after : float
-        As described, and at the start.
-    """
-
-    name: str
-    unit: str
-    before: float
-    after: float
 
 
 @dataclass(frozen=True)
@@ -160,7 +140,7 @@ class Assembly:
             np.isin(np.arange(info.nv), kept).astype(np.int64),
             np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
             np.array([(joints.index(row.joint), row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
-            np.array(_spins(info), dtype=np.int64),
+            np.array(spins_of(info), dtype=np.int64),
             lengths_of(info),
         )
         layout = Layout._make((*numbers, *arrays))
@@ -269,36 +249,6 @@ def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
     return np.concatenate([positions, speed * np.sqrt(compiled.section(w, "gauge"))])
 
 
-def entries_of(info: ModelInfo) -> tuple[Integers, Array]:
-    """Return (row, column, slot or -1) of D's structural entries, flat, and their values where they have no slot."""
-    places = [(row, column, -1 if slot is None else slot) for row, column, _, slot in info.jacobian]
-    constants = [constant or 0.0 for _, _, constant, _ in info.jacobian]
-    return np.array(places, dtype=np.int64).ravel(), np.array(constants, dtype=np.float64)
-
-
-def lengths_of(info: ModelInfo) -> Array:
-    """Return 1 for coordinates that are lengths, else 0."""
-    return np.array([quantity.unit == "m" for quantity in info.coordinates], dtype=np.float64)
-
-
-def _spins(info: ModelInfo) -> list[int]:
-    """Return the body's first angular velocity for each angular velocity, -1 for others."""
-    found = [j if quantity.unit == "rad/s" else -1 for j, quantity in enumerate(info.velocities)]
-    for _, first in info.spins:
-        found[first : first + 3] = [first] * 3
-    return found
-
-
-def joints_of(info: ModelInfo) -> list[str]:
-    """Return the joints that have rows, in their order."""
-    return list(dict.fromkeys(row.joint for row in info.rows))
-
-
-def velocity_of(coordinate: int, info: ModelInfo) -> int:
-    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
-    return coordinate - sum(1 for first, _ in info.spins if first < coordinate)
-
-
 def assemble(
     compiled: CompiledModel,
     q: Array,
@@ -348,127 +298,14 @@ def assemble(
     targets = np.array(list(fixed.coordinates.values()), dtype=np.float64)
     asked = Asked(described, targets, np.zeros(e.N_SUMMARY))
     if assembly.close_one(Instant(y, p, w), asked) != e.ASSEMBLED:
-        raise _without_derivative(compiled, q, p) or refusal(asked.summary, info)
-    changes = _changes(info, np.concatenate([q, described]), y, state_scales(compiled, w, math.inf))
+        raise without_derivative(compiled, q, p) or refusal(asked.summary, info)
+    changes = changes_of(info, np.concatenate([q, described]), y, state_scales(compiled, w, math.inf))
     moved = None if fixed.coordinates else asked.summary[_MOVED]
     return Start(
         *(y, p, w, int(np.sum(compiled.section(w, "pivot") >= SKIP))),
         redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
-        notes=_notes(moved, asked.summary, changes, info),
+        notes=notes_of(moved, asked.summary, changes, info),
         changes=changes,
         light=bool(asked.summary[_LIGHT]),
-        warnings=() if moved is None else _warnings(changes, info, float(w[abi.LENGTH])),
+        warnings=() if moved is None else warnings_of(changes, info, float(w[abi.LENGTH])),
     )
-
-
-def _without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyError | None:
-    """Return which joint has no derivative at the described start, where that is why there is none; p is prepared."""
-    info = compiled.info
-    y, w = np.zeros(info.ny), compiled.scratch()
-    y[: info.nq] = q
-    if not np.all(np.isfinite(p)):
-        return None
-    with np.errstate(all="ignore"):
-        try:
-            Ready(compiled.model.masses, abi.MOVE)(p, w)
-            Ready(compiled.model.geometry, abi.MEASURE)(0.0, y, p, w)
-        except (ArithmeticError, ValueError):  # where nothing is compiled
-            return None
-    lengths = np.abs(compiled.jacobian(w)).sum(axis=1)
-    open_rows = ~(np.abs(compiled.section(w, "residual")) <= decisions.MOVED)
-    for row in np.flatnonzero(~np.isfinite(lengths) | (open_rows & (lengths == 0.0))):
-        return AssemblyError(
-            f"{info.name}: joint '{info.rows[row].joint}' cannot be closed from this start: its row "
-            f"{info.rows[row].name} has no derivative there, as where points meet that it keeps apart or a disc lies "
-            "flat on its plane; describe another start"
-        )
-    return None
-
-
-def _changes(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[Change, ...]:
-    """Return what differs noticeably from what was described; velocities that were not given are nan there."""
-    quantities = (*info.coordinates, *info.velocities)
-    return tuple(
-        Change(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
-        for i in np.flatnonzero(np.abs(y[: len(scales)] - described) > decisions.MOVED * scales)
-    )
-
-
-def _warnings(changes: Sequence[Change], info: ModelInfo, length: float) -> tuple[str, ...]:
-    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far."""
-    names = {quantity.name for quantity in info.coordinates}
-    limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
-    far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    if not far:
-        return ()
-    told = "; ".join(f"{c.name} from {c.before:.6g} to {c.after:.6g} {c.unit}" for c in far[:_TOLD])
-    more = f"; and {len(far) - _TOLD} more" if len(far) > _TOLD else ""
-    return (f"closing the initial positions moved bodies far from where they are described: {told}{more}",)
-
-
-def _notes(moved: float | None, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
-    """Return what was changed, one sentence each."""
-    notes = list[str]()
-    names = {quantity.name for quantity in info.coordinates}
-    positions = [change for change in changes if change.name in names]
-    if moved is not None and positions:
-        told = "; ".join(
-            f"{change.name} from {change.before:.6g} to {change.after:.6g} {change.unit}"
-            for change in positions[:_TOLD]
-        )
-        more = f"; and {len(positions) - _TOLD} more" if len(positions) > _TOLD else ""
-        notes.append(f"initial positions were closed by the shortest changes: {told}{more}")
-    if summary[_VELOCITIES]:
-        largest = max(
-            (change for change in changes if change.name not in names),
-            key=lambda change: abs(change.after - change.before),
-            default=None,
-        )
-        what = (
-            ""
-            if largest is None
-            else (f"; {largest.name} changed from {largest.before:.6g} to {largest.after:.6g} {largest.unit}")
-        )
-        notes.append(
-            f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix{what}"
-        )
-    return tuple(notes)
-
-
-def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
-    """Return why a run has no start.
-
-    Parameters
-    ----------
-    summary : Array, shape (N_SUMMARY,)
-        What the start left; see `symgen.runtime.ensemble_abi`.
-    info : ModelInfo
-        The model.
-    """
-    code, where, size = int(summary[_START]), int(summary[_WHERE]), float(summary[_SIZE])
-    if code == e.UNDEFINED:
-        return InputError("parameters or start", "values for which every formula is finite", "others")
-    if code == e.NO_MASS:
-        body = info.velocities[where].name.split(".")[0]
-        return InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}")
-    if code == e.UNDETERMINED:
-        body, _, name = info.velocities[where].name.partition(".")
-        return InputError(
-            f"body '{body}'",
-            "a mass, or joints that hold it",
-            f"a massless body that is free to move in {name}: nothing determines its acceleration",
-        )
-    if code == e.OPEN:
-        joint = joints_of(info)[where]
-        return AssemblyError(
-            f"{info.name}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
-            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
-        )
-    if code == e.CONTRADICTION:
-        return AssemblyError(
-            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
-        )
-    found = "given velocities contradicted by the constraints"
-    if code == e.MOVED:
-        found = f"positions that closing moves by up to {float(summary[_MOVED]):.3g}"
-    return InputError("initial state", "a consistent start (--strict)", found)

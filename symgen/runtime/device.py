@@ -185,7 +185,7 @@ class Need:
     @property
     def local_bytes(self) -> int:
         """Local memory of a thread for its run."""
-        own = 2 * self.width + self.n_p + self.nw + self.kept + self.memory + self.working
+        own = 4 * self.width + self.n_p + self.nw + self.kept + self.memory + self.working
         return 8 * (own + abi.N_COUNTERS + abi.N_CLOCK + abi.N_GAUGES + e.N_CONTROL + N_EVENTS)
 
 

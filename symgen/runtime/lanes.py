@@ -16,6 +16,7 @@ from typing import Any
 
 from numba import types
 
+from symgen.ir.numerics import SKIP
 from symgen.ir.program import LANE_COUNTERS, LANES, lane_bases
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -210,7 +211,7 @@ def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> Non
             gauges[i * _L + lane] = state.gauges[i]
         rank = 0.0
         for i in range(sizes.m):
-            rank += 1.0 if chunk.ws[r * nw + sizes.pivots + i] >= 1e-12 else 0.0
+            rank += 1.0 if chunk.ws[r * nw + sizes.pivots + i] >= SKIP else 0.0
         gauges[_FIRST_RANK + lane], gauges[_ODD + lane] = rank, 0.0
 
 

@@ -14,22 +14,20 @@ from numpy.typing import NDArray
 
 from symgen.ir.program import COUNTERS
 from symgen.runtime import abi
-from symgen.runtime.assembly import Start, entries_of, lengths_of
-from symgen.runtime.blocks import padded
-from symgen.runtime.exact import compiled_form
+from symgen.runtime.assembly import Start
+from symgen.runtime.model_arrays import entries_of
+from symgen.runtime.simulation import Simulation, row_chooser, sizes_of
 from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel, ModelInfo
+    from symgen.model import CompiledModel
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.records import Observed, Outputs, Sizes, Span, State
+    from symgen.runtime.records import Observed, Outputs, Sizes
 
 Array = NDArray[np.float64]
 
 #: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
 MAX_STEPS = 1e8
-#: A pivot of D D^T (rows scaled) below this is near a singular position; as in `symgen.lower.algebra`.
-WARN = 1e-4
 
 
 @dataclass(frozen=True)
@@ -173,10 +171,11 @@ class Outcome:
         if not self.start.redundant_rows:
             observe_rates(*functions, sizes, outputs, len(self.times), self.p, w, iw, observed, room)
             return observed
+        choose = row_chooser(self.compiled)
         for k in range(len(self.times)):  # the rows that stand for all follow the position
             here, seen = (type(x)(*(array[k : k + 1] for array in x)) for x in (outputs, observed))
             observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
-            if choose_anew(self.compiled, w):
+            if choose(w):
                 observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
         return observed
 
@@ -272,117 +271,6 @@ def integrate(
     )
 
 
-class Simulation:
-    """A run that can be left after any accepted step, saved, restored, and gone on with.
-
-    Parameters
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    integrator : Integrator
-        The scheme and its loop.
-    start : Start
-        A consistent start; not changed.
-    spec : RunSpec
-        Steps, tolerances and limits.
-
-    Attributes
-    ----------
-    state : State
-        All that the run keeps, as arrays.
-
-    Notes
-    -----
-    Constant steps stand on a grid that begins at the start: pieces that end on it are one run, bit for bit. An end
-    between two steps is reached by a shortened step, from which a new grid begins.
-    """
-
-    def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
-        self.compiled, self.integrator, self.spec = compiled, integrator, spec
-        self.setup = integrator.setup(compiled, spec, start.w)
-        self.sizes = sizes_of(compiled)
-        self.scheme = self.setup.scheme
-        self.state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
-        self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
-        gauges = self.state.gauges
-        gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
-        gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
-        gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
-
-    def outputs(self, times: Array) -> Outputs:
-        """Return room for outputs at `times`."""
-        from symgen.runtime.records import Outputs
-
-        k, given = len(times), np.ascontiguousarray(times, dtype=np.float64)
-        kept = abi.N_STATUS + self.compiled.info.windings
-        return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
-
-    def enter(self, outputs: Outputs, until: float | None = None, pause: float = np.inf) -> int:
-        """Go on; return how the loop ended, see `symgen.runtime.abi`.
-
-        Parameters
-        ----------
-        outputs : Outputs
-            From `outputs`; what is written already is left as it is.
-        until : float, optional
-            End [s]; that of the run unless given.
-        pause : float
-            The loop is left (`PAUSED`) when so many steps of the run have been accepted.
-        """
-        span = self._span(self.spec.until if until is None else until, pause)
-        while True:
-            code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
-            if code == abi.NO_ROOM:
-                self.scheme = _with_room(self.scheme)
-            elif code == abi.CHOOSE:
-                choose_anew(self.compiled, self.state.w)  # what a scheme knows of its matrices depends on the rows
-                self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
-            else:
-                return code
-
-    def warm(self, outputs: Outputs) -> None:
-        """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
-        kept = self.save()
-        self.state.control[abi.STOP] = 1
-        self.enter(type(outputs)(*(array[:0] for array in outputs)))
-        self.restore(kept)
-
-    def save(self) -> dict[str, NDArray[Any]]:
-        """Return copies of all arrays that the run keeps, by name."""
-        from symgen.runtime.records import KEPT
-
-        found = {name: array for name, array in self.state._asdict().items() if name != "room"}
-        found |= {name: getattr(self.scheme, name) for name in KEPT if hasattr(self.scheme, name)}
-        return {name: array.copy() for name, array in found.items()}
-
-    def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Take up what `save` returned, for the same model, method, integrator and limits."""
-        for name, array in saved.items():
-            if hasattr(self.state, name):
-                getattr(self.state, name)[:] = array
-            else:
-                self.scheme = self.scheme._replace(**{name: array.copy()})
-
-    def _span(self, until: float, pause: float) -> Span:
-        from symgen.runtime.records import Span
-
-        spec = self.spec
-        numbers = self.setup.step, spec.largest_step, until, spec.until, spec.rtol, spec.atol, spec.relative
-        return Span(*(float(number) for number in (*numbers, self.setup.safety, spec.max_steps, pause)))
-
-
-def choose_anew(compiled: CompiledModel, w: Array) -> bool:
-    """Choose the rows that stand for all at the position of `w`; return whether they are others than before."""
-    from symgen.runtime.redundancy import LARGEST, choose_rows
-
-    info, mask = compiled.info, compiled.section(w, "mask")
-    if info.m * info.nv > LARGEST:
-        return False
-    places = (info.sections[name][0] for name in ("jacobian", "gauge", "mask"))
-    room, kept = np.zeros(info.m * (info.nv + 1)), info.m - int(np.count_nonzero(mask))
-    return bool(compiled_form(choose_rows)(info.m, info.nv, kept, *entries_of(info), *places, w, room))
-
-
 def _shortest_row(compiled: CompiledModel, w: Array) -> str:
     """Return the name of the row that is an angle and has lost most of its gradient."""
     info, (entries, constants) = compiled.info, entries_of(compiled.info)
@@ -391,67 +279,6 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
     squares = np.bincount(rows, values**2 * compiled.section(w, "gauge")[columns], info.m)
     left = squares * compiled.section(w, "row_weight")
     return min((left[i], row.name) for i, row in enumerate(info.rows) if row.unit == "rad")[1]
-
-
-def sizes_of(compiled: CompiledModel) -> Sizes:
-    """Return what loops have to know of a model."""
-    from symgen.runtime.records import Sizes
-
-    info, sections = compiled.info, compiled.info.sections
-    names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
-    pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
-    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
-    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, abi.POWER)
-
-
-def share_of(sizes: Sizes) -> Array:
-    """Return 1 for elements of a state that take part in error control, else 0."""
-    share = np.zeros(sizes.width)
-    share[: sizes.nq + sizes.nv] = 1.0
-    return share
-
-
-def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
-    """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
-    metric = np.zeros(sizes.width)
-    metric[: sizes.nq] = lengths_of(info)
-    return metric
-
-
-def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
-    """Return what a run keeps, before it has a start.
-
-    Parameters
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    sizes : Sizes
-        From `sizes_of`.
-    memory, room : int
-        As in `symgen.runtime.integrator.Setup`.
-    """
-    from symgen.runtime.records import State
-
-    law = compiled.law
-    control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
-    p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
-    return State(
-        *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
-        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
-        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
-        np.zeros(sizes.width + room),
-    )
-
-
-def _with_room(scheme: Any) -> Any:
-    """Return a scheme's record with more room for the factors of the matrix that did not fit."""
-    from symgen.runtime.sparse import enlarged
-
-    for plan, numbers in (("plan", "numbers"), ("filter_plan", "filter_numbers")):
-        if hasattr(scheme, plan):
-            changed = enlarged(getattr(scheme, plan), getattr(scheme, numbers))
-            scheme = scheme._replace(**dict(zip((plan, numbers), changed, strict=True)))
-    return scheme
 
 
 def _in_thread(

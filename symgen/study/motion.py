@@ -10,7 +10,7 @@ the motion, by SciPy's Radau; twice with different tolerances, the difference be
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -376,8 +376,3 @@ def _scale(y: Array, n: int) -> Array:
     scale = np.maximum(np.abs(y), 1.0)
     scale[n:] = np.maximum(scale[n:], float(np.abs(y[n:]).max(initial=0.0)))
     return scale
-
-
-def output_times(until: float, count: int) -> Sequence[float]:
-    """Return `count` equidistant times after 0, which itself is the first."""
-    return [until * k / count for k in range(count + 1)]

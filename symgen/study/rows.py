@@ -92,11 +92,6 @@ class Row:
         return self.integrator, self.step, self.rtol
 
     @property
-    def setting_text(self) -> str:
-        """Step or tolerance in words."""
-        return f"rtol {self.rtol:g}" if self.rtol is not None else f"{self.step:g} s"
-
-    @property
     def ended(self) -> bool:
         """Whether the run came to its end."""
         return self.status != FAILED

@@ -12,7 +12,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
 from symgen.plan import Settings, make_plan
 from symgen.runtime import abi
-from symgen.runtime.run import Simulation
+from symgen.runtime.simulation import Simulation
 
 #: A method for each integrator, and methods that remember something beside the state.
 PAIRS = [

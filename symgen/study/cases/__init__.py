@@ -33,10 +33,5 @@ class Family:
     levels: Callable[[Base, bool], Sequence[Level]]
     own: bool = False
 
-    @property
-    def is_plane(self) -> bool:
-        """Whether two quantities are varied: a region of stability, not a row of the map."""
-        return len(self.axes) == 2
-
 
 CASES: Registry[Family] = Registry(__name__, "family of cases")

@@ -1,0 +1,44 @@
+"""What compiled functions take of a model's description, as arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from symgen.model import ModelInfo
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+def entries_of(info: ModelInfo) -> tuple[Integers, Array]:
+    """Return (row, column, slot or -1) of D's structural entries, flat, and their values where they have no slot."""
+    places = [(row, column, -1 if slot is None else slot) for row, column, _, slot in info.jacobian]
+    constants = [constant or 0.0 for _, _, constant, _ in info.jacobian]
+    return np.array(places, dtype=np.int64).ravel(), np.array(constants, dtype=np.float64)
+
+
+def lengths_of(info: ModelInfo) -> Array:
+    """Return 1 for coordinates that are lengths, else 0."""
+    return np.array([quantity.unit == "m" for quantity in info.coordinates], dtype=np.float64)
+
+
+def spins_of(info: ModelInfo) -> list[int]:
+    """Return the body's first angular velocity for each angular velocity, -1 for others."""
+    found = [j if quantity.unit == "rad/s" else -1 for j, quantity in enumerate(info.velocities)]
+    for _, first in info.spins:
+        found[first : first + 3] = [first] * 3
+    return found
+
+
+def joints_of(info: ModelInfo) -> list[str]:
+    """Return the joints that have rows, in their order."""
+    return list(dict.fromkeys(row.joint for row in info.rows))
+
+
+def velocity_of(coordinate: int, info: ModelInfo) -> int:
+    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
+    return coordinate - sum(1 for first, _ in info.spins if first < coordinate)

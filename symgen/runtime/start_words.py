@@ -1,0 +1,154 @@
+"""What is said of a start: what was changed, what may have been meant otherwise, and why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import AssemblyError, InputError
+from symgen.runtime import abi, decisions
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.model_arrays import joints_of
+from symgen.runtime.probe import Ready
+
+if TYPE_CHECKING:
+    from symgen.model import CompiledModel, ModelInfo
+
+Array = NDArray[np.float64]
+
+_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
+_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
+
+#: Changed coordinates that a note tells one by one.
+_TOLD = 6
+
+
+@dataclass(frozen=True)
+class Change:
+    """A coordinate or given velocity that was changed to make a start consistent.
+
+    Attributes
+    ----------
+    name, unit : str
+        What it is.
+    before, after : float
+        As described, and at the start.
+    """
+
+    name: str
+    unit: str
+    before: float
+    after: float
+
+
+def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tuple[Change, ...]:
+    """Return what differs noticeably from what was described; velocities that were not given are nan there."""
+    quantities = (*info.coordinates, *info.velocities)
+    return tuple(
+        Change(quantities[i].name, quantities[i].unit, float(described[i]), float(y[i]))
+        for i in np.flatnonzero(np.abs(y[: len(scales)] - described) > decisions.MOVED * scales)
+    )
+
+
+def warnings_of(changes: Sequence[Change], info: ModelInfo, length: float) -> tuple[str, ...]:
+    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far."""
+    names = {quantity.name for quantity in info.coordinates}
+    limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
+    far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
+    if not far:
+        return ()
+    return (f"closing the initial positions moved bodies far from where they are described: {_told(far)}",)
+
+
+def notes_of(moved: float | None, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
+    """Return what was changed, one sentence each."""
+    notes = list[str]()
+    names = {quantity.name for quantity in info.coordinates}
+    positions = [change for change in changes if change.name in names]
+    if moved is not None and positions:
+        notes.append(f"initial positions were closed by the shortest changes: {_told(positions)}")
+    if summary[_VELOCITIES]:
+        speeds = (change for change in changes if change.name not in names)
+        largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
+        what = (
+            ""
+            if largest is None
+            else (f"; {largest.name} changed from {largest.before:.6g} to {largest.after:.6g} {largest.unit}")
+        )
+        notes.append(
+            f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix{what}"
+        )
+    return tuple(notes)
+
+
+def _told(changes: Sequence[Change]) -> str:
+    """Return the first changes one by one, and how many more there are."""
+    told = "; ".join(f"{c.name} from {c.before:.6g} to {c.after:.6g} {c.unit}" for c in changes[:_TOLD])
+    return told + (f"; and {len(changes) - _TOLD} more" if len(changes) > _TOLD else "")
+
+
+def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
+    """Return why a run has no start.
+
+    Parameters
+    ----------
+    summary : Array, shape (N_SUMMARY,)
+        What the start left; see `symgen.runtime.ensemble_abi`.
+    info : ModelInfo
+        The model.
+    """
+    code, where, size = int(summary[_START]), int(summary[_WHERE]), float(summary[_SIZE])
+    if code == e.UNDEFINED:
+        return InputError("parameters or start", "values for which every formula is finite", "others")
+    if code == e.NO_MASS:
+        body = info.velocities[where].name.split(".")[0]
+        return InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{size:g}")
+    if code == e.UNDETERMINED:
+        body, _, name = info.velocities[where].name.partition(".")
+        return InputError(
+            f"body '{body}'",
+            "a mass, or joints that hold it",
+            f"a massless body that is free to move in {name}: nothing determines its acceleration",
+        )
+    if code == e.OPEN:
+        joint = joints_of(info)[where]
+        return AssemblyError(
+            f"{info.name}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
+            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
+        )
+    if code == e.CONTRADICTION:
+        return AssemblyError(
+            f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
+        )
+    found = "given velocities contradicted by the constraints"
+    if code == e.MOVED:
+        found = f"positions that closing moves by up to {float(summary[_MOVED]):.3g}"
+    return InputError("initial state", "a consistent start (--strict)", found)
+
+
+def without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyError | None:
+    """Return which joint has no derivative at the described start, where that is why there is none; p is prepared."""
+    info = compiled.info
+    y, w = np.zeros(info.ny), compiled.scratch()
+    y[: info.nq] = q
+    if not np.all(np.isfinite(p)):
+        return None
+    with np.errstate(all="ignore"):
+        try:
+            Ready(compiled.model.masses, abi.MOVE)(p, w)
+            Ready(compiled.model.geometry, abi.MEASURE)(0.0, y, p, w)
+        except (ArithmeticError, ValueError):  # where nothing is compiled
+            return None
+    lengths = np.abs(compiled.jacobian(w)).sum(axis=1)
+    open_rows = ~(np.abs(compiled.section(w, "residual")) <= decisions.MOVED)
+    for row in np.flatnonzero(~np.isfinite(lengths) | (open_rows & (lengths == 0.0))):
+        return AssemblyError(
+            f"{info.name}: joint '{info.rows[row].joint}' cannot be closed from this start: its row "
+            f"{info.rows[row].name} has no derivative there, as where points meet that it keeps apart or a disc lies "
+            "flat on its plane; describe another start"
+        )
+    return None
