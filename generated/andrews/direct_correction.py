@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates a360905d90dcc4fd
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_identity_a5205bd9f56d15a6 import accept
-from .confirm_0ba950601ba405bd import confirm
-from .metric_identity_93bec27c735d516f import geometry, spread
+from .accept_identity_14a2ebb00539d34b import accept
+from .confirm_4529d83ad3256264 import confirm
+from .metric_identity_d3cef599e6dcf7bc import geometry, spread
 from .prepare_5e6f3af61bb320e5 import prepare
 from .rhs_direct_d28bf56970332796 import rhs
 

@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a360905d90dcc4fd
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_9a3bf3e2ef22ec22 import accept
-from .confirm_262835d6874beff8 import confirm
-from .metric_identity_2f02993ee7c6882a import geometry, spread
+from .accept_identity_794ca4dc9a45d8d0 import accept
+from .confirm_4f361e88cdab4fe8 import confirm
+from .metric_identity_93fe3ecb27ddf1a6 import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_deacf1a33f51e6f8 import rhs
 

@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates a360905d90dcc4fd
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_identity_232d08cdf343e4c1 import accept
-from .confirm_b275963f20c58f52 import confirm
-from .metric_identity_4de06df68f34cc70 import geometry, spread
+from .accept_identity_702d60ab663b0bbe import accept
+from .confirm_e35e57f5702a7596 import confirm
+from .metric_identity_a600ab6a7b24b02a import geometry, spread
 from .prepare_0494c6b384c6ba41 import prepare
 from .rhs_direct_8a7fba9f1fed74e8 import rhs
 

@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates a360905d90dcc4fd
+digest 272d50317a49e3a6fa31d4e2a99b6be5bd3f3431249c13a8e2670c9daaa1915c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = mass
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_mass_bb6cf0c7657069d0 import accept
-from .confirm_ca71c356a6115fcb import confirm
-from .metric_mass_ee601c3fa8a1a90e import geometry, spread
+from .accept_mass_72b851d138ac80d9 import accept
+from .confirm_27eb9e0530453103 import confirm
+from .metric_mass_27975929ca36730f import geometry, spread
 from .prepare_0494c6b384c6ba41 import prepare
 from .rhs_direct_8a7fba9f1fed74e8 import rhs
 

@@ -2,13 +2,13 @@
 
 momenta are integrated; velocities satisfy their constraint in every evaluation
 Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 p[31] penalty (default 10000000.0)
 p[32] iteration_tolerance (default 1e-13)
 """
 
-from .accept_mass_6fefa74509ed0cfa import accept
-from .metric_mass_d8a07bb272618830 import geometry, spread
+from .accept_mass_341e7abd83936029 import accept
+from .metric_mass_ccde46bfa5b19836 import geometry, spread
 from .prepare_125d79b48aac268a import prepare
 from .rhs_iterated_7e4ee035ba5e4561 import rates, rhs
 

@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = augmented
 option weight = identity
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_identity_ca66e38c0b8b0234 import accept
-from .metric_identity_6f4d8e54d731205b import geometry, spread
+from .accept_identity_2d8b6aa76a2e8ede import accept
+from .metric_identity_4455e6aac6180ded import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
 from .rhs_iterated_270a07b4c3e23db7 import rhs
 

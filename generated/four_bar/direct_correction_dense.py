@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = dense
 option weight = identity
 p[21] tolerance (default 1e-13)
 """
 
-from .accept_identity_cfd68419b913121f import accept
-from .metric_identity_633c8f30009b53e0 import geometry, spread
+from .accept_identity_7c10a2507ac29c2c import accept
+from .metric_identity_24d084413a7dc212 import geometry, spread
 from .prepare_925146d10b1178fc import prepare
 from .rhs_dense_23a402b45809043e import rhs
 

@@ -2,7 +2,7 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[28] tolerance (default 1e-13)
@@ -28,8 +28,8 @@ OPEN = 1880
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def geometry(t, z, lanes):
-    """Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of D D^T: 326 operations a lane."""
+def geometry_of_model(t, z, lanes):
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 217 operations a lane."""
     for lane in range(lanes):
         q0 = z[0 + lane]
         q1 = z[8 + lane]
@@ -93,95 +93,56 @@ def geometry(t, z, lanes):
         s41 = 1.0 + s38
         s42 = 1.0/s23
         s43 = s24*s42
-        s44 = s25*s42
-        s45 = s24*s43
-        s46 = s27 - s45
-        s47 = s25*s43 - s1*s17
-        s48 = -1.0 + s26 - s45
-        s49 = 1.0*(s46 > mask_1 + 1e-12*s27)
-        s50 = s49/max(s46, 1e-300)
-        s51 = s47*s50
-        s52 = s29 - s25*s44 - s47*s51
-        s53 = s24*s44 - (s24 + s30) - s48*s51
-        s54 = 1.0/(1.0 + s34)
-        s55 = s36*s54
-        s56 = s37*s54
-        s57 = s41 - s36*s55
-        s58 = s36 + s37*s55
-        s59 = 1.0 - s38 + s40*s55
-        s60 = 1.0*(s57 > mask_7 + 1e-12*s41)
-        s61 = s60/max(s57, 1e-300)
-        s62 = s58*s61
-        s63 = 1.0*(s52 > mask_2 + 1e-12*s29)
-        s64 = s63/max(s52, 1e-300)
-        s65 = s53*s64
-        s66 = s31*s64
-        s67 = s33 - s45 - s48*(s48*s50) - s53*s65
-        s68 = s8*s19 + s31*s65
-        s69 = -1.0 + s32 + s30*s65
-        s70 = 1.0*(s67 > mask_3 + 1e-12*s33)
-        s71 = s70/max(s67, 1e-300)
-        s72 = s68*s71
-        s73 = s35 - s37*s56 - s58*s62 - s31*s66 - s68*s72
-        s74 = s30*s66 - (s30 + s36 + s40*s56 + s59*s62) + s69*s72
-        s75 = 1.0*(s73 > mask_4 + 1e-12*s35)
-        s76 = s39 - s40*(s40*s54) - s59*(s59*s61) - s30*(s30*s64) - s69*(s69*s71) - s74*(s74*(s75/max(s73, 1e-300)))
-        s77 = 1.0*(s76 > mask_5 + 1e-12*s39)
-        s78 = s1*s1
-        s79 = 1.0 + s78
-        s80 = s0*s1
-        s81 = -1.0 + s78
-        s82 = s0*s0
-        s83 = 1.0 + s82
-        s84 = s8*s8
-        s85 = s5*s8
-        s86 = -1.0 + s84
-        s87 = s5*s5
-        s88 = s12*s12
-        s89 = s10*s12
-        s90 = 1.0 - s88
-        s91 = s10*s10
-        s92 = 1.0/s79
-        s93 = s80*s92
-        s94 = -s93
-        s95 = s81*s92
-        s96 = s80*s93
-        s97 = s81*s93 - s80
-        s98 = -1.0 + s82 - s96
-        s99 = s49/max(s83 - s96, 1e-300)
-        s100 = s97*s99
-        s101 = s98*s99
-        s102 = s80*s95 - (s80 + s85) - s98*s100
-        s103 = 1.0/(1.0 + s88)
-        s104 = s89*s103
-        s105 = s90*s103
-        s106 = s89*s104
-        s107 = s89 + s90*s104
-        s108 = 1.0 - s91 + s106
-        s109 = s60/max(1.0 + s91 - s106, 1e-300)
-        s110 = s107*s109
-        s111 = s108*s109
-        s112 = s63/max(1.0 + s79 + s84 - s81*s95 - s97*s100, 1e-300)
-        s113 = s102*s112
-        s114 = s86*s112
-        s115 = s85*s112
-        s116 = s85 + s86*s113
-        s117 = -1.0 + s87 + s85*s113
-        s118 = s70/max(1.0 + s83 + s87 - s96 - s98*s101 - s102*s113, 1e-300)
-        s119 = s116*s118
-        s120 = s117*s118
-        s121 = s85*s114 - (s85 + s89 + s89*s105 + s108*s110) + s117*s119
-        s122 = s75/max(1.0 + 1.0 + s84 + s88 - s90*s105 - s107*s110 - s86*s114 - s116*s119, 1e-300)
-        s123 = s121*s122
-        s124 = s77/max(1.0 + 1.0 + s87 + s91 - s106 - s108*s111 - s85*s115 - s117*s120 - s121*s123, 1e-300)
-        s125 = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
-        s126 = s46/s27
-        s127 = s52/s29
-        s128 = s67/s33
-        s129 = s73/s35
-        s130 = s76/s39
-        s131 = min(min(min(min(min(1.0, mask_1 + s126), mask_2 + s127), mask_3 + s128), mask_4 + s129), mask_5 + s130)
-        s132 = s57/s41
+        s44 = -s43
+        s45 = s25*s42
+        s46 = s24*s43
+        s47 = s27 - s46
+        s48 = s25*s43 - s1*s17
+        s49 = -1.0 + s26 - s46
+        s50 = 1.0*(s47 > mask_1 + 1e-12*s27)
+        s51 = s50/max(s47, 1e-300)
+        s52 = s48*s51
+        s53 = s49*s51
+        s54 = s29 - s25*s45 - s48*s52
+        s55 = s24*s45 - (s24 + s30) - s49*s52
+        s56 = 1.0/(1.0 + s34)
+        s57 = s36*s56
+        s58 = s37*s56
+        s59 = s40*s56
+        s60 = s41 - s36*s57
+        s61 = s36 + s37*s57
+        s62 = 1.0 - s38 + s40*s57
+        s63 = 1.0*(s60 > mask_7 + 1e-12*s41)
+        s64 = s63/max(s60, 1e-300)
+        s65 = s61*s64
+        s66 = s62*s64
+        s67 = 1.0*(s54 > mask_2 + 1e-12*s29)
+        s68 = s67/max(s54, 1e-300)
+        s69 = s55*s68
+        s70 = s31*s68
+        s71 = s30*s68
+        s72 = s33 - s46 - s49*s53 - s55*s69
+        s73 = s8*s19 + s31*s69
+        s74 = -1.0 + s32 + s30*s69
+        s75 = 1.0*(s72 > mask_3 + 1e-12*s33)
+        s76 = s75/max(s72, 1e-300)
+        s77 = s73*s76
+        s78 = s74*s76
+        s79 = s35 - s37*s58 - s61*s65 - s31*s70 - s73*s77
+        s80 = s30*s70 - (s30 + s36 + s40*s58 + s62*s65) + s74*s77
+        s81 = 1.0*(s79 > mask_4 + 1e-12*s35)
+        s82 = s81/max(s79, 1e-300)
+        s83 = s80*s82
+        s84 = s39 - s40*s59 - s62*s66 - s30*s71 - s74*s78 - s80*s83
+        s85 = 1.0*(s84 > mask_5 + 1e-12*s39)
+        s86 = math.sqrt(s3*s3 + s4*s4 + s7*s7 + s9*s9 + s11*s11 + s13*s13 + s14*s14 + s15*s15)
+        s87 = s47/s27
+        s88 = s54/s29
+        s89 = s72/s33
+        s90 = s79/s35
+        s91 = s84/s39
+        s92 = min(min(min(min(min(1.0, mask_1 + s87), mask_2 + s88), mask_3 + s89), mask_4 + s90), mask_5 + s91)
+        s93 = s60/s41
         z[896 + lane] = s3
         z[904 + lane] = s4
         z[912 + lane] = s7
@@ -190,8 +151,8 @@ def geometry(t, z, lanes):
         z[936 + lane] = s13
         z[944 + lane] = s14
         z[952 + lane] = s15
-        z[552 + lane] = s125
-        z[616 + lane] = s125
+        z[552 + lane] = s86
+        z[616 + lane] = s86
         z[1368 + lane] = s1
         z[1376 + lane] = s2
         z[1384 + lane] = s1
@@ -204,39 +165,130 @@ def geometry(t, z, lanes):
         z[1440 + lane] = s10
         z[1448 + lane] = s12
         z[1456 + lane] = -s10
-        z[1032 + lane] = s126
-        z[1040 + lane] = s127
-        z[1048 + lane] = s128
-        z[1056 + lane] = s129
-        z[1064 + lane] = s130
-        z[1080 + lane] = s132
-        z[592 + lane] = s60 + 1.0 + s77 + s75 + s70 + s63 + 1.0 + s49
-        z[584 + lane] = min(s131, mask_7 + s132)
+        z[1032 + lane] = s87
+        z[1040 + lane] = s88
+        z[1048 + lane] = s89
+        z[1056 + lane] = s90
+        z[1064 + lane] = s91
+        z[1080 + lane] = s93
+        z[592 + lane] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50
+        z[584 + lane] = min(s92, mask_7 + s93)
         z[632 + lane] = 1.0
-        z[1656 + lane] = s94
-        z[1664 + lane] = s95
-        z[1672 + lane] = s94
-        z[1680 + lane] = s100
-        z[1688 + lane] = s101
-        z[1696 + lane] = -s104
-        z[1704 + lane] = s105
-        z[1712 + lane] = s104
-        z[1720 + lane] = s110
-        z[1728 + lane] = s111
-        z[1736 + lane] = s113
-        z[1744 + lane] = s114
-        z[1752 + lane] = -s115
-        z[1760 + lane] = -s119
-        z[1768 + lane] = s120
-        z[1776 + lane] = s123
-        z[1784 + lane] = s92
-        z[1792 + lane] = s99
-        z[1800 + lane] = s103
-        z[1808 + lane] = s109
-        z[1816 + lane] = s112
-        z[1824 + lane] = s118
-        z[1832 + lane] = s122
-        z[1840 + lane] = s124
+        z[1464 + lane] = s44
+        z[1472 + lane] = s45
+        z[1480 + lane] = s44
+        z[1488 + lane] = s52
+        z[1496 + lane] = s53
+        z[1504 + lane] = -s57
+        z[1512 + lane] = s58
+        z[1520 + lane] = s59
+        z[1528 + lane] = s65
+        z[1536 + lane] = s66
+        z[1544 + lane] = s69
+        z[1552 + lane] = s70
+        z[1560 + lane] = -s71
+        z[1568 + lane] = -s77
+        z[1576 + lane] = s78
+        z[1584 + lane] = s83
+        z[1592 + lane] = s42
+        z[1600 + lane] = s51
+        z[1608 + lane] = s56
+        z[1616 + lane] = s64
+        z[1624 + lane] = s68
+        z[1632 + lane] = s76
+        z[1640 + lane] = s82
+        z[1648 + lane] = s85/max(s84, 1e-300)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def refactor(t, z, lanes):
+    """the factorisation of D D^T from D, without the rows that depend on others: 146 operations a lane."""
+    for lane in range(lanes):
+        reciprocal_1 = z[1600 + lane]
+        reciprocal_3 = z[1616 + lane]
+        reciprocal_4 = z[1624 + lane]
+        reciprocal_5 = z[1632 + lane]
+        reciprocal_6 = z[1640 + lane]
+        reciprocal_7 = z[1648 + lane]
+        jacobian_0 = z[1368 + lane]
+        jacobian_1 = z[1376 + lane]
+        jacobian_2 = z[1384 + lane]
+        jacobian_3 = z[1392 + lane]
+        jacobian_4 = z[1400 + lane]
+        jacobian_5 = z[1408 + lane]
+        jacobian_6 = z[1416 + lane]
+        jacobian_7 = z[1424 + lane]
+        jacobian_8 = z[1432 + lane]
+        jacobian_9 = z[1440 + lane]
+        jacobian_10 = z[1448 + lane]
+        jacobian_11 = z[1456 + lane]
+        s0 = jacobian_0*jacobian_1
+        s1 = -1.0 + jacobian_0*jacobian_2
+        s2 = jacobian_0*jacobian_4
+        s3 = -1.0 + jacobian_3*jacobian_6
+        s4 = jacobian_3*jacobian_8
+        s5 = 1.0 + jacobian_7*jacobian_10
+        s6 = jacobian_9*jacobian_10
+        s7 = jacobian_10*jacobian_11
+        s8 = 1.0/(1.0 + jacobian_0*jacobian_0)
+        s9 = s0*s8
+        s10 = s1*s8
+        s11 = s2*s8
+        s12 = jacobian_1*jacobian_2 - s1*s9
+        s13 = -1.0 + jacobian_1*jacobian_4 - s2*s9
+        s14 = 1.0*(reciprocal_1 > 0.0)/max(1.0 + jacobian_1*jacobian_1 - s0*s9, 1e-300)
+        s15 = s12*s14
+        s16 = s13*s14
+        s17 = jacobian_2*jacobian_4 + jacobian_3*jacobian_5 - s2*s10 - s13*s15
+        s18 = 1.0/(1.0 + jacobian_10*jacobian_10)
+        s19 = s7*s18
+        s20 = s5*s18
+        s21 = s6*s18
+        s22 = jacobian_7*jacobian_11 - s5*s19
+        s23 = 1.0 + jacobian_9*jacobian_11 - s6*s19
+        s24 = 1.0*(reciprocal_3 > 0.0)/max(1.0 + jacobian_11*jacobian_11 - s7*s19, 1e-300)
+        s25 = s22*s24
+        s26 = s23*s24
+        s27 = 1.0*(reciprocal_4 > 0.0)/max(1.0 + 1.0 + jacobian_2*jacobian_2 + jacobian_3*jacobian_3 - s1*s10 - s12*s15, 1e-300)
+        s28 = s17*s27
+        s29 = s3*s27
+        s30 = s4*s27
+        s31 = jacobian_5*jacobian_6 - s3*s28
+        s32 = -1.0 + jacobian_5*jacobian_8 - s4*s28
+        s33 = max(1.0 + 1.0 + jacobian_4*jacobian_4 + jacobian_5*jacobian_5 - s2*s11 - s13*s16 - s17*s28, 1e-300)
+        s34 = 1.0*(reciprocal_5 > 0.0)/s33
+        s35 = s31*s34
+        s36 = s32*s34
+        s37 = 1.0 + 1.0 + jacobian_6*jacobian_6 + jacobian_7*jacobian_7 - s5*s20 - s22*s25 - s3*s29 - s31*s35
+        s38 = jacobian_6*jacobian_8 + jacobian_7*jacobian_9 - s6*s20 - s23*s25 - s4*s29 - s32*s35
+        s39 = 1.0 + 1.0 + jacobian_8*jacobian_8 + jacobian_9*jacobian_9 - s6*s21 - s23*s26 - s4*s30 - s32*s36
+        s40 = 1.0*(reciprocal_6 > 0.0)/max(s37, 1e-300)
+        s41 = s38*s40
+        z[1656 + lane] = s9
+        z[1664 + lane] = s10
+        z[1672 + lane] = s11
+        z[1680 + lane] = s15
+        z[1688 + lane] = s16
+        z[1696 + lane] = s19
+        z[1704 + lane] = s20
+        z[1712 + lane] = s21
+        z[1720 + lane] = s25
+        z[1728 + lane] = s26
+        z[1736 + lane] = s28
+        z[1744 + lane] = s29
+        z[1752 + lane] = s30
+        z[1760 + lane] = s35
+        z[1768 + lane] = s36
+        z[1776 + lane] = s41
+        z[1784 + lane] = s8
+        z[1792 + lane] = s14
+        z[1800 + lane] = s18
+        z[1808 + lane] = s24
+        z[1816 + lane] = s27
+        z[1824 + lane] = s34
+        z[1832 + lane] = s40
+        z[1840 + lane] = 1.0*(reciprocal_7 > 0.0)/max(s39 - s38*s41, 1e-300)
     return 0
 
 
@@ -244,6 +296,18 @@ def geometry(t, z, lanes):
 def spread(t, z, lanes):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 102 operations a lane."""
     for lane in range(lanes):
+        jacobian_0 = z[1368 + lane]
+        jacobian_1 = z[1376 + lane]
+        jacobian_2 = z[1384 + lane]
+        jacobian_3 = z[1392 + lane]
+        jacobian_4 = z[1400 + lane]
+        jacobian_5 = z[1408 + lane]
+        jacobian_6 = z[1416 + lane]
+        jacobian_7 = z[1424 + lane]
+        jacobian_8 = z[1432 + lane]
+        jacobian_9 = z[1440 + lane]
+        jacobian_10 = z[1448 + lane]
+        jacobian_11 = z[1456 + lane]
         law_lower_0 = z[1656 + lane]
         law_lower_1 = z[1664 + lane]
         law_lower_2 = z[1672 + lane]
@@ -276,18 +340,6 @@ def spread(t, z, lanes):
         residual_5 = z[936 + lane]
         residual_6 = z[944 + lane]
         residual_7 = z[952 + lane]
-        jacobian_0 = z[1368 + lane]
-        jacobian_1 = z[1376 + lane]
-        jacobian_2 = z[1384 + lane]
-        jacobian_3 = z[1392 + lane]
-        jacobian_4 = z[1400 + lane]
-        jacobian_5 = z[1408 + lane]
-        jacobian_6 = z[1416 + lane]
-        jacobian_7 = z[1424 + lane]
-        jacobian_8 = z[1432 + lane]
-        jacobian_9 = z[1440 + lane]
-        jacobian_10 = z[1448 + lane]
-        jacobian_11 = z[1456 + lane]
         s0 = law_lower_0*residual_0 - residual_1
         s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
         s2 = law_lower_5*residual_6 - residual_7
@@ -310,13 +362,13 @@ def spread(t, z, lanes):
         s19 = law_reciprocal_0*residual_0 + law_lower_0*s18 + law_lower_1*s15 + law_lower_2*s12
         z[1088 + lane] = s14 - s13 - s19
         z[1096 + lane] = s18 + s11 - s10
-        z[1104 + lane] = s18*jacobian_1 - s19*jacobian_0 + s15*jacobian_2 + s12*jacobian_4
+        z[1104 + lane] = jacobian_1*s18 - jacobian_0*s19 + jacobian_2*s15 + jacobian_4*s12
         z[1112 + lane] = s15 + s8 - s7
         z[1120 + lane] = s12 - s6
-        z[1128 + lane] = s15*jacobian_3 + s12*jacobian_5 + s9*jacobian_6 + s6*jacobian_8
+        z[1128 + lane] = jacobian_3*s15 + jacobian_5*s12 + jacobian_6*s9 + jacobian_8*s6
         z[1136 + lane] = s9 - s17
         z[1144 + lane] = s6 + s16
-        z[1152 + lane] = s9*jacobian_7 + s6*jacobian_9 - s17*jacobian_10 + s16*jacobian_11
+        z[1152 + lane] = jacobian_7*s9 + jacobian_9*s6 - jacobian_10*s17 + jacobian_11*s16
     return 0
 
 
@@ -549,6 +601,14 @@ def rhs(t, z):
         z[752 + lane] = s97
         z[760 + lane] = s96
         z[SUSPECTS + lane] += 1.0*(s100 | (s81 < 1e-06*s42))
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, z, lanes):
+    """What the model's `geometry` leaves, and the factorisation of the law's own metric."""
+    geometry_of_model(t, z, lanes)
+    refactor(t, z, lanes)
     return 0
 
 

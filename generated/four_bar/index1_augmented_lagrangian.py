@@ -2,14 +2,14 @@
 
 iterated multipliers for accelerations, mass-orthogonal projections of positions and velocities
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130; Cuadrado, Cardenal, Bayo, Multibody Syst. Dyn. 1 (1997) 259-280
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 p[24] penalty (default 10000000.0)
 p[25] iteration_tolerance (default 1e-13)
 p[26] tolerance (default 1e-13)
 """
 
-from .accept_augmented_e124e5ee0dc0edf7 import accept
-from .metric_augmented_1de868c20434265e import geometry, spread
+from .accept_augmented_0d44d36221cc5e53 import accept
+from .metric_augmented_ab80b2c0be0852fc import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
 from .rhs_iterated_aeca487b6c79d5ff import rhs
 

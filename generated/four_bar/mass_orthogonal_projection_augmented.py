@@ -2,14 +2,14 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = augmented
 p[24] penalty (default 10000000.0)
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_augmented_eb5142c3c200c9ef import accept
-from .metric_augmented_b0c9c79fd77a2a6a import geometry, spread
+from .accept_augmented_571f2091c91a1f43 import accept
+from .metric_augmented_cd5263d7bbeae8ab import geometry, spread
 from .prepare_e9abfb5308afbaf9 import prepare
 from .rhs_iterated_270a07b4c3e23db7 import rhs
 

@@ -2,14 +2,14 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = dense
 p[21] penalty (default 10000000.0)
 p[22] tolerance (default 1e-13)
 """
 
-from .accept_augmented_c8518426a92ab827 import accept
-from .metric_augmented_370561b608fabf2a import geometry, spread
+from .accept_augmented_18cb570d34aa9251 import accept
+from .metric_augmented_b621d69d706026f1 import geometry, spread
 from .prepare_925146d10b1178fc import prepare
 from .rhs_dense_23a402b45809043e import rhs
 

@@ -2,15 +2,15 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a360905d90dcc4fd
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_f82f287b693c0a83 import accept
-from .confirm_1590cea5faa16a58 import confirm
+from .accept_identity_bd2a6b7eebfcae09 import accept
+from .confirm_e4d6575b6806aa49 import confirm
 from .form_acceleration_ae84e57377bc258b import residual, tangent
-from .metric_identity_718fe1511f11ea96 import geometry, spread
+from .metric_identity_788c34c771daa420 import geometry, spread
 from .prepare_980c25ae6cc4d1f3 import prepare
 from .rhs_direct_e37dc391c4609e3f import rhs
 

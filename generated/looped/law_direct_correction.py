@@ -8,9 +8,9 @@ option weight = identity
 parameter 0: tolerance (default 1e-13)
 """
 
-from .accept_identity_c4474c8c3b1675d7 import accept
-from .confirm_562bfd91d9b3566c import confirm
-from .metric_identity_56272e987929f96d import geometry, spread
+from .accept_identity_f80cc1f5ad695a07 import accept
+from .confirm_921e44bd2082aeab import confirm
+from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_direct_793f158db7f08688 import rhs
 

@@ -8,8 +8,8 @@ parameter 1: iteration_tolerance (default 1e-13)
 parameter 2: tolerance (default 1e-13)
 """
 
-from .accept_augmented_848ade82a4ee567d import accept
-from .metric_augmented_8e2987a496ec4a74 import geometry, spread
+from .accept_augmented_a68e55f09167ed54 import accept
+from .metric_augmented_8359d8fa0786ce5c import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_186c5e5466d0b67b import rhs
 

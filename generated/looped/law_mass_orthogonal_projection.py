@@ -8,9 +8,9 @@ parameter 0: penalty (default 10000000.0)
 parameter 1: tolerance (default 1e-13)
 """
 
-from .accept_augmented_3a7852af64bf4acc import accept
-from .confirm_9e4435e7a09f0ca4 import confirm
-from .metric_augmented_ef582096dad38af6 import geometry, spread
+from .accept_augmented_4151ffd8e4ef0536 import accept
+from .confirm_923b9de2db674584 import confirm
+from .metric_augmented_2d13017f45e3ff7e import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_direct_793f158db7f08688 import rhs
 

@@ -8,8 +8,8 @@ parameter 0: penalty (default 10000000.0)
 parameter 1: tolerance (default 1e-13)
 """
 
-from .accept_augmented_7a1cfe7df40a0198 import accept
-from .metric_augmented_8e2987a496ec4a74 import geometry, spread
+from .accept_augmented_62e33386f098b1f6 import accept
+from .metric_augmented_8359d8fa0786ce5c import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_5a627e152f52c5b5 import rhs
 

@@ -7,9 +7,9 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_cec36b0b2b2a7be5 import accept
-from .confirm_562bfd91d9b3566c import confirm
-from .metric_identity_56272e987929f96d import geometry, spread
+from .accept_identity_b1a3e761dec35dbf import accept
+from .confirm_921e44bd2082aeab import confirm
+from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_direct_793f158db7f08688 import rhs
 

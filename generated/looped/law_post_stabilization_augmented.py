@@ -7,8 +7,8 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_ef05f51039059a4f import accept
-from .metric_identity_0472c4a04b2a34e8 import geometry, spread
+from .accept_identity_5edba10d91829dcb import accept
+from .metric_identity_3fda7db334446b39 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_iterated_5a627e152f52c5b5 import rhs
 

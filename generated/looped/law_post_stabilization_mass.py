@@ -7,9 +7,9 @@ option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_ed168ed701159e00 import accept
-from .confirm_1b04923056e57cd0 import confirm
-from .metric_mass_879e9f6c3a2744b8 import geometry, spread
+from .accept_mass_f79bd953e998bb51 import accept
+from .confirm_b760304a2fbff870 import confirm
+from .metric_mass_c7faa0aba1f9ae61 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_direct_793f158db7f08688 import rhs
 

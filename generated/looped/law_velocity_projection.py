@@ -7,9 +7,9 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_09f6a7f128e75291 import accept
-from .confirm_562bfd91d9b3566c import confirm
-from .metric_identity_56272e987929f96d import geometry, spread
+from .accept_identity_2357cc70a8f1a305 import accept
+from .confirm_921e44bd2082aeab import confirm
+from .metric_identity_d9ffd2c418c22c08 import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
 from .rhs_direct_793f158db7f08688 import rhs
 

@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates a360905d90dcc4fd
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_6da9820386cdd7a8 import accept
-from .confirm_1afe5301dafd694a import confirm
-from .metric_mass_70da6e8a9a089b74 import geometry, spread
+from .accept_mass_97a2c4d0a285550e import accept
+from .confirm_59ca09447eb00d4d import confirm
+from .metric_mass_bf87462dd928035b import geometry, spread
 from .prepare_069764e87980f98a import prepare
 from .rhs_direct_911a6ef66568fc79 import rhs
 

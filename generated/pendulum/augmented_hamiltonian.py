@@ -2,13 +2,13 @@
 
 momenta are integrated; velocities satisfy their constraint in every evaluation
 Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 p[6] penalty (default 10000000.0)
 p[7] iteration_tolerance (default 1e-13)
 """
 
-from .accept_mass_4b52294b66d72a98 import accept
-from .metric_mass_db8f08ec28fd105a import geometry, spread
+from .accept_mass_c8665d5a96b33152 import accept
+from .metric_mass_e63272ebbe03a3bc import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_iterated_c6cfb3b478f4235b import rates, rhs
 

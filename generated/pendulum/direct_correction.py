@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_identity_e5df34fffbc90410 import accept
-from .metric_identity_9c7507a51185d7d1 import geometry, spread
+from .accept_identity_4e61667e2eaf735e import accept
+from .metric_identity_bd7f4cf885b349d5 import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_direct_e8071acbf2bf5192 import rhs
 

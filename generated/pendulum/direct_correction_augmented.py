@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = augmented
 option weight = identity
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_identity_26c7571ca5c910e3 import accept
-from .metric_identity_49240e77c6c0a03c import geometry, spread
+from .accept_identity_51ac0c1a21128754 import accept
+from .metric_identity_5c888638972fb1e6 import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
 from .rhs_iterated_1f3841eb5e64b92f import rhs
 

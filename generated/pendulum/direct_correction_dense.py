@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = dense
 option weight = identity
 p[4] tolerance (default 1e-13)
 """
 
-from .accept_identity_f9a3e9f31fe570b2 import accept
-from .metric_identity_d3d2fa3f147b2c08 import geometry, spread
+from .accept_identity_68600aad522b55d1 import accept
+from .metric_identity_d09fcc5caf99d72e import geometry, spread
 from .prepare_fe8af80990da6385 import prepare
 from .rhs_dense_4c756d6f2d37ebf2 import rhs
 

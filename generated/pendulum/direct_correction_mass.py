@@ -2,14 +2,14 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = mass
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_mass_1169b9574851c997 import accept
-from .metric_mass_f63708a23a9339c5 import geometry, spread
+from .accept_mass_142f55b28e93bd58 import accept
+from .metric_mass_4e6f664215581ca1 import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_direct_e8071acbf2bf5192 import rhs
 

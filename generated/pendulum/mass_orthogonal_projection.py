@@ -2,14 +2,14 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = elimination
 p[6] penalty (default 10000000.0)
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_augmented_941a6450cb96af86 import accept
-from .metric_augmented_ca5de81f4add63ea import geometry, spread
+from .accept_augmented_e4c04e0bf17e0efc import accept
+from .metric_augmented_9a92da08c55c8da6 import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_direct_e8071acbf2bf5192 import rhs
 

@@ -2,14 +2,14 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = augmented
 p[5] penalty (default 10000000.0)
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_augmented_7640b373256e7bcb import accept
-from .metric_augmented_c8569a974723b193 import geometry, spread
+from .accept_augmented_72174d568898b3fa import accept
+from .metric_augmented_332864fc37a99dd2 import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
 from .rhs_iterated_1f3841eb5e64b92f import rhs
 

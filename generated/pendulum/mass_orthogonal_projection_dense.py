@@ -2,14 +2,14 @@
 
 positions and velocities projected in the metric of M by iterations with M + a D^T D
 Bayo, Ledesma, Nonlinear Dyn. 9 (1996) 113-130, doi 10.1007/BF01833296
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = dense
 p[4] penalty (default 10000000.0)
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_augmented_85c5a0e7654dc1a2 import accept
-from .metric_augmented_f876d54a54d3e6c5 import geometry, spread
+from .accept_augmented_ab28441bf8f6e560 import accept
+from .metric_augmented_a3c51a9d025cfe6e import geometry, spread
 from .prepare_fe8af80990da6385 import prepare
 from .rhs_dense_4c756d6f2d37ebf2 import rhs
 

@@ -2,13 +2,13 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_39b52e062e244440 import accept
-from .metric_identity_49240e77c6c0a03c import geometry, spread
+from .accept_identity_e71877e632c5bf97 import accept
+from .metric_identity_5c888638972fb1e6 import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
 from .rhs_iterated_1f3841eb5e64b92f import rhs
 

@@ -2,13 +2,13 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_f0bd3609c17660e9 import accept
-from .metric_mass_f63708a23a9339c5 import geometry, spread
+from .accept_mass_d31730bc7797fbd2 import accept
+from .metric_mass_4e6f664215581ca1 import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_direct_e8071acbf2bf5192 import rhs
 

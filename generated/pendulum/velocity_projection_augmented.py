@@ -2,13 +2,13 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_6469f22c7d9326e9 import accept
-from .metric_identity_49240e77c6c0a03c import geometry, spread
+from .accept_identity_0865919476ca5cab import accept
+from .metric_identity_5c888638972fb1e6 import geometry, spread
 from .prepare_bce06b5282bbe7ed import prepare
 from .rhs_iterated_1f3841eb5e64b92f import rhs
 

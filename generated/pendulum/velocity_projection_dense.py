@@ -2,13 +2,13 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = dense
 option weight = identity
 """
 
-from .accept_identity_8304f2e7ef347a4e import accept
-from .metric_identity_d3d2fa3f147b2c08 import geometry, spread
+from .accept_identity_2b94dc37b490c7ed import accept
+from .metric_identity_d09fcc5caf99d72e import geometry, spread
 from .prepare_fe8af80990da6385 import prepare
 from .rhs_dense_4c756d6f2d37ebf2 import rhs
 

@@ -2,13 +2,13 @@
 
 velocities are projected after each step; positions are left
 Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a360905d90dcc4fd
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_1fb4e5bf5633d40a import accept
-from .metric_mass_f63708a23a9339c5 import geometry, spread
+from .accept_mass_7ae8c5da9415febe import accept
+from .metric_mass_4e6f664215581ca1 import geometry, spread
 from .prepare_ff3d175fb6c40462 import prepare
 from .rhs_direct_e8071acbf2bf5192 import rhs
 

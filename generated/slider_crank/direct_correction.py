@@ -2,15 +2,15 @@
 
 positions and velocities are projected after each step with the pseudoinverse of D
 Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
-digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates a360905d90dcc4fd
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates a694aa875a452a90
 option solver = elimination
 option weight = identity
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_identity_b9f7c30b780f6c1e import accept
-from .confirm_96f9483320e2e7af import confirm
-from .metric_identity_15f1d2b2672b2423 import geometry, spread
+from .accept_identity_054f16519b17f5e3 import accept
+from .confirm_08d3ca74c7f91f94 import confirm
+from .metric_identity_3f6f8d7d66e8bee7 import geometry, spread
 from .prepare_43188d6f48219e8a import prepare
 from .rhs_direct_4076c3e3d5b7a910 import rhs
 

@@ -68,7 +68,7 @@ def emit_law(
         {"acceleration": program.form, "metric": metric, "correction": metric, "form": program.level},
         f"for model `{model.name}`{_FOR[target]}",
         versions(model.digest),
-        {name: (model_stem, name) for name in model_names(model)},
+        {name: (model_stem, name) for name in model_names(model)} | {"geometry_of_model": (model_stem, "geometry")},
         f"Method `{program.method}` for model `{model.name}`{_FOR[target]}.",
         law_header(program, model, summary, reference),
         program.key,
@@ -146,6 +146,8 @@ def _loops(program: LawProgram, equations: Equations, target: str) -> list[tuple
     """Return the functions of a law that are not straight-line code, with their roles, in the order of their text."""
     correction = program.correction
     parts = Parts(LiteralLayout(program, "y" if equations.spins else "", DECORATORS[target]), correction)
+    if any(b.name == "refactor" for b in program.blocks):
+        parts.add("metric", "metric")
     if program.form in ("iterated", "dense"):
         parts.add(program.form, "acceleration")
     if program.form == "tangent":

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, versions
 from symgen.emit.module import DECORATORS, Code, function, module
 from symgen.emit.parts import Parts, accept_kind
@@ -12,7 +14,7 @@ from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
 from symgen.ir.program import lane_bases as bases_of
 
-_BLOCKS = ("normalise", "move", "geometry", "spread", "measure", "rhs")
+_BLOCKS = ("normalise", "move", "geometry_of_model", "geometry", "refactor", "spread", "measure", "rhs")
 #: What a law's docstring says of its one array.
 _ABOUT = """
 All that a run has stands in one array z, since the compiler would otherwise have to make sure of too many pairs of
@@ -83,8 +85,12 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     bases = bases_of(layout.nq + layout.nv + 1, n_p, layout.nw)
     access = LaneAccess(layout, {}, bases, LANES)
     blocks = {b.name: b for b in (*model.blocks, *program.blocks)}  # a law's own take the place of the model's
+    if "refactor" in blocks:
+        blocks["geometry_of_model"] = replace(blocks.pop("geometry"), name="geometry_of_model")
     wanted = [name for name in _BLOCKS if name in blocks and (correction.any or name not in ("move", "spread"))]
     parts = Parts(LaneLayout(program, "t, z, lanes" if equations.spins else "", access), correction)
+    if "refactor" in blocks:
+        parts.add("lanes_metric")
     parts.add(f"lanes_{accept_kind(correction)}")
     codes = [*(_over_lanes(blocks[name], access) for name in wanted), *parts.codes]
     constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}

@@ -83,6 +83,8 @@ def emit_shared_model(generator: str) -> str:
 def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
     parts = Parts(TableLayout([name for name, _ in law.parameters]), law.correction)
+    if any(f.part.name == "refactor" for f in law.functions):
+        parts.add("metric", "metric")
     if law.form == "iterated":
         parts.add("iterated", "acceleration")
     if any(f.flagged for f in law.functions):
@@ -103,7 +105,7 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
         {"acceleration": law.form, "metric": metric, "correction": metric},
         "for any mechanism, in the looped shape",
         made,
-        known | {name: ("model", name) for name in _SHARED},
+        known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{law.method}`, for any mechanism, in the looped shape.",
         header,
         f"law_{law.key}",
@@ -113,7 +115,7 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
 
 
 _ARGUMENTS = {"rhs": "t, y, p, w, iw, ydot", "begin": "t, y, p, w", "iterate": "p, w", "finish": "t, y, p, w, ydot"}
-_ARGUMENTS |= {"geometry": "t, y, p, w", "spread": "p, w"}
+_ARGUMENTS |= {"refactor": "p, w", "spread": "p, w"}
 
 
 class Bases:

@@ -20,7 +20,7 @@ _SPARE_DEGREES = 6
 _ARGUMENTS = {
     **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
     **dict.fromkeys(("begin", "aim", "geometry"), ("t", "y", "p", "w")),
-    **dict.fromkeys(("iterate", "weigh", "expand", "spread"), ("p", "w")),
+    **dict.fromkeys(("iterate", "weigh", "expand", "refactor", "spread"), ("p", "w")),
     "finish": ("t", "y", "p", "w", "ydot"),
     "strike": ("w",),
 }

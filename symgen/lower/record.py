@@ -187,38 +187,41 @@ class _Law:
 
     # -- metrics of corrections ----------------------------------------------------------------------------------------
 
-    def metric(self, matrix: str, rank: Factor, *outputs: tuple[str, Value]) -> None:
-        purpose = f"Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of {matrix}"
+    def metric(self, name: str, purpose: str, *outputs: tuple[str, Value]) -> None:
         self.sections |= {"law_lower": (), "law_reciprocal": ()}
-        self.add("geometry", purpose, ("geometry", self.system.geometry(rank)), *outputs)
+        self.add(name, purpose, *outputs)
+
+    def metric_apart(self, matrix: str, factor: Factor) -> None:
+        """Add ``refactor``, which the law's own ``geometry`` calls behind that of the model."""
+        purpose = f"the factorisation of {matrix} from D, without the rows that depend on others"
+        self.metric("refactor", purpose, ("law_", factor))
 
     def spread(self, change: Vector) -> None:
         self.add("spread", "the correction -D^+ times the section `residual`, of v, or of q by N", ("change", change))
 
     def identity_metric(self) -> None:
-        """Add geometry and spread in the metric of the identity, in which 1 rad weighs as 1 m: D D^T."""
+        """Add a factorisation and spread in the metric of the identity, in which 1 rad weighs as 1 m: D D^T."""
         s = self.system
-        rank = s.rank_factor()
-        factor = s.weighted_factor(rank, "identity")
-        self.metric("D D^T", rank, ("law_", factor))
+        factor = s.weighted_factor(s.rank_factor(), "identity")
+        self.metric_apart("D D^T", factor)
         self.spread(_change(s, s.stored_factor(factor, "law_")))
 
     def mass_metric(self) -> None:
-        """Add geometry and spread in the metric of M: S = D M^-1 D^T, rows skipped as D G D^T decides."""
+        """Add a factorisation and spread in the metric of M: S = D M^-1 D^T, rows skipped as D G D^T decides."""
         s = self.system
-        rank = s.rank_factor()
-        factor = s.weighted_factor(rank, "mass")
-        self.metric("D M^-1 D^T", rank, ("law_", factor))
+        factor = s.weighted_factor(s.rank_factor(), "mass")
+        self.metric_apart("D M^-1 D^T", factor)
         self.spread(s.minv(_change(s, s.stored_factor(factor, "law_"))))
 
     def independent_metric(self) -> None:
-        """Add geometry and spread that change dependent coordinates only: W^-1 = P G, with P in ``dependent``."""
+        """Add geometry and spread that change dependent coordinates only: W^-1 = P G, P in ``dependent``."""
         s = self.system
         self.expanded()
         chosen, rank = s.variable("dependent", "nv"), s.rank_factor()
         factor = s.weighted_factor(rank, "dependent")
-        quality = s.partition_quality(rank, factor)
-        self.metric("D P D^T", rank, ("status.partition_quality", quality), ("law_", factor))
+        written = ("status.partition_quality", s.partition_quality(rank, factor)), ("law_", factor)
+        purpose = "Phi, nu, D, the pivots of D G D^T that decide rank, and the factorisation of D P D^T"
+        self.metric("geometry", purpose, ("geometry", s.geometry(rank)), *written)
         self.spread(chosen.times(s.gauged(_change(s, s.stored_factor(factor, "law_")))))
 
     def augmented_metric(self) -> None:
@@ -229,9 +232,9 @@ class _Law:
         lambda before it solves, so lambda begins at -a r.
         """
         s = self.system
-        penalties, rank = s.penalties(s.parameter("penalty")), s.rank_factor()
-        factor = s.augmented_factor(penalties)
-        self.metric("M + a D^T D", rank, ("law_", factor))
+        penalties = s.penalties(s.parameter("penalty"))
+        factor = s.augmented_metric(penalties)
+        self.metric_apart("M + a D^T D", factor)
         self.sections |= {"moved": ("nv",), "force_of_constraints": ("m",)}
         residual, moved = s.variable("residual", "m"), s.variable("moved", "nv")
         raised = s.variable("force_of_constraints", "m") + penalties.times(residual)

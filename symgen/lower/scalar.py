@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
 from functools import cached_property
 from typing import Any
@@ -18,6 +18,8 @@ from symgen.methods._formula import Operation
 Outputs = list[tuple[Target, int]]
 #: A sparse matrix: for each row its (column, node) entries in increasing order of column.
 Rows = tuple[tuple[tuple[int, int], ...], ...]
+#: Rows of a matrix W of weights: for each its nodes by column.
+Weight = Sequence[Mapping[int, int]]
 
 
 class Scalars(Replay):
@@ -283,7 +285,7 @@ class Scalars(Replay):
         """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
         return minimum_degree(self.neighbours(self.rows, self.inverse_mass))[0]
 
-    def gram(self, matrix: Rows, weight: Sequence[Mapping[int, int]] | None = None) -> dict[tuple[int, int], int]:
+    def gram(self, matrix: Rows, weight: Weight | None = None) -> dict[tuple[int, int], int]:
         """Return D W D^T as nodes; `weight` None is the identity, else rows of W."""
         g = self.graph
         left: list[dict[int, int]] = []
@@ -331,42 +333,62 @@ class Scalars(Replay):
 
     def _on_rank(self, operation: Operation) -> Factor:
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
+        g = self.graph
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
-            return self._kept(row, pivot, diagonal, pivot)
+            if pivot == diagonal:
+                return g.div(g.one, pivot)
+            # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
+            return self._kept(g.call("step", pivot, self.least(row, diagonal)), pivot)
 
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
-    def _kept(self, row: int, deciding: int, diagonal: int, pivot: int) -> int:
-        """Return 1 / pivot, or 0 where a pivot of D D^T says that the row depends on the others."""
-        g = self.graph
-        if deciding == diagonal:
-            return g.div(g.one, pivot)
-        # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
-        keep = g.call("step", deciding, self.least(row, diagonal))
-        return g.div(keep, g.call("max", pivot, g.constant(TINY)))
+    def _kept(self, keep: int, pivot: int) -> int:
+        """Return 1 / pivot where `keep` is 1, else 0."""
+        return self.graph.div(keep, self.graph.call("max", pivot, self.graph.constant(TINY)))
 
     def least(self, row: int, diagonal: int) -> int:
         """Return what a pivot of D D^T must exceed for its row to be kept."""
         g = self.graph
         return g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row])
 
-    def _weighted(self, rank: Factor, weight: Sequence[Mapping[int, int]] | None) -> Factor:
-        def reciprocal(row: int, pivot: int, _: int) -> int:
-            return self._kept(row, rank.pivots[row], rank.diagonal[row], pivot)
+    def _weighted(self, rows: Rows, keep: Callable[[int], int], weight: Weight | None) -> Factor:
+        """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
+        g = self.graph
 
-        return factorise(self.graph, self.gram(self.rows, weight), self.order, reciprocal)
+        def reciprocal(row: int, pivot: int, _: int) -> int:
+            kept = keep(row)
+            return g.div(g.one, pivot) if kept == g.one else self._kept(kept, pivot)
+
+        return factorise(g, self.gram(rows, weight), self.order, reciprocal)
+
+    def _weighted_apart(self, rank: Factor, weight: Weight | None) -> Factor:
+        """Return the same from what ``geometry`` left in w."""
+        g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
+
+        def keep(row: int) -> int:
+            certain = rank.pivots[row] == rank.diagonal[row]
+            return g.one if certain else g.call("step", stored.reciprocal[row], g.zero)
+
+        return self._weighted(self.stored_constraints(), keep, weight)
 
     def _on_weighted_mass(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D M^-1 D^T without the rows that D D^T leaves out."""
-        return self._weighted(rank, self.inverse_mass)
-
-    def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
-        dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
-        return self._weighted(rank, [{j: node} for j, node in enumerate(dependent)])
+        return self._weighted_apart(rank, self.inverse_mass)
 
     def _on_weighted_identity(self, operation: Operation, rank: Factor) -> Factor:
-        return self._weighted(rank, None)
+        return self._weighted_apart(rank, None)
+
+    def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
+        """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
+        g = self.graph
+
+        def keep(row: int) -> int:
+            pivot, diagonal = rank.pivots[row], rank.diagonal[row]
+            return g.one if pivot == diagonal else g.call("step", pivot, self.least(row, diagonal))
+
+        dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
+        return self._weighted(self.rows, keep, [{j: node} for j, node in enumerate(dependent)])
 
     def _on_partition_quality(self, operation: Operation, rank: Factor, factor: Factor) -> int:
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
@@ -378,6 +400,13 @@ class Scalars(Replay):
         return quality
 
     def _on_augmented(self, operation: Operation, penalties: Nodes) -> Factor:
+        return self._augmented(self.rows, penalties)
+
+    def _on_augmented_metric(self, operation: Operation, penalties: Nodes) -> Factor:
+        return self._augmented(self.stored_constraints(), penalties)
+
+    def _augmented(self, constraints: Rows, penalties: Nodes) -> Factor:
+        """Return the factor of M + D^T a D."""
         g = self.graph
         matrix: dict[tuple[int, int], int] = {}
         for block in self.equations.mass:
@@ -385,7 +414,7 @@ class Scalars(Replay):
                 for j, node in zip(block.columns, row, strict=True):
                     if node != g.zero or i == j:
                         matrix[i, j] = node
-        for entries, penalty in zip(self.rows, penalties, strict=True):
+        for entries, penalty in zip(constraints, penalties, strict=True):
             for i, a in entries:
                 scaled = g.mul(penalty, a)
                 for j, b in entries:

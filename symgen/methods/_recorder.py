@@ -41,9 +41,14 @@ class Recorder(System):
     def weighted_factor(self, rank: Factor, weight: str) -> Factor:
         """Return the factor of D W D^T without the rows that `rank` leaves out.
 
-        W is M^-1 (``mass``), the identity (``identity``) or the choice of dependent columns times G (``dependent``).
+        W is M^-1 (``mass``) or the identity (``identity``), with D as ``geometry`` left it; or the choice of dependent
+        columns times G (``dependent``), with D as it is being evaluated.
         """
         return rank.made(Factor, f"weighted_{weight}", rank)
+
+    def augmented_metric(self, penalties: Vector) -> Factor:
+        """Return the factor of ``M + D^T a D``, of D as ``geometry`` left it."""
+        return penalties.made(Factor, "augmented_metric", penalties)
 
     def gauged(self, x: Vector) -> Vector:
         """Return G x."""

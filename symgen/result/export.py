@@ -113,12 +113,8 @@ def netcdf(dataset: xr.Dataset) -> Callable[[io.BytesIO], object]:
 
 def _in_this_process() -> AbstractContextManager[object]:
     """Return what keeps xarray from asking a Dask cluster for a lock: a file in memory has no name to lock by."""
-    if "dask" not in sys.modules:
-        return nullcontext()
-    import dask
-
-    alone: AbstractContextManager[object] = dask.config.set(scheduler="synchronous")
-    return alone
+    dask = sys.modules.get("dask")  # who has not imported it has no cluster
+    return nullcontext() if dask is None else dask.config.set(scheduler="synchronous")
 
 
 def to_dataframe(result: Result) -> pd.DataFrame:

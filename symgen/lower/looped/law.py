@@ -27,7 +27,7 @@ class LoopedLaw:
     method, key : str
         As in `symgen.ir.program.LawProgram`.
     functions : tuple of LoopedFunction
-        ``rhs``, or what it is put together from, and ``geometry`` and ``spread`` where the metric of the correction is
+        ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
         not the identity.
     sections : tuple of (name, size)
         Sections of ``w`` of its own.
@@ -76,7 +76,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
 
 
 #: Functions of laws that can be loops.
-_FUNCTIONS = ("rhs", "begin", "iterate", "finish", "geometry", "spread")
+_FUNCTIONS = ("rhs", "begin", "iterate", "finish", "refactor", "spread")
 #: What a joint knows of itself, beside arithmetic: no masses, no forces, nothing of other joints.
 _OF_A_JOINT = frozenset(ARITHMETIC) | {"constant", "min", "dot", "constraints", "product", "holonomic_or", "parameter"}
 _OF_A_JOINT |= {"status", "section", "zeros", "gamma", "nu", "phi", "v"}

@@ -342,6 +342,9 @@ class Loops(Replay):
     def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
 
+    def _on_augmented_metric(self, operation: Operation, penalties: Nodes | None) -> _Factor:
+        return self._on_augmented(operation, penalties)
+
     def _on_stored_factor(self, operation: Operation, factor: _Factor) -> _Factor:
         return replace(factor, section=f"{operation.payload[0]}lower", stored=True)
 
