@@ -26,12 +26,12 @@ from rich.console import Console
 from rich.table import Table
 
 from symgen.api import load
+from symgen.compiling.pipeline import choose_method
 from symgen.emit.printer import ElementAccess, print_block
 from symgen.formulate.formulate import formulate
 from symgen.ir.program import Block, Layout
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.pipeline import choose_method
 from symgen.runtime import abi
 
 FLAGS = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-shared", "-fPIC")

@@ -26,8 +26,8 @@ from symgen.catalogue import Entry, entries
 from symgen.describe.digest import digest
 from symgen.report import words
 from symgen.report.document import Picture
+from symgen.study.comparison.rows import YARDSTICK, Row, Study
 from symgen.study.machine import machine_class, versions
-from symgen.study.rows import YARDSTICK, Row, Study
 
 DOCS = Path(__file__).resolve().parents[1] / "docs"
 FOLDER = DOCS / "gallery"
@@ -108,7 +108,7 @@ def command(entry: Entry) -> str:
 
 def measure(entry: Entry) -> None:
     """Run the comparison of an entry and keep its rows."""
-    from symgen.study.compare import compare
+    from symgen.study.comparison.compare import compare
 
     own, model = choice(entry.name), load(model_name(entry))
     step = model.mechanism.defaults.step
@@ -358,8 +358,8 @@ def readme_pictures() -> None:
     """Make the three pictures of README: error against run time, violation over time, stress map."""
     from symgen.report.figures import pictures
     from symgen.report.stress_figures import maps
-    from symgen.study.compare import compare
-    from symgen.study.stress import stress
+    from symgen.study.comparison.compare import compare
+    from symgen.study.stress.study import stress
 
     study: Study = compare("four-bar", integrators=("rk4", "dopri5", "dop853"), repeat=REPEAT)
     drawn = {picture.name: picture for picture in pictures(study)}

@@ -20,9 +20,9 @@ from rich.table import Table
 
 from benchmarks.show import show
 from symgen.api import load
+from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ensemble.lanes import aligned
 from symgen.ir.program import LANES, lane_bases
-from symgen.pipeline import choose_method, compile_model
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
 from symgen.runtime.lanes import LANE_FUNCTION

@@ -2,7 +2,7 @@
 
 Every line is a process of its own; those of a pair share a cache, in which smaller mechanisms leave what looped code
 shares. Seconds are those of the processor, as the wall's depend on what else the machine does. Constants of
-`symgen.shapes` come from these figures.
+`symgen.compiling.choose_shape` come from these figures.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         Of the code.
     """
     from symgen.api import load
+    from symgen.compiling.pipeline import choose_method, compile_model
     from symgen.integrators import INTEGRATORS
-    from symgen.pipeline import choose_method, compile_model
     from symgen.runtime import abi, sparse
     from symgen.runtime.newton import Pattern, alpha_plan, stage_plan
 

@@ -2,7 +2,7 @@
 
 Every line is a process of its own with a cache of its own. ``cold`` finds nothing in it; ``shared`` finds what runs of
 other mechanisms have left. Seconds are those of the processor, as the wall's depend on what else the machine does.
-The constants of `symgen.shapes` come from these figures.
+The constants of `symgen.compiling.choose_shape` come from these figures.
 """
 
 from __future__ import annotations

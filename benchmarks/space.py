@@ -3,8 +3,8 @@
     python -m benchmarks.space [rhs] [methods] [peers] [--peers-python .bench-venv/bin/python] [--json FILE]
 
 Errors are the largest distance [m] of the joints P1 to P4 over 101 times of 10 s, from a motion that symgen's second
-derivation (`symgen.study.independent_space`) and SciPy give, good to 1e-12. On a shared machine short loops find quiet
-moments and long ones do not, so peers are counted with their processor time, symgen with the wall clock.
+derivation (`symgen.study.references.independent_space`) and SciPy give, good to 1e-12. On a shared machine short loops
+find quiet moments and long ones do not, so peers are counted with their processor time, symgen with the wall clock.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from rich.table import Table
 import symgen
 from benchmarks import against_gcc
 from benchmarks.show import show
+from symgen.compiling.pipeline import choose_method
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.pipeline import choose_method
-from symgen.study.reference import integrated
+from symgen.study.references.reference import integrated
 
 ROOT = Path(__file__).resolve().parents[1]
 Array = NDArray[np.float64]

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.settings import Settings
-    from symgen.study.compare import Study, compare
+    from symgen.study.comparison.compare import Study, compare
 
 #: Public name -> module that has it.
 _WHERE = {
@@ -39,10 +39,10 @@ _WHERE = {
     "Result": "symgen.result.result",
     "Settings": "symgen.settings",
     "SimulationError": "symgen.errors",
-    "Study": "symgen.study.compare",
+    "Study": "symgen.study.comparison.compare",
     "Sweep": "symgen.ensemble.study",
     "SymgenError": "symgen.errors",
-    "compare": "symgen.study.compare",
+    "compare": "symgen.study.comparison.compare",
     "load": "symgen.api",
     "simulate": "symgen.api",
     "sweep": "symgen.ensemble.sweep",

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen import arguments
+from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import InputError, nearest
-from symgen.model import CompiledModel
-from symgen.pipeline import choose_method, compile_model
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import ready, start_of
+from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed
 
 if TYPE_CHECKING:
-    from symgen.pipeline import MethodChoice
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.runtime.assembly import Held, Start
 
@@ -128,7 +128,7 @@ class Model:
         AssemblyError
             If the mechanism cannot be closed.
         """
-        arguments.of_kind("compiled", compiled, CompiledModel, "what Model.compile returned")
+        arguments.of_kind("compiled", compiled, CompiledModel, "what Model.compile returned")  # type: ignore[type-abstract]  # asked for, not made
         values = self.parameters(parameters)
         if compiled.info.name != self.name or [p.name for p in compiled.info.parameters] != list(values):
             raise InputError("compiled", f"compiled code of {self.name}", f"that of {compiled.info.name}")

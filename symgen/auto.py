@@ -21,8 +21,8 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.model import CompiledModel
     from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
 
 #: What asks for an automatic choice.
 AUTO = "auto"

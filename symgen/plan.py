@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.arguments import shown
+from symgen.compiling.choose_shape import choose_shape
+from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
-from symgen.pipeline import MethodChoice, choose_method
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings
-from symgen.shapes import choose_shape
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism

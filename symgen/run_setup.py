@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
-from symgen.pipeline import compile_model
 from symgen.runtime.assembly import Held, Start, assemble
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.model import CompiledModel
     from symgen.plan import Plan
+    from symgen.runtime.compiled import CompiledModel
 
 
 def start_of(

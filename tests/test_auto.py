@@ -143,7 +143,7 @@ def test_tolerances_fall_until_two_runs_agree(monkeypatch):
     import numpy as np
 
     from symgen.result.points import Points
-    from symgen.study.reference import reference
+    from symgen.study.references.reference import reference
 
     model, times = load("four-bar"), np.linspace(0.0, 2.0, 21)
     monkeypatch.setattr(agreement, "AGREEMENT", 2.5e-11)

@@ -10,13 +10,13 @@ from rich.text import Text
 from symgen.cli._tables import console
 
 if TYPE_CHECKING:
-    from symgen.study.stress_rows import Stress
+    from symgen.study.stress.rows import Stress
 
 
 def show_stress(study: Stress) -> None:
     """Print a stress study."""
-    from symgen.study.findings import findings
-    from symgen.study.stress_map import LEGEND, Map
+    from symgen.study.stress.findings import findings
+    from symgen.study.stress.map import LEGEND, Map
 
     out = console()
     out.print(f"{', '.join(study.models)}: {len(study.rows)} cells")

@@ -10,7 +10,7 @@ from rich.text import Text
 
 if TYPE_CHECKING:
     from symgen.result.result import Result
-    from symgen.study.compare import Study
+    from symgen.study.comparison.compare import Study
 
 COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 

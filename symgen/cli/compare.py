@@ -15,7 +15,7 @@ from symgen.cli._options import jobs_option, json_option, number_list, output_fi
 from symgen.cli._report import command_again, report_file
 
 if TYPE_CHECKING:
-    from symgen.study.compare import Study
+    from symgen.study.comparison.compare import Study
 
 
 @click.command("compare", short_help="Compare methods and integrators: error against run time.")
@@ -77,7 +77,7 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Lines
-    from symgen.study.compare import compare_all, save_csv
+    from symgen.study.comparison.compare import compare_all, save_csv
     from symgen.study.journal import Journal
     from symgen.study.machine import cores
 
@@ -130,7 +130,7 @@ def command(
 def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> list[tuple[str, str]]:
     """Return what was asked for in words, by label."""
     from symgen.report.words import exact
-    from symgen.study.compare import ATOL_SHARE, RTOLS, STEP_FACTORS
+    from symgen.study.comparison.compare import ATOL_SHARE, RTOLS, STEP_FACTORS
 
     own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
     constant = ", ".join(f"{exact(x)} s" for x in steps) or own

@@ -61,9 +61,9 @@ def describe(
 ) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
+    from symgen.compiling.pipeline import choose_method, compile_model
     from symgen.formulate.display import Display
     from symgen.formulate.formulate import formulate
-    from symgen.pipeline import choose_method, compile_model
     from symgen.plan import make_plan
     from symgen.settings import Settings
 
@@ -129,7 +129,7 @@ def describe(
 
 def _kernels(model: Model) -> dict[str, int]:
     """Return how many instances each kernel of the looped shape would have."""
-    from symgen.looped import named
+    from symgen.compiling.looped import named
     from symgen.lower.looped.instances import instances
 
     _, stems, elements = named(instances(model.mechanism))

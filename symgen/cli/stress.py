@@ -16,7 +16,7 @@ from symgen.cli._report import command_again, report_file
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
-    from symgen.study.stress_rows import Stress
+    from symgen.study.stress.rows import Stress
 
 
 @click.command("stress", short_help="Find where methods stop being stable: stiff and extreme cases.")
@@ -61,8 +61,8 @@ def command(
     from symgen.cli._progress import Lines
     from symgen.study.journal import Journal
     from symgen.study.machine import cores
-    from symgen.study.stress import stress
-    from symgen.study.stress_rows import save_csv
+    from symgen.study.stress.rows import save_csv
+    from symgen.study.stress.study import stress
 
     with ExitStack() as stack:
         journal = stack.enter_context(Journal(Path(resume))) if resume is not None else None

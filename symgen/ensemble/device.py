@@ -22,7 +22,7 @@ from symgen.runtime.blocks import padded
 from symgen.runtime.simulation import metric_of, share_of, sizes_of
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.device import Need
     from symgen.runtime.integrator import Setup
     from symgen.runtime.records import Span, Tableau

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from symgen.ensemble.recipe import Module, Recipe
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
-from symgen.model import CompiledModel
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Assembly
+from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.integrator import Integrator, Setup
 from symgen.runtime.run import RunSpec
 from symgen.runtime.simulation import new_state, sizes_of, span_of
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
     from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.starts import Rows
-    from symgen.model import ModelInfo
+    from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.records import Kept
 
 Array = NDArray[np.float64]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.records import Chunk, Kept, Sizes, Span, State, Tableau
     from symgen.runtime.run import RunSpec
 

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
+from symgen.compiling.choose_shape import LARGEST_STRAIGHT
+from symgen.compiling.pipeline import compile_model
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
@@ -19,14 +21,12 @@ from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
-from symgen.pipeline import compile_model
 from symgen.plan import Plan, make_plan
 from symgen.settings import Settings
-from symgen.shapes import LARGEST_STRAIGHT
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.model import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6

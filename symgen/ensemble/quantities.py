@@ -13,7 +13,7 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 
 if TYPE_CHECKING:
-    from symgen.model import ModelInfo
+    from symgen.runtime.compiled import ModelInfo
 
 
 @dataclass(frozen=True)

@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import __version__
+from symgen.compiling.straight_model import load_compiled
 from symgen.ensemble.quantities import Quantity
 from symgen.ir.numerics import WARN
-from symgen.model import CompiledModel, load_compiled
+from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]

@@ -18,7 +18,7 @@ from symgen.runtime.run import RankEvent, end_reason
 from symgen.runtime.start_words import refusal
 
 if TYPE_CHECKING:
-    from symgen.model import LawInfo, ModelInfo
+    from symgen.runtime.compiled import LawInfo, ModelInfo
     from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]

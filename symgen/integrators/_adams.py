@@ -11,7 +11,7 @@ from symgen.runtime.blocks import padded
 from symgen.runtime.integrator import Array, IntegratorParameter, Setup, law_functions
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import RunSpec
 
 

@@ -10,8 +10,8 @@ from symgen.report.figures import pictures
 from symgen.report.findings import costs, findings
 from symgen.report.select import methods, representatives, settings_text
 from symgen.report.source import beside_the_source
+from symgen.study.comparison.rows import YARDSTICK, Row, Study
 from symgen.study.machine import machine_class, versions
-from symgen.study.rows import YARDSTICK, Row, Study
 
 _MOODS = {"ok": "good", "unverified": "doubtful", "failed": "bad"}
 _LEAD = (

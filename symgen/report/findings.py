@@ -9,7 +9,7 @@ from statistics import median
 from symgen.report import words
 from symgen.report.select import methods, representatives, settings_text
 from symgen.result.result import FAILED, OK, UNVERIFIED
-from symgen.study.rows import YARDSTICK, Row, Study
+from symgen.study.comparison.rows import YARDSTICK, Row, Study
 
 #: An error above this in a run that ended ok is a success that was none [m].
 WRONG = 1e-3

@@ -6,7 +6,7 @@ from symgen.report import words
 from symgen.report.document import Picture, Section, Table
 from symgen.report.picture import GREY, below, drawn, style
 from symgen.report.select import USUAL, line_number
-from symgen.study.rows import Row, Study
+from symgen.study.comparison.rows import Row, Study
 
 #: Methods that the source times against its standard Lagrange method.
 METHODS = ("baumgarte", "augmented-lagrangian", "direct-correction")

@@ -6,12 +6,12 @@ from symgen.auto import AUTO
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
 from symgen.report.stress_figures import maps, overview, regions
-from symgen.study.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
-from symgen.study.findings import FEW_MODELS, cause, findings
 from symgen.study.machine import machine_class, versions
-from symgen.study.outcome import ACCURATE, OUTCOMES
-from symgen.study.stress_map import LEGEND, Map, outcomes_of_models
-from symgen.study.stress_rows import Row, Stress
+from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+from symgen.study.stress.findings import FEW_MODELS, cause, findings
+from symgen.study.stress.map import LEGEND, Map, outcomes_of_models
+from symgen.study.stress.outcome import ACCURATE, OUTCOMES
+from symgen.study.stress.rows import Row, Stress
 
 _LEAD = (
     "Every cell is one run of a method with an integrator on a case, compared with a motion from another route: a "

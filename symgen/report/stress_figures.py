@@ -9,14 +9,14 @@ import numpy as np
 
 from symgen.report.document import Picture, anchor
 from symgen.report.picture import GREY, below, drawn
-from symgen.study.findings import largest_root
-from symgen.study.outcome import OUTCOMES
-from symgen.study.stress_map import LETTERS, Entry, Map, plane_lines, plane_rows
+from symgen.study.stress.findings import largest_root
+from symgen.study.stress.map import LETTERS, Entry, Map, plane_lines, plane_rows
+from symgen.study.stress.outcome import OUTCOMES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from symgen.study.stress_rows import Row, Stress
+    from symgen.study.stress.rows import Row, Stress
 
 #: Colour of each outcome: light for what is well, told apart with every kind of colour vision; letters say the same.
 COLOURS = {

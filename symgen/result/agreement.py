@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from symgen.describe.mechanism import Mechanism
-    from symgen.model import CompiledModel
     from symgen.plan import Plan
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome
 
 Array = NDArray[np.float64]

@@ -14,9 +14,9 @@ from symgen.runtime import abi
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.model import CompiledModel
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome
     from symgen.settings import Settings
 

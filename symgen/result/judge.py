@@ -17,9 +17,9 @@ from symgen.runtime import abi
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from symgen.model import CompiledModel
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome, RankEvent
 
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.

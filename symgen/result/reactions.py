@@ -13,7 +13,7 @@ from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome
 
 #: Singular values of D^T below this fraction of the largest one count as zero.

@@ -28,7 +28,7 @@ from symgen.runtime.starting import close_row, close_rows, follow_nothing, prepa
 from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]

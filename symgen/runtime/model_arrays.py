@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from symgen.model import ModelInfo
+    from symgen.runtime.compiled import ModelInfo
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.runtime import sparse
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]

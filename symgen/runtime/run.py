@@ -20,7 +20,7 @@ from symgen.runtime.simulation import Simulation, row_chooser, sizes_of
 from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.records import Observed, Outputs, Sizes
 

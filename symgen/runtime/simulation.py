@@ -16,8 +16,8 @@ from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel, ModelInfo
     from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.integrator import Integrator, Setup
     from symgen.runtime.records import Outputs, Sizes, Span, State
     from symgen.runtime.run import RunSpec

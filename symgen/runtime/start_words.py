@@ -16,7 +16,7 @@ from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from symgen.runtime.run import integrate
 
 if TYPE_CHECKING:
-    from symgen.model import CompiledModel
     from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.run import Outcome, RunSpec
 

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 FORM = 1
 HEADER = json.dumps({"symgen-journal": FORM}).encode() + b"\n"
 #: Modules of studies that put finished cells into words and tables; no cell depends on them.
-TELLING = frozenset({"findings.py", "stress_map.py", "stress_rows.py"})
+TELLING = frozenset({"study/stress/findings.py", "study/stress/map.py", "study/stress/rows.py"})
 #: Lists and tables of a cell's parts are at most this deep.
 _DEEPEST = 20
 
@@ -83,17 +83,17 @@ def mechanism_identity(mechanism: Mechanism) -> str:
 @lru_cache(maxsize=1)
 def code_identity() -> str:
     """Return a digest of all that computes a cell: the version, the emitted form and the sources of the package."""
+    from symgen.compiling.pipeline import generator_digest
     from symgen.ir.program import FORMAT
-    from symgen.pipeline import generator_digest
 
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(f"{__version__} {FORMAT} {generator_digest()}".encode())
-    for folder in ("integrators", "runtime", "result", "study"):
+    for folder in ("compiling", "integrators", "runtime", "result", "study"):
         for path in sorted((package / folder).rglob("*.py")):
-            if folder == "study" and path.name in TELLING:
-                continue
-            found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
-    for name in ("auto.py", "plan.py", "api.py", "model.py", "looped.py", "loops.py"):
+            name = path.relative_to(package).as_posix()
+            if name not in TELLING:
+                found.update(name.encode() + b"\0" + path.read_bytes())
+    for name in ("auto.py", "plan.py", "api.py"):
         found.update((package / name).read_bytes())
     return found.hexdigest()
 

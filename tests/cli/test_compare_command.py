@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from symgen.cli import main
-from symgen.study import compare as module
+from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
 
 SMALL = ("--methods", "lagrange,direct-correction", "--integrators", "rk4", "--steps", "0.02,0.01", "--until", "0.5")
@@ -108,7 +108,7 @@ SCRIPT = """\
 import signal, sys, time
 from symgen.cli import main
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs inherit it ignored
-from symgen.study import compare
+from symgen.study.comparison import compare
 real = compare.timed
 def slow(*arguments):
     found = real(*arguments)

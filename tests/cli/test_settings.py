@@ -18,7 +18,7 @@ from symgen.cli.stress import command as stress
 from symgen.cli.sweep import command as sweep
 from symgen.errors import InputError
 from symgen.runtime.run import RunSpec
-from symgen.study.stress import stress as stress_study
+from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"
 COMMANDS = {"run": run, "compare": compare, "stress": stress, "sweep": sweep}

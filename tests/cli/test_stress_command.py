@@ -6,8 +6,8 @@ import json
 import pytest
 
 from symgen.cli import main
-from symgen.study import stress as module
-from symgen.study.stress_rows import Row, Stress
+from symgen.study.stress import study as module
+from symgen.study.stress.rows import Row, Stress
 
 FEW = ("stress", "pendulum", "--cases", "gravity", "--methods", "lagrange,auto", "--quick", "--jobs", "1")
 

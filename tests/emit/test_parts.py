@@ -7,8 +7,8 @@ import itertools
 import pytest
 
 from symgen.api import load
+from symgen.compiling.pipeline import choose_method, compile_model, generate
 from symgen.ir.program import PART
-from symgen.pipeline import choose_method, compile_model, generate
 from symgen.store.entries import Entries
 
 METHODS = ("lagrange", "baumgarte", "direct-correction", "augmented-lagrangian", "coordinate-partitioning")

@@ -17,7 +17,7 @@ from symgen.api import load
 from symgen.catalogue import names
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
-from symgen.pipeline import choose_method, generate
+from symgen.compiling.pipeline import choose_method, generate
 
 for name in names():
     for method in METHODS if name == "four-bar" else ("lagrange", "baumgarte", "direct-correction"):

@@ -10,11 +10,11 @@ from support.emitted import mechanism_of
 from support.models import EVERYTHING, ROUGH
 
 from symgen.api import load
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.methods import METHODS
-from symgen.pipeline import choose_method, generate
 
 MODELS = ("pendulum", "four-bar", "slider-crank", "driven-four-bar", "n-four-bar:2", "everything", "rough")
 OWN = {"everything": EVERYTHING, "rough": ROUGH}

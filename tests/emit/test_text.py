@@ -19,12 +19,12 @@ from support.canaries import CANARIES, CODE, SMALL, places, planted
 from support.emitted import Emitted, mechanism_of
 from support.random_space import make
 
+from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.sections import SECTIONS
 from symgen.emit.text import LONGEST, harmless, table_name
 from symgen.errors import InputError
 from symgen.methods._base import MethodOption, MethodParameter, MultiplierMethod
-from symgen.pipeline import MethodChoice, choose_method, generate
 from symgen.store.modules import load_module
 
 EXPLICIT, IMPLICIT = choose_method("direct-correction"), choose_method("lagrange", None, True)

@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import symgen
+from symgen.compiling.pipeline import choose_method, compile_model, generate
 from symgen.ensemble.lanes import aligned
 from symgen.errors import InputError
 from symgen.ir.program import LANES, lane_bases
-from symgen.pipeline import choose_method, compile_model, generate
 from symgen.runtime import ensemble_abi as e
 
 ROUNDED = [e.SUMMARY.index(name) for name in ("code", "end", "outputs", "steps", "evaluations", "iterations", "start")]

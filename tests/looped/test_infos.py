@@ -14,13 +14,13 @@ from support.emitted import mechanism_of
 from support.random_mechanisms import descriptions
 from support.random_space import make
 
+from symgen.compiling.looped import compile_looped
+from symgen.compiling.pipeline import choose_method, generator_digest
+from symgen.compiling.straight_model import model_info
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.formulate.formulate import formulate
-from symgen.looped import compile_looped
 from symgen.lower.model import lower_model
-from symgen.model import ModelInfo
-from symgen.pipeline import choose_method, generator_digest
 
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")
@@ -33,7 +33,7 @@ def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
     equations = formulate(mechanism)
     method = choose_method("lagrange")
     looped = compile_looped(mechanism, method.method, method.options, False, generator_digest())
-    straight, found = ModelInfo.of(lower_model(equations, ""), equations), []
+    straight, found = model_info(lower_model(equations, ""), equations), []
     for info in (straight, looped.info):
         found.append({name: value for name, value in info.to_dict().items() if name not in OWN})
     straight, looped = ({(row, column) for row, column, _, _ in info.jacobian} for info in (straight, looped.info))

@@ -13,19 +13,19 @@ from support.checks import RANDOM
 
 from symgen import auto
 from symgen.api import load
+from symgen.compiling.choose_shape import choose_shape
+from symgen.compiling.looped import generate_looped, law_stem, shared_folder
+from symgen.compiling.pipeline import MethodChoice, choose_method, generator_digest
 from symgen.errors import InputError
-from symgen.looped import generate_looped, law_stem, shared_folder
 from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
 from symgen.lower.looped.law import is_loopable, refuse_dense
 from symgen.lower.looped.pattern import Elimination
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.pipeline import MethodChoice, choose_method, generator_digest
 from symgen.plan import make_plan
 from symgen.runtime import decisions
 from symgen.settings import Settings
-from symgen.shapes import choose_shape
 from symgen.store.entries import Entries
 from symgen.store.jit import cache_stats
 

@@ -8,9 +8,9 @@ from support.models import EVERYTHING
 from support.twin import spatial_twin
 
 from symgen.catalogue import raw
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.formulate.formulate import formulate
 from symgen.lower.model import lower_model
-from symgen.pipeline import choose_method, generate
 
 SPATIAL_WORDS = re.compile(
     r"\b(e[0-3]|w[xyz]|vz|z)\b|\w_(e[0-3]|w[xyz]|vz|z)\b|normalise|\bturn\b|\bmove\b|winding|math\.floor|math\.atan2"

@@ -14,10 +14,10 @@ from support.models import EVERYTHING
 
 from benchmarks import stiff
 from symgen.api import load
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.errors import InputError
-from symgen.model import LawInfo, ModelInfo
-from symgen.pipeline import choose_method, generate
 from symgen.plan import make_plan
+from symgen.runtime.compiled import LawInfo, ModelInfo
 from symgen.settings import Settings
 
 #: Every joint kind, the weld among them, and every force kind.
@@ -220,7 +220,7 @@ def test_other_methods_have_no_such_licence():
 
 def test_scipy_agrees_on_the_stiff_case():
     """Radau of SciPy on independently derived equations, its Jacobian by differences: nothing is shared."""
-    from symgen.study.reference import reference
+    from symgen.study.references.reference import reference
 
     model = stiff.model()
     start = model.assemble(model.compile())

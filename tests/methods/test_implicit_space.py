@@ -14,10 +14,10 @@ from support.emitted import law_source, mechanism_of
 from support.random_space import make
 from support.space import STEP, angle_of
 
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
-from symgen.model import LawInfo, ModelInfo
-from symgen.pipeline import choose_method, generate
+from symgen.runtime.compiled import LawInfo, ModelInfo
 
 JOINT_KINDS = tuple(name for name, kind in JOINTS.items() if "spatial" in kind.SPACES)
 FORCE_KINDS = tuple(name for name, kind in FORCES.items() if "spatial" in kind.SPACES)

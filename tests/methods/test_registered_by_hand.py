@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from symgen.compiling.pipeline import MethodChoice
 from symgen.methods import METHODS
 from symgen.methods._base import MultiplierMethod
-from symgen.pipeline import MethodChoice
 
 
 class Mild(MultiplierMethod):

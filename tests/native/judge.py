@@ -13,9 +13,9 @@ from support.emitted import mechanism_of
 from support.models import EVERYTHING, ROUGH
 
 from symgen.api import load
+from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.methods import METHODS
-from symgen.pipeline import MethodChoice, choose_method, generate
 
 from .twofold import arguments_of, differences, load_twice, own_functions
 

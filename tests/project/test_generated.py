@@ -15,12 +15,12 @@ from pathlib import Path
 
 import pytest
 
+from symgen.compiling.looped import generate_looped
+from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe import load
-from symgen.looped import generate_looped
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.methods._base import Method
-from symgen.pipeline import MethodChoice, choose_method, generate
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"

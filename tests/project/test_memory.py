@@ -14,7 +14,7 @@ from symgen.errors import InputError
 #: Runs commands in a process whose address space is bounded, and says how much of it they took at most.
 SCRIPT = """\
 import json, re, resource, sys
-import numba, numpy, symgen.api, symgen.ensemble.sweep, symgen.study.compare, symgen.study.stress
+import numba, numpy, symgen.api, symgen.ensemble.sweep, symgen.study.comparison.compare, symgen.study.stress.study
 from symgen.cli import main
 limit = 6_000_000_000
 resource.setrlimit(resource.RLIMIT_AS, (limit, limit))

@@ -18,7 +18,7 @@ import pytest
 import symgen
 from symgen.errors import InputError, SymgenError
 from symgen.settings import Settings
-from symgen.study.stress import stress
+from symgen.study.stress.study import stress
 
 NAN, INF = math.nan, math.inf
 NUMBERS = ("step", "rtol", "atol", "until", "output_step", "max_violation", "max_energy_error")

@@ -12,7 +12,7 @@ from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
 from symgen.result.points import Points
 from symgen.runtime.run import RankEvent, integrate
 from symgen.settings import Settings
-from symgen.study.reference import reference
+from symgen.study.references.reference import reference
 
 
 def outcome_of(model, method="direct-correction", **changes):

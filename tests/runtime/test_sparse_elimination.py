@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 
 from benchmarks import newton
 from symgen.api import load
-from symgen.pipeline import choose_method, generate
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.runtime import sparse
 from symgen.runtime.newton import Pattern, Terms, alpha_plan, elimination_order, make_plan, projection_plan, stage_plan
 from symgen.runtime.records import Sizes

@@ -7,7 +7,7 @@ from support.spatial_runs import centre, columns, energy, inertia, momentum, run
 
 import symgen
 from symgen.result.points import Points
-from symgen.study.reference import integrated
+from symgen.study.references.reference import integrated
 
 
 def relative(found, tolerance):

@@ -6,8 +6,8 @@ from support.spatial_runs import columns, run, start_of
 
 import symgen
 from symgen.result.points import Points
-from symgen.study.closed_space import flyball_governor
-from symgen.study.reference import integrated
+from symgen.study.references.closed_space import flyball_governor
+from symgen.study.references.reference import integrated
 
 #: Largest stable step of RK4 [s]: 2.785 over the rate of the dampers.
 LIMIT = 2.785 / 8117.0

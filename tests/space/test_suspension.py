@@ -7,7 +7,7 @@ from support.spatial_runs import columns, point, run, start_of
 from symgen.describe import load
 from symgen.describe.evaluate import evaluate
 from symgen.result.points import Points
-from symgen.study.reference import integrated
+from symgen.study.references.reference import integrated
 
 
 def place(mechanism, result, body, name):

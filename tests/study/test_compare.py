@@ -7,7 +7,7 @@ import pytest
 import symgen
 import symgen.methods
 from symgen.errors import InputError
-from symgen.study import compare as module
+from symgen.study.comparison import compare as module
 
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
@@ -190,7 +190,7 @@ def test_cost_ratios_are_to_lagrange_with_the_same_setting(study):
 
 
 def test_what_a_ratio_may_vary_by_comes_from_both_runs():
-    from symgen.study.rows import Row, with_ratios
+    from symgen.study.comparison.rows import Row, with_ratios
 
     def row(method, shortest, median):
         values = {"error": 0.0, "below_reference": False, "run_seconds_spread": 1.0, "evaluations": 1}
@@ -285,7 +285,7 @@ def test_several_models_are_checked_before_anything_runs(monkeypatch):
 
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
-    from symgen.study import prepare
+    from symgen.study.comparison import prepare
 
     monkeypatch.setenv("SYMGEN_CACHE_DIR", str(tmp_path / "cache"))
     monkeypatch.setattr(prepare, "PATIENCE", -1.0)

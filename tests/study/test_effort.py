@@ -13,14 +13,15 @@ from symgen.errors import SimulationError
 from symgen.methods import METHODS
 from symgen.plan import make_plan
 from symgen.settings import Settings
-from symgen.study import effort, other_route, stiff
-from symgen.study.bench import Base
-from symgen.study.cases import CASES
 from symgen.study.journal import TELLING
-from symgen.study.known import KnownModel
-from symgen.study.motion import CompiledEquations, motion
-from symgen.study.stress import pairs, stress
-from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.references import stiff
+from symgen.study.references.motion import CompiledEquations, motion
+from symgen.study.stress import effort, other_route
+from symgen.study.stress.bench import Base
+from symgen.study.stress.cases import CASES
+from symgen.study.stress.cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.known import KnownModel
+from symgen.study.stress.study import pairs, stress
 
 
 def plan_of(name, method, integrator, **settings):
@@ -79,13 +80,13 @@ def test_a_prediction_is_below_what_a_run_takes():
 def test_a_run_without_a_chance_is_not_begun(monkeypatch):
     level = CASES.get("damping").levels(Base.of("four-bar"), False)[4]
     known = {"unusable": None, "estimated_error": 0.0, "decay": 1e9, "parameters": {}}
-    monkeypatch.setattr("symgen.study.stress_cells.integrate", None)
+    monkeypatch.setattr("symgen.study.stress.cells.integrate", None)
     found = compute(RunTask(level, "lagrange", "dop853", known))
     assert found["outcome"] == "too slow" and found["reason"].startswith("at least 1.25e+09 evaluations, more than")
 
 
 def test_cells_without_a_reference_are_not_run(monkeypatch):
-    monkeypatch.setattr("symgen.study.stress_cells.integrate", None)
+    monkeypatch.setattr("symgen.study.stress.cells.integrate", None)
     level = CASES.get("gravity").levels(Base.of("pendulum"), True)[0]
     for known, why in (
         ({"unusable": "none at hand"}, "none at hand"),
@@ -150,8 +151,8 @@ def test_forms_are_asked_for_once(monkeypatch):
 
 def test_no_cell_depends_on_what_a_journal_does_not_know():
     """Modules outside the key of a cell must not be imported by what computes cells."""
-    names = [f"symgen.study.{name.removesuffix('.py')}" for name in sorted(TELLING)]
-    code = f"import sys, symgen.study.stress_cells; print([n for n in {names} if n in sys.modules])"
+    names = ["symgen." + name.removesuffix(".py").replace("/", ".") for name in sorted(TELLING)]
+    code = f"import sys, symgen.study.stress.cells; print([n for n in {names} if n in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
 
@@ -186,12 +187,12 @@ def test_compiled_rates_are_those_of_numpy():
 
 
 def test_a_reference_over_its_budget_says_so(monkeypatch):
-    monkeypatch.setattr("symgen.study.motion.BUDGET", 100)
+    monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
     equations, q, v = equations_of("slider-crank")
     with pytest.raises(stiff.OverBudgetError, match="takes more than 100 evaluations"):
         motion(equations, q, v, np.linspace(0.0, 1.0, 5))
     monkeypatch.setattr(stiff, "BUDGET", 100)
-    monkeypatch.setattr("symgen.study.motion.is_stiff", lambda equations, y, until: True)
+    monkeypatch.setattr("symgen.study.references.motion.is_stiff", lambda equations, y, until: True)
     with pytest.raises(stiff.OverBudgetError, match="takes more than 100 evaluations"):
         motion(equations, q, v, np.linspace(0.0, 1.0, 5))
 
@@ -199,7 +200,7 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     level = CASES.get("gravity").levels(Base.of("slider-crank"), False)[1]
     best = compute(ReferenceTask(level))
-    monkeypatch.setattr("symgen.study.motion.BUDGET", 100)
+    monkeypatch.setattr("symgen.study.references.motion.BUDGET", 100)
     found = compute(ReferenceTask(level))
     assert best["how"].startswith("independently derived") and found["how"].startswith("direct-correction with dop853")
     np.testing.assert_allclose(found["q"], best["q"], atol=1e-9)

@@ -8,8 +8,8 @@ from support.random_space import make
 
 from symgen.describe.evaluate import evaluate
 from symgen.errors import SimulationError
-from symgen.study.independent import IndependentEquations
-from symgen.study.independent_space import SpatialEquations, independent_equations
+from symgen.study.references.independent import IndependentEquations
+from symgen.study.references.independent_space import SpatialEquations, independent_equations
 
 GROUPS = [
     (("revolute", "spherical"), ("force",)),

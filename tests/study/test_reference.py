@@ -9,9 +9,9 @@ import pytest
 import symgen
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
-from symgen.study.independent import IndependentEquations
-from symgen.study.reference import CLOSED, integrated, reference
-from symgen.study.solvers import SOLVERS
+from symgen.study.references.independent import IndependentEquations
+from symgen.study.references.reference import CLOSED, integrated, reference
+from symgen.study.references.solvers import SOLVERS
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -97,7 +97,7 @@ def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(wind
 
 def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypatch):
     """Steps so long that a passage is a matter of chance: no two runs agree, and the reference says from when on."""
-    from symgen.study import reference as module
+    from symgen.study.references import reference as module
 
     real = module.pass_through
     monkeypatch.setattr(

@@ -16,17 +16,17 @@ import pytest
 import symgen
 from symgen.errors import InputError, SimulationError
 from symgen.result.points import Points
-from symgen.study.bench import Base
-from symgen.study.cases import CASES
-from symgen.study.findings import largest_root
 from symgen.study.journal import Journal
-from symgen.study.motion import CompiledEquations, motion
-from symgen.study.reference import integrated
-from symgen.study.stiff import decay
-from symgen.study.stress import pairs, stress
-from symgen.study.stress_cells import LimitTask, ReferenceTask, RunTask, compute
-from symgen.study.stress_reference import parallelogram
-from symgen.study.stress_rows import save_csv
+from symgen.study.references.motion import CompiledEquations, motion
+from symgen.study.references.reference import integrated
+from symgen.study.references.stiff import decay
+from symgen.study.stress.bench import Base
+from symgen.study.stress.cases import CASES
+from symgen.study.stress.cells import LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.findings import largest_root
+from symgen.study.stress.reference import parallelogram
+from symgen.study.stress.rows import save_csv
+from symgen.study.stress.study import pairs, stress
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -82,7 +82,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
         raise ValueError("array must not contain infs or NaNs")
 
     monkeypatch.setattr("scipy.integrate.solve_ivp", gives_up)
-    monkeypatch.setattr("symgen.study.motion.is_stiff", lambda equations, y, until: True)
+    monkeypatch.setattr("symgen.study.references.motion.is_stiff", lambda equations, y, until: True)
     mechanism = symgen.load("pendulum").mechanism
     equations = CompiledEquations(mechanism, {p.name: p.value for p in mechanism.parameters})
     with pytest.raises(SimulationError, match="cannot be integrated beyond t = 0 s: array must not"):
@@ -90,7 +90,7 @@ def test_a_solver_that_gives_up_costs_its_reference_alone(monkeypatch):
 
 
 def test_the_parallelogram_is_the_catalogue_s():
-    from symgen.study.reference import n_four_bar
+    from symgen.study.references.reference import n_four_bar
 
     times = np.linspace(0.0, 4.0, 41)
     mechanism = symgen.load("n-four-bar:1").mechanism
@@ -317,7 +317,8 @@ def test_killed_and_resumed(tmp_path):
     """A study killed in the middle goes on where it was: rows are those of an undisturbed one, none computed twice."""
     journal = tmp_path / "journal.jsonl"
     script = (
-        "from pathlib import Path; from symgen.study.journal import Journal; from symgen.study.stress import stress; "
+        "from pathlib import Path; from symgen.study.journal import Journal; "
+        "from symgen.study.stress.study import stress; "
         "stress(['pendulum'], ['gravity', 'step'], ['lagrange', 'penalty'], "
         f"journal=Journal(Path({str(journal)!r})))"
     )
@@ -342,7 +343,7 @@ def test_killed_and_resumed(tmp_path):
 
 
 def test_a_reference_does_with_less_where_rounding_forbids_more(monkeypatch):
-    from symgen.study import motion as compiled
+    from symgen.study.references import motion as compiled
 
     mechanism = symgen.load("pendulum").mechanism
     times = np.linspace(0.0, 1.0, 5)

@@ -5,9 +5,9 @@ from dataclasses import replace
 import pytest
 
 from symgen.report import stress as report
-from symgen.study.findings import FEW_MODELS, cause, findings
-from symgen.study.stress_map import outcomes_of_models, shares_of_models
-from symgen.study.stress_rows import Limit, Row, Stress
+from symgen.study.stress.findings import FEW_MODELS, cause, findings
+from symgen.study.stress.map import outcomes_of_models, shares_of_models
+from symgen.study.stress.rows import Limit, Row, Stress
 
 MODELS = tuple(f"model-{i}" for i in range(FEW_MODELS + 1))
 

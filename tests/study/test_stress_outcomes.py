@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from symgen.study import findings as sentences
-from symgen.study.findings import cause, explained, findings, largest_root
-from symgen.study.outcome import ACCURATE, OUTCOMES, Run, classify, false_success
-from symgen.study.stress_cells import largest
-from symgen.study.stress_map import Map
-from symgen.study.stress_rows import Limit, Row, Stress
+from symgen.study.stress import findings as sentences
+from symgen.study.stress.cells import largest
+from symgen.study.stress.findings import cause, explained, findings, largest_root
+from symgen.study.stress.map import Map
+from symgen.study.stress.outcome import ACCURATE, OUTCOMES, Run, classify, false_success
+from symgen.study.stress.rows import Limit, Row, Stress
 
 REGULAR = np.ones(11)
 FLAT = np.array([1.0, 0.8, 0.5, 0.3, 0.1, 0.05, 0.2, 0.4, 0.6, 0.8, 1.0])

@@ -13,8 +13,8 @@ import numpy as np
 
 from support.both_shapes import DEEP, models
 from symgen.api import Model
+from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.ir.program import STATUS
-from symgen.pipeline import choose_method, compile_model
 
 #: Methods whose constraints differ; all mechanisms see the first.
 METHODS = ("ggl", "lagrange", "baumgarte", "adaptive-baumgarte", "penalty", "generalized-alpha")

@@ -8,9 +8,9 @@ from support.emitted import mechanism_of
 from support.random_closed import make
 from symgen.api import Model, load
 from symgen.errors import AssemblyError
-from symgen.model import CompiledModel
 from symgen.runtime import decisions
 from symgen.runtime.assembly import Held, Start
+from symgen.runtime.compiled import CompiledModel
 
 SEEDS = range(8)
 

@@ -10,11 +10,11 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from symgen.compiling.pipeline import choose_method, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
-from symgen.model import LawInfo, ModelInfo
-from symgen.pipeline import choose_method, generate
+from symgen.runtime.compiled import LawInfo, ModelInfo
 
 _counter = itertools.count()
 

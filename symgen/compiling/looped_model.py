@@ -1,0 +1,160 @@
+"""A compiled model in the looped shape: shared functions, tables of its own, and what is computed once a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import ModuleType
+from typing import Any, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.repeats import without_repeats
+from symgen.lower.looped.layout import GENERIC, HEAD
+from symgen.lower.looped.shape import Shape
+from symgen.lower.looped.tables import Tables
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Quantity, Row
+from symgen.runtime.kernels import GENERIC as GENERIC_CODE
+from symgen.runtime.kernels import address
+from symgen.store.modules import interpreted
+from symgen.vocabulary.measures import Holonomic
+
+_UNITS = {"theta": "rad", "vx": "m/s", "vy": "m/s", "vz": "m/s", "omega": "rad/s", "wx": "rad/s", "wy": "rad/s"}
+_UNITS |= {"wz": "rad/s", "x": "m", "y": "m", "z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1"}
+
+
+@final
+@dataclass(frozen=True)
+class LoopedModel(CompiledModel):
+    """A compiled model in the looped shape: shared code and tables of its own.
+
+    Attributes
+    ----------
+    tables : Tables
+        What generic code reads.
+    kernels : mapping of str to module
+        By name.
+    machine : module
+        The generic code.
+    """
+
+    tables: Tables = field(kw_only=True)
+    kernels: Mapping[str, ModuleType] = field(kw_only=True)
+    machine: ModuleType = field(kw_only=True)
+
+    @property
+    def shape(self) -> str:
+        """Return ``looped``."""
+        return "looped"
+
+    @property
+    def sparse(self) -> bool:
+        """Return True: nothing dense is made."""
+        return True
+
+    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
+        """Call ``measure`` once."""
+        self.model.measure(t, y, p, w)
+
+    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
+        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+        if not self.info.spins:
+            y[: self.info.nq] += change
+            return
+        self.section(w, "change")[:] = change
+        self.model.move(y, w)
+
+    def scratch(self) -> Array:
+        """Return a new scratch array ``w`` with the tables in it."""
+        w = np.zeros(self.law.nw)
+        offset, size = self.tables.sections["tables"]
+        part = w[offset : offset + size]
+        part.view(np.uint32)[: len(self.tables.numbers)] = np.frombuffer(self.tables.numbers, dtype=np.uint32)
+        augmented = bool(self.tables.numbers[HEAD.index("augmented_factor")])
+        found = [
+            address(getattr(self.machine, f"{name}_code"), self.machine, GENERIC_CODE)
+            if augmented or name != "augment"
+            else 0
+            for name in GENERIC
+        ]
+        found += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
+        part.view(np.int64)[-1] = offset
+        first = self.tables.addresses
+        part.view(np.int64)[first : first + len(found)] = found
+        return self.with_scales(w)
+
+
+def diagonal(shape: Shape, tables: Tables) -> Callable[[Array, Array], int]:
+    """Return the function that puts the diagonal of M into its section."""
+    first, (offset, size) = shape.mass_diagonal, tables.sections["mass"]
+
+    def masses(p: Array, w: Array) -> int:
+        w[offset : offset + size] = p[first : first + size]
+        return 0
+
+    return masses
+
+
+def preparation(
+    mechanism: Mechanism, shape: Shape, tables: Tables, kernels: Mapping[str, ModuleType]
+) -> Callable[[Array], int]:
+    """Return the function that fills the numbers behind the parameters in ``p``: interpreted, once a run."""
+    numbers = np.frombuffer(tables.numbers, dtype=np.uint32)
+    known = {t.name: t for t in mechanism.tables}
+    constant = shape.products.constant
+    target = np.array([t for t, _, _ in constant], dtype=np.int64)
+    velocity = np.array([v for _, v, _ in constant], dtype=np.int64)
+    product = np.array([x for _, _, x in constant])
+    size = shape.gram.size
+
+    def prepare(p: Array) -> int:
+        values = {q.name: float(p[i]) for i, q in enumerate(mechanism.parameters)}
+        for expression, k in shape.constant_index.items():
+            p[shape.first_constant + k] = evaluate(expression, values, mechanism.name, known)
+        for stem, computes, at in tables.groups:
+            if computes:
+                interpreted(kernels[stem].prepare)(0.0, p, p, p, numbers, at, p)
+        first = shape.mass_diagonal
+        inverse = p[first + shape.nv : first + 2 * shape.nv]
+        for base, weights in ((shape.gram_base, product), (shape.gram_base + size, product * inverse[velocity])):
+            p[base : base + size] = np.bincount(target, weights, size)
+        return 0
+
+    return prepare
+
+
+def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelInfo:
+    """Return what the runtime has to know of a mechanism in the looped shape."""
+    mechanism, repeats = without_repeats(mechanism)
+    operations: dict[str, int] = {}
+    for group in shape.groups:
+        for name, count in group.info.functions.items():
+            operations[name] = operations.get(name, 0) + count * len(group.members)
+    return ModelInfo(
+        name=mechanism.name,
+        digest="",
+        parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        coordinates=tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates),
+        velocities=tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds),
+        rows=tuple(
+            Row(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
+            for joint in mechanism.joints
+            for row in joint.rows
+        ),
+        joint_coordinates=tuple(
+            Quantity(f"{joint.name}.{label}", joint.unit(label))
+            for joint in mechanism.joints
+            for label, _ in joint.coordinates
+        ),
+        sections=dict(tables.sections),
+        jacobian=tuple((row, column, None, slot) for row, column, slot in shape.entries),
+        hoisted=shape.hoisted,
+        dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
+        massless=tuple(shape.massless),
+        windings=shape.windings,
+        spins=tuple(shape.spins),
+        operations=operations,
+    )

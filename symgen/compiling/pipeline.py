@@ -1,0 +1,232 @@
+"""The one function whose lines are the stages.
+
+    mechanism --formulate--> equations --lower--> program --emit--> source --load--> compiled model
+
+`generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and
+loads it. SymPy and Jinja2 are imported only when something has to be generated.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from symgen.compiling.looped import compile_looped, generate_looped, shared_folder
+from symgen.compiling.straight_model import law_info, load_compiled, model_info
+from symgen.describe.digest import digest as mechanism_digest
+from symgen.describe.mechanism import Mechanism
+from symgen.errors import InputError
+from symgen.ir.program import FORMAT, SUFFIXES
+from symgen.methods import METHODS
+from symgen.methods._base import Method
+from symgen.runtime.compiled import CompiledModel
+from symgen.store.entries import Entries, FolderName
+
+
+@dataclass(frozen=True)
+class Generated:
+    """Emitted source with its metadata, by file stem: ``model``, one module a law, and those that laws share."""
+
+    folder: str
+    modules: Mapping[str, tuple[str, Mapping[str, Any]]]
+    derive_seconds: float
+    emit_seconds: float
+
+
+@dataclass(frozen=True)
+class MethodChoice:
+    """A method with its structural options, as asked for, and the shape of its code."""
+
+    method: Method
+    options: Mapping[str, str]
+    implicit: bool = False
+    shape: str = "straight"
+
+    @property
+    def stem(self) -> str:
+        """File stem of its module."""
+        return self.method.stem(self.options, self.implicit)
+
+
+def choose_method(name: str, options: Mapping[str, str] | None = None, implicit: bool = False) -> MethodChoice:
+    """Return the method called `name` with its options, defaults filled in, and the form that an integrator needs.
+
+    Raises
+    ------
+    InputError
+        If there is no such method or option.
+    """
+    method = METHODS.get(name, "--method")
+    implicit = implicit or not {"ode", "one-step"} & set(method.forms)  # some methods have no other form
+    return MethodChoice(method, method.complete_options(options or {}), implicit)
+
+
+def folder_of(mechanism: Mechanism) -> str:
+    """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
+    digest = hashlib.sha256(f"{mechanism_digest(mechanism)} {generator_digest()}".encode()).hexdigest()
+    return str(FolderName(mechanism.name, digest, FORMAT))
+
+
+@lru_cache(maxsize=1)
+def generator_digest() -> str:
+    """Return the digest of everything that shapes emitted code: sources, templates and SymPy's version."""
+    package = Path(__file__).resolve().parents[1]
+    inside, beside = package / "templates", package.parent / "templates"
+    templates = inside if inside.is_dir() else beside
+    digest = hashlib.sha256(_sympy_version().encode())
+    for folder in ("vocabulary", "formulate", "ir", "lower", "emit", "methods"):
+        for path in sorted((package / folder).rglob("*.py")):
+            digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    for path in sorted(path for folder in ("looped", "parts") for path in (templates / folder).glob("*.j2")):
+        digest.update(path.name.encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def _sympy_version() -> str:
+    """Return SymPy's version without importing SymPy, which costs more than a whole warm run."""
+    spec = find_spec("sympy")
+    if spec is None or spec.origin is None:
+        return "absent"
+    return (Path(spec.origin).parent / "release.py").read_text(encoding="utf-8").split('"')[1]
+
+
+def generate(
+    mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight", target: str = "cpu"
+) -> Generated:
+    """Derive, lower and emit `mechanism` with every method of `choices`.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choices : tuple of MethodChoice
+        One law module is emitted for each.
+    shape : {"straight", "looped"}
+        Code for this mechanism alone, or loops over tables.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
+
+    Returns
+    -------
+    Generated
+        The source of ``model`` and of every law, with metadata.
+
+    Raises
+    ------
+    InputError
+        If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
+        ``cuda``, or a method iterates for ``lanes``; if numbers overflow.
+    """
+    if target != "cpu":
+        _refuse_target(target, choices, shape)
+    if shape == "looped":
+        began = time.perf_counter()
+        found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
+        return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
+    try:
+        return _generate_straight(mechanism, choices, target)
+    except OverflowError:  # of numbers that only meet where the equations are solved; the others name their section
+        expected = "numbers whose products, sums and quotients are finite"
+        raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
+
+
+def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str) -> Generated:
+    from symgen.emit.emit import emit_law, emit_model
+    from symgen.emit.lanes import emit_lanes_law, emit_lanes_model
+    from symgen.formulate.formulate import formulate
+    from symgen.lower.law import lower_law
+    from symgen.lower.model import lower_model
+
+    began = time.perf_counter()
+    folder = folder_of(mechanism)
+    equations = formulate(mechanism)
+    derived = time.perf_counter()
+    program = lower_model(equations, mechanism_digest(mechanism))
+    modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
+    suffix = SUFFIXES[target]
+    source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
+    modules[f"model{suffix}"] = (source, model_info(program, equations).to_dict())
+    for choice in choices:
+        law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
+        words = (choice.method.summary, choice.method.reference)
+        if target == "lanes":
+            sources = {f"{choice.stem}{suffix}": emit_lanes_law(law, program, equations, *words)}
+        else:
+            sources = emit_law(law, program, equations, *words, target)
+        *shared, own = sources
+        modules |= {stem: (sources[stem], {}) for stem in shared}
+        modules[own] = (sources[own], law_info(law, tuple(shared)).to_dict())
+    return Generated(folder, modules, derived - began, time.perf_counter() - derived)
+
+
+def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:
+    if shape == "looped":
+        raise InputError(f"--target {target}", "the straight shape", "looped")
+    for choice in choices:
+        if choice.implicit:
+            expected = f"a method that explicit integrators solve (--target {target})"
+            raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
+
+
+def compile_model(
+    mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None, target: str = "cpu"
+) -> CompiledModel:
+    """Return the compiled model of `mechanism` for one method, generated only if the cache does not have it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choice : MethodChoice
+        The method and its structural options.
+    entries : Entries, optional
+        The cache; by default the user's.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for.
+
+    Raises
+    ------
+    InputError
+        As for `generate`.
+    """
+    store = Entries() if entries is None else entries
+    arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
+    if choice.shape == "looped" and target == "cpu":
+        found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
+        return replace(found, origin=(compile_again, arguments))
+    folder = folder_of(mechanism)
+    derive_seconds = emit_seconds = 0.0
+    model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
+    known = _find(store, folder, model, stem)
+    if known is None:
+        with store.building(folder):
+            known = _find(store, folder, model, stem)  # another process may have built it while this one waited
+            if known is None:
+                generated = generate(mechanism, (choice,), choice.shape, target)
+                derive_seconds, emit_seconds = generated.derive_seconds, generated.emit_seconds
+                for name, (source, metadata) in generated.modules.items():
+                    store.put(folder, name, source, metadata)
+                known = generated.modules[model][1], generated.modules[stem][1]
+    path = store.path(folder, stem).parent
+    loaded = load_compiled(path, stem, *known, derive_seconds, emit_seconds, model)
+    return replace(loaded, origin=(compile_again, arguments))
+
+
+def compile_again(
+    mechanism: Mechanism, method: str, options: Mapping[str, str], implicit: bool, shape: str, target: str
+) -> CompiledModel:
+    """Return a compiled model that was pickled elsewhere: from the cache, or generated."""
+    return compile_model(mechanism, replace(choose_method(method, options, implicit), shape=shape), target=target)
+
+
+def _find(store: Entries, folder: str, model: str, law: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
+    shared, own = store.get(folder, model), store.get(folder, law)
+    if shared is None or own is None or any(store.get(folder, stem) is None for stem in own.get("modules", ())):
+        return None
+    return shared, own

@@ -1,0 +1,128 @@
+"""A compiled model in the straight shape, and what is known of emitted modules beside their source."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, final
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime.compiled import Array, CompiledModel, LawInfo, ModelInfo, Quantity, Row
+from symgen.store.modules import interpreted, load_module
+
+if TYPE_CHECKING:
+    from symgen.formulate.equations import Equations
+    from symgen.ir.program import LawProgram, ModelProgram
+
+
+@final
+@dataclass(frozen=True)
+class StraightModel(CompiledModel):
+    """A compiled model in the straight shape: code for one mechanism alone."""
+
+    @property
+    def shape(self) -> str:
+        """Return ``straight``."""
+        return "straight"
+
+    @property
+    def sparse(self) -> bool:
+        """Return False: starts use dense algebra."""
+        return False
+
+    def scratch(self) -> Array:
+        """Return a new scratch array ``w``; scales are 1 until a start finds them."""
+        return self.with_scales(np.zeros(max(1, self.law.nw)))
+
+    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
+        """Call ``measure`` once, for which straight code is not worth compiling."""
+        interpreted(self.model.measure)(t, y, p, w)
+
+    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
+        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+        if not self.info.spins:
+            y[: self.info.nq] += change
+            return
+        self.section(w, "change")[:] = change
+        interpreted(self.model.move)(y, w)
+
+
+def load_compiled(
+    folder: Path,
+    stem: str,
+    model: Mapping[str, Any],
+    law: Mapping[str, Any],
+    derive_seconds: float = 0.0,
+    emit_seconds: float = 0.0,
+    shared: str = "model",
+) -> StraightModel:
+    """Load the emitted modules of a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Holds ``<shared>.py`` and ``<stem>.py``.
+    stem : str
+        File stem of the law.
+    model, law : mapping
+        Their metadata.
+    derive_seconds, emit_seconds : float
+        What generating them took, 0 if they were found.
+    shared : str
+        File stem of the module that all laws share.
+    """
+    return StraightModel(
+        info=msgspec.convert(model, ModelInfo),
+        law=msgspec.convert(law, LawInfo),
+        model=load_module(folder / f"{shared}.py"),
+        law_module=load_module(folder / f"{stem}.py"),
+        derive_seconds=derive_seconds,
+        emit_seconds=emit_seconds,
+    )
+
+
+def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
+    """Collect the metadata of a program."""
+    return ModelInfo(
+        name=program.name,
+        digest=program.digest,
+        parameters=tuple(Quantity(p.name, p.unit) for p in equations.parameters),
+        coordinates=tuple(Quantity(q.name, q.unit) for q in equations.coordinates),
+        velocities=tuple(Quantity(v.name, v.unit) for v in equations.velocities),
+        rows=tuple(Row(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
+        joint_coordinates=tuple(Quantity(c.name, c.unit) for c in equations.joint_coordinates),
+        sections=dict(program.layout.sections),
+        jacobian=tuple((e.row, e.column, e.constant, e.slot) for e in program.jacobian),
+        hoisted=program.hoisted,
+        dropped_rows=equations.dropped_rows,
+        massless=tuple(
+            j for b in equations.mass for i, j in enumerate(b.columns) if equations.graph.value(b.entries[i][i]) == 0.0
+        ),
+        windings=len(equations.windings),
+        spins=equations.spins,
+        operations={b.name: b.operations for b in program.blocks},
+    )
+
+
+def law_info(program: LawProgram, modules: tuple[str, ...] = ()) -> LawInfo:
+    """Collect the metadata of a program."""
+    return LawInfo(
+        method=program.method,
+        key=program.key,
+        options=dict(program.options),
+        parameters=program.parameters,
+        parameter_offset=program.parameter_offset,
+        hoisted=program.hoisted,
+        position_correction=program.correction.position != "none",
+        velocity_correction=program.correction.velocity,
+        nw=program.layout.nw,
+        unknowns=program.unknowns,
+        level=program.level,
+        tangent=program.tangent,
+        operations={b.name: b.operations for b in program.blocks},
+        modules=modules,
+    )

@@ -1,0 +1,188 @@
+"""A compiled model: the emitted functions with what the runtime has to know about them, readable without SymPy."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from types import ModuleType
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.ir.program import SCALES, STATUS
+
+Array = NDArray[np.float64]
+
+
+class Quantity(msgspec.Struct, frozen=True):
+    """A named scalar with its unit."""
+
+    name: str
+    unit: str
+
+
+class Row(msgspec.Struct, frozen=True):
+    """A constraint row."""
+
+    name: str
+    joint: str
+    unit: str
+    holonomic: bool
+
+
+class ModelInfo(msgspec.Struct, frozen=True):
+    """Metadata of an emitted ``model`` module.
+
+    `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
+    or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
+    for each body with Euler parameters where these begin in q and its angular velocity in v.
+    """
+
+    name: str
+    digest: str
+    parameters: tuple[Quantity, ...]
+    coordinates: tuple[Quantity, ...]
+    velocities: tuple[Quantity, ...]
+    rows: tuple[Row, ...]
+    joint_coordinates: tuple[Quantity, ...]
+    sections: dict[str, tuple[int, int]]
+    jacobian: tuple[tuple[int, int, float | None, int | None], ...]
+    hoisted: int
+    dropped_rows: tuple[str, ...]
+    massless: tuple[int, ...]
+    windings: int
+    spins: tuple[tuple[int, int], ...]
+    operations: dict[str, int]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+        return len(self.velocities)
+
+    @property
+    def m(self) -> int:
+        """Number of constraint rows."""
+        return len(self.rows)
+
+    @property
+    def ny(self) -> int:
+        """Length of the state: q, v and the work."""
+        return self.nq + self.nv + 1
+
+
+class LawInfo(msgspec.Struct, frozen=True):
+    """Metadata of an emitted law module; `parameters` are (name, default) pairs.
+
+    `tangent` says for each number that the function of this name writes its equation and unknown in the descriptor
+    form; from `unknowns` on, unknowns are q and v. `modules` are those that hold the law's functions, beside its own.
+    """
+
+    method: str
+    key: str
+    options: dict[str, str]
+    parameters: tuple[tuple[str, float], ...]
+    parameter_offset: int
+    hoisted: int
+    position_correction: bool
+    velocity_correction: bool
+    nw: int
+    unknowns: int
+    level: str
+    tangent: tuple[tuple[int, int], ...]
+    operations: dict[str, int]
+    modules: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+
+@dataclass(frozen=True)
+class CompiledModel(ABC):
+    """Emitted functions of one model and one method, ready for the loops, in one of the shapes of code.
+
+    Nothing is compiled by loading: each function is compiled, or read from the cache, when a loop first takes it.
+    """
+
+    info: ModelInfo
+    law: LawInfo
+    model: ModuleType
+    law_module: ModuleType
+    derive_seconds: float = 0.0
+    emit_seconds: float = 0.0
+    #: What it is made again from in another process: a function and its arguments. Code itself does not travel.
+    origin: tuple[Callable[..., CompiledModel], tuple[Any, ...]] | None = field(default=None, repr=False, compare=False)
+
+    def __reduce__(self) -> tuple[Callable[..., CompiledModel], tuple[Any, ...]]:
+        if self.origin is None:
+            raise TypeError("a compiled model that was loaded from files cannot be pickled; compile it from its model")
+        return self.origin
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
+        return self  # nothing of it ever changes
+
+    @property
+    @abstractmethod
+    def shape(self) -> str:
+        """Return ``straight`` or ``looped``."""
+
+    @property
+    @abstractmethod
+    def sparse(self) -> bool:
+        """Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra."""
+
+    @abstractmethod
+    def scratch(self) -> Array:
+        """Return a new scratch array ``w``; scales are 1 until a start finds them."""
+
+    @abstractmethod
+    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
+        """Call ``measure`` once."""
+
+    @abstractmethod
+    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
+        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+
+    def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
+        """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""
+        law = self.law
+        p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
+        for i, q in enumerate(self.info.parameters):
+            p[i] = parameters[q.name]
+        for i, (name, default) in enumerate(law.parameters):
+            p[law.parameter_offset + i] = method_parameters.get(name, default)
+        return p
+
+    def with_scales(self, w: Array) -> Array:
+        """Return a scratch array whose scales, and pivots of rows that never change theirs, are set to 1."""
+        for name in ("pivot", "gauge", "row_weight"):
+            self.section(w, name)[:] = 1.0
+        w[[STATUS.index(name) for name in SCALES]] = 1.0
+        return w
+
+    def section(self, w: Array, name: str) -> Array:
+        """Return a view of one section of ``w``."""
+        offset, size = self.info.sections[name]
+        return w[offset : offset + size]
+
+    def jacobian(self, w: Array) -> Array:
+        """Return D as a dense matrix from what ``geometry`` left in ``w``; shape (m, nv)."""
+        values = self.section(w, "jacobian")
+        d = np.zeros((self.info.m, self.info.nv))
+        for row, column, constant, slot in self.info.jacobian:
+            d[row, column] = constant if slot is None else values[slot]
+        return d

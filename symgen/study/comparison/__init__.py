@@ -1,0 +1,1 @@
+"""Comparisons: error against run time of methods, integrators, steps and tolerances."""

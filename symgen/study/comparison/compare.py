@@ -1,0 +1,412 @@
+"""Error against run time: models, several methods, integrators, steps and tolerances, one reference a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen import arguments
+from symgen.api import Model, load
+from symgen.describe.digest import digest
+from symgen.describe.mechanism import Mechanism
+from symgen.errors import InputError, SimulationError
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
+from symgen.plan import Plan, make_plan, multiples, output_size
+from symgen.result.points import Points
+from symgen.runtime import abi
+from symgen.runtime.timing import timed
+from symgen.settings import SHAPES, Settings, default
+from symgen.study.comparison.kept import Kept
+from symgen.study.comparison.measured import measured
+from symgen.study.comparison.prepare import Task, prepare
+from symgen.study.comparison.rows import Row, Study, Trace, save_csv, with_ratios
+from symgen.study.journal import Journal
+from symgen.study.references.reference import Array, Reference, reference
+from symgen.study.references.solvers import AUTO, check_solver
+
+if TYPE_CHECKING:
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+
+__all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
+
+#: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
+STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
+#: Relative tolerances of adaptive runs, unless given; absolute ones are this fraction of them.
+RTOLS = (1e-6, 1e-8, 1e-10)
+ATOL_SHARE = 1e-2
+#: Output times of a study where the mechanism does not say more coarsely.
+OUTPUTS = 200
+#: Timed runs a row, unless told; and the seconds that they take together at least.
+REPEAT, AT_LEAST = 3, 0.05
+#: What making the code of a method ready counts for in the progress, in rows.
+PREPARATION = 10.0
+
+#: Called with what is being done, how far it is, and how much there is in all.
+Progress = Callable[[str, float, float], None]
+
+#: What `compare` runs unless methods are named: the six of Marques, Souto and Flores (2017).
+DEFAULT_METHODS = (
+    *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
+    *("coordinate-partitioning", "direct-correction"),
+)
+#: And with which integrators; a method that none of them suits gets its own.
+DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
+#: Largest number of coordinates for which a study compiles straight code unless told.
+LARGEST_STRAIGHT = 120
+#: Stands for every method or integrator.
+ALL = "all"
+#: Processes at most.
+MOST_JOBS = 4096
+#: A run, the reference with the runs that it is made of, distances, and the times of every row take so much of a run.
+COPIES = 8.0
+
+
+def compare(
+    model: str | Path | Mechanism | Model,
+    methods: Sequence[str] = (),
+    integrators: Sequence[str] = (),
+    steps: Sequence[float] = (),
+    rtols: Sequence[float] = (),
+    until: float | None = None,
+    repeat: int = REPEAT,
+    output_step: float | None = None,
+    parameters: Mapping[str, float] | None = None,
+    options: Mapping[str, str | float] | None = None,
+    progress: Progress | None = None,
+    jobs: int = 1,
+    journal: Journal | None = None,
+    reference_by: str = AUTO,
+    shape: str = "auto",
+    max_violation: float = default("max_violation"),
+    max_energy_error: float = default("max_energy_error"),
+    max_steps: float | None = None,
+) -> Study:
+    """Run a model with every combination and measure error and run time.
+
+    Parameters
+    ----------
+    model : str, path, Mechanism or Model
+        What to run.
+    methods, integrators : sequence of str
+        Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not
+        suit each other are left out.
+    steps : sequence of float
+        Constant steps [s] of integrators without error estimate; multiples of the mechanism's own unless given.
+    rtols : sequence of float
+        Tolerances of adaptive ones.
+    until : float, optional
+        End time [s]; the mechanism's own unless given, and no longer than it is predictable.
+    repeat : int
+        Timed runs a row, after a warm-up; the shortest counts. Short runs are repeated more often; 1 runs once.
+    output_step : float, optional
+        Time between the outputs that are compared [s].
+    parameters, options : mapping
+        As for `symgen.Settings`.
+    progress : callable, optional
+        Called with what is being done, how far it is, and how much there is in all.
+    jobs : int
+        Processes for what is not timed: deriving, compiling, references. With more than 1 a script needs the guard
+        ``if __name__ == "__main__":``.
+    journal : Journal, optional
+        Keeps every row as soon as it is done, and gives those of an earlier, interrupted study.
+    reference_by : str
+        Where the reference motion comes from: ``auto``, or one of SciPy's solvers on independently derived equations
+        (``scipy-dop853``, ``scipy-radau``, ``scipy-bdf``, ``scipy-lsoda``).
+    shape : str
+        Shape of the code. ``auto`` is ``straight`` for all methods up to `LARGEST_STRAIGHT` coordinates, so that run
+        times compare methods and not shapes.
+    max_violation, max_energy_error, max_steps : float
+        As for `symgen.Settings`.
+
+    Returns
+    -------
+    Study
+        Also after an interruption (KeyboardInterrupt), with the rows that are done.
+
+    Raises
+    ------
+    InputError
+        If a name or number is wrong; nothing has been run then.
+    """
+    asked = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
+    further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps)
+    return compare_all([model], *asked, *further)[0]
+
+
+@dataclass
+class _Work:
+    """One model with everything that will be run."""
+
+    model: Model
+    end: float
+    times: Array
+    settings: list[Settings]
+    plans: list[Plan]
+    kept: Kept
+    reference_by: str
+    known: Reference | None = None
+    note: str = ""  # why there is no reference
+
+    @property
+    def total(self) -> float:
+        return float(len(self.plans) + 1)
+
+    def study(self, rows: Sequence[Row], traces: Sequence[Trace], interrupted: bool) -> Study:
+        base, known = self.settings[0], self.known
+        return Study(
+            mechanism=self.model.name,
+            how="none" if known is None else known.how,
+            estimated_error=float("nan") if known is None else known.estimated_error,
+            until=self.end,
+            rows=with_ratios(rows),
+            interrupted=interrupted,
+            traces=tuple(traces),
+            note=self.note or ("there is no reference, so errors are unknown" if known is None else known.note),
+            title=self.model.mechanism.title,
+            digest=digest(self.model.mechanism),
+            step=self.model.mechanism.defaults.step,
+            parameters=dict(base.parameters),
+            options=dict(base.options),
+            repeat=base.repeat,
+        )
+
+
+def compare_all(
+    models: Sequence[str | Path | Mechanism | Model],
+    methods: Sequence[str] = (),
+    integrators: Sequence[str] = (),
+    steps: Sequence[float] = (),
+    rtols: Sequence[float] = (),
+    until: float | None = None,
+    repeat: int = REPEAT,
+    output_step: float | None = None,
+    parameters: Mapping[str, float] | None = None,
+    options: Mapping[str, str | float] | None = None,
+    progress: Progress | None = None,
+    jobs: int = 1,
+    journal: Journal | None = None,
+    reference_by: str = AUTO,
+    shape: str = "auto",
+    max_violation: float = default("max_violation"),
+    max_energy_error: float = default("max_energy_error"),
+    max_steps: float | None = None,
+) -> list[Study]:
+    """Compare on several models; arguments and errors as for `compare`.
+
+    Returns
+    -------
+    list of Study
+        One a model, in order; after an interruption those up to the interrupted one, which comes last.
+    """
+    asked = Settings(
+        until=until,
+        output_step=output_step,
+        parameters=parameters or {},
+        options=options or {},
+        max_violation=max_violation,
+        max_energy_error=max_energy_error,
+        max_steps=max_steps,
+        repeat=repeat,
+    )
+    check_solver(reference_by)
+    arguments.one_of("shape", shape, SHAPES)
+    methods, integrators = arguments.words("methods", methods), arguments.words("integrators", integrators)
+    steps = arguments.numbers("step", steps, positive=True)
+    rtols = arguments.numbers("rtol", rtols, positive=True)
+    jobs = arguments.whole("jobs", jobs, 1, MOST_JOBS)
+    arguments.function("progress", progress)
+    if journal is not None:
+        arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
+    works = []
+    for model in models:
+        chosen = load(model)
+        end = _end(chosen, asked.until)
+        times = _times(chosen, end, asked.output_step)
+        small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
+        base = replace(asked, output_step=None, shape="straight" if shape == "auto" and small else shape)
+        settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
+        plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
+        works.append(
+            _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
+        )
+    reached, total = 0.0, sum(w.total for w in works)
+    report: Progress = progress or (lambda what, reached, of: None)
+    if jobs > 1:
+        reached, interrupted = _prepare(works, jobs, report, total)
+        total += reached
+        if interrupted:
+            return [works[0].study((), (), True)]
+    studies = []
+    for work in works:
+        prefix = f"{work.model.name}: " if len(works) > 1 else ""
+
+        def say(what: str, done: float, prefix: str = prefix, reached: float = reached) -> None:
+            report(prefix + what, reached + done, total)
+
+        studies.append(_run(work, say))
+        reached += work.total
+        if studies[-1].interrupted:
+            break
+    return studies
+
+
+def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) -> tuple[float, bool]:
+    """Fill the cache and compute references on several processes.
+
+    Returns what that counts for in the progress, and whether it was interrupted.
+    """
+    from symgen.store.paths import cache_location
+
+    if not cache_location().persistent:
+        return 0.0, False  # what another process compiles would be lost
+    tasks, owners = list[Task](), list[_Work]()
+    for work in works:
+        groups: dict[Any, dict[str, Settings]] = {}
+        for settings, plan in zip(work.settings, work.plans, strict=True):
+            if work.kept.row(settings) is None:
+                groups.setdefault(plan.key, {}).setdefault(plan.tableau.name, settings)
+        first = work.settings[0]
+        if groups and work.kept.reference(first, work.times) is None:
+            tasks.append(Task("reference", work.model.mechanism, (first,), work.times, work.reference_by))
+        tasks += [Task(next(iter(g.values())).method, work.model.mechanism, tuple(g.values())) for g in groups.values()]
+        owners += [work] * (len(tasks) - len(owners))
+    weight = PREPARATION * len(tasks)
+
+    def done(count: int) -> None:
+        what = f": {owners[count].model.name}, {tasks[count].what}" if count < len(tasks) else ""
+        report(f"preparing{what}", PREPARATION * count, weight + later)
+
+    done(0)
+    found, interrupted = prepare(tasks, jobs, done)
+    for work, known in zip(owners, found, strict=True):
+        if known is not None:
+            work.known = known
+            work.kept.add_reference(work.settings[0], known)
+    return weight, interrupted
+
+
+def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
+    """Run all rows of a model, one at a time."""
+    rows, traces = list[Row](), list[Trace]()
+    ready: dict[Any, tuple[CompiledModel, Start]] = {}
+    points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
+    interrupted = False
+    try:
+        work.known = work.known or work.kept.reference(work.settings[0], work.times)
+        for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
+            found = work.kept.row(s)
+            if found is None:
+                if plan.key not in ready:
+                    ready[plan.key] = work.model.ready(plan, s.parameters)
+                compiled, start = ready[plan.key]
+                if work.known is None and not work.note:
+                    say("reference", 0.0)
+                    _find_reference(work, compiled, start, lambda f: say("reference", f))
+                say(f"{s.method}, {s.integrator}", 1.0 + i)
+                runs = timed(compiled, plan.tableau, start, plan.spec, s.repeat, None, AT_LEAST)
+                interrupted = runs.outcome.interrupted
+                if runs.outcome.code != abi.STOPPED:
+                    found = measured(plan, runs, work.known, points)
+                    work.kept.add_row(s, *found)
+            if found is not None:
+                rows.append(found[0])
+                traces.append(found[1])
+            if interrupted:
+                break
+    except KeyboardInterrupt:
+        interrupted = True
+    return work.study(rows, traces, interrupted)
+
+
+def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:
+    """Compute the reference; where there is none, note why."""
+    nq, nv = compiled.info.nq, compiled.info.nv
+    settings, mechanism = work.settings[0], work.model.mechanism
+    values = work.model.parameters(settings.parameters)
+    try:
+        known = reference(
+            mechanism, values, start.y[:nq], start.y[nq : nq + nv], work.times, progress, work.reference_by
+        )
+    except SimulationError as error:
+        work.note = f"there is no reference, so errors are unknown: {error}"
+        return
+    work.known = known
+    work.kept.add_reference(settings, known)
+
+
+def _end(model: Model, until: float | None) -> float:
+    defaults = model.mechanism.defaults
+    if until is not None:
+        return until
+    return min(defaults.until, defaults.predictable_until or np.inf)
+
+
+def _times(model: Model, end: float, output_step: float | None) -> Array:
+    """Return the common output times: multiples of the asked or the mechanism's step, at most about `OUTPUTS`."""
+    own = model.mechanism.defaults.output_step
+    size = COPIES * output_size(model.mechanism)
+    if output_step is not None:
+        return multiples(output_step, end, size)
+    if own is None:
+        return np.asarray(np.linspace(0.0, end, OUTPUTS + 1), dtype=np.float64)
+    return multiples(own * max(1, round(end / own / OUTPUTS)), end, size)
+
+
+def _combinations(
+    model: Model,
+    base: Settings,
+    methods: Sequence[str],
+    integrators: Sequence[str],
+    steps: Sequence[float],
+    rtols: Sequence[float],
+    end: float,
+    times: Any,
+) -> Iterator[Settings]:
+    own = model.mechanism.defaults.step
+    for method in _named(methods, DEFAULT_METHODS, METHODS.names):
+        for integrator in _suitable(method, integrators):
+            common = replace(base, method=method, integrator=integrator, until=end, times=times)
+            common = replace(common, options=_options_for(base.options, method, methods, integrator, integrators))
+            if INTEGRATORS.get(integrator, "--integrators").adaptive:
+                for rtol in rtols or RTOLS:
+                    yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
+            else:
+                for step in steps or [h for h in (own * f for f in STEP_FACTORS) if h <= end] or [end]:
+                    yield replace(common, step=step)
+
+
+def _named(given: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
+    """Return the names asked for, each once; ``all`` stands for everything there is."""
+    wanted = [name for g in given or default for name in (everything if g == ALL else (g,))]
+    return tuple(dict.fromkeys(wanted))
+
+
+def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+    """Return those of the integrators that solve a form of the method.
+
+    Raises
+    ------
+    InputError
+        If integrators were named and none of them does.
+    """
+    chosen = METHODS.get(method, "--methods")
+    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
+    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
+    if fit or not integrators:
+        return fit or (chosen.default_integrator,)
+    forms = ", ".join(chosen.forms)
+    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+
+
+def _options_for(
+    options: Mapping[str, str | float], method: str, methods: Sequence[str], integrator: str, integrators: Sequence[str]
+) -> dict[str, str | float]:
+    """Return the options that are meant for this method and integrator: those of others in the study are left out."""
+    others = {*(methods or METHODS.names), *(integrators or INTEGRATORS.names)} - {method, integrator}
+    return {key: value for key, value in options.items() if key.partition(".")[0] not in others}

@@ -1,0 +1,99 @@
+"""From one timed run to its row and its curves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.result.judge import judge
+from symgen.runtime import abi
+from symgen.study.comparison.rows import Row, Trace
+
+if TYPE_CHECKING:
+    from symgen.plan import Plan
+    from symgen.result.points import Points
+    from symgen.runtime.timing import Timed
+    from symgen.study.references.reference import Reference
+
+Array = NDArray[np.float64]
+
+#: Curves have no more points than this.
+LONGEST = 400
+
+
+def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -> tuple[Row, Trace]:
+    """Judge and measure one run.
+
+    Parameters
+    ----------
+    plan : Plan
+        What was run.
+    runs : Timed
+        What it gave, and how long it took.
+    known : Reference or None
+        What to compare with; None where there is none.
+    points : Points
+        What distances are measured between.
+    """
+    outcome = runs.outcome
+    nq, count = outcome.compiled.info.nq, len(outcome.times)
+    verdict = judge(plan, outcome.compiled, outcome, None, asked=False)
+    distances = None if known is None else points.distances(outcome.states[:, :nq], known.q[:count])
+    error = float(distances.max(initial=0.0)) if distances is not None and outcome.code == abi.DONE else None
+    accelerations = outcome.acceleration_violations if count else np.zeros(0)
+    status, adaptive = outcome.status_columns, plan.spec.adaptive
+    position, velocity = status[:, abi.PHI], status[:, abi.DRIFT]
+    row = Row(
+        method=plan.choice.method.name,
+        integrator=plan.tableau.name,
+        step=None if adaptive else plan.spec.step,
+        rtol=plan.spec.rtol if adaptive else None,
+        status=verdict.status,
+        reason=verdict.reason,
+        error=error,
+        below_reference=error is not None and known is not None and error < known.estimated_error,
+        run_seconds=outcome.run_seconds,
+        run_seconds_spread=runs.spread,
+        run_seconds_median=runs.median,
+        evaluations=outcome.evaluations,
+        iterations=outcome.counters.get("iterations", 0),
+        position_violation_max=outcome.position_violation_max,
+        velocity_violation_max=outcome.velocity_violation_max,
+        acceleration_violation_max=float(accelerations.max()) if count else None,
+        position_violation_rms=_rms(position),
+        velocity_violation_rms=_rms(velocity),
+        acceleration_violation_rms=_rms(accelerations),
+        position_violation_final=_last(position),
+        velocity_violation_final=_last(velocity),
+        acceleration_violation_final=_last(accelerations),
+        energy_drift_max=outcome.energy_drift_max,
+        warnings=verdict.warnings,
+    )
+    kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], outcome.states[:, -1]
+    trace = Trace(
+        t=_digits(outcome.times),
+        error=() if distances is None else _digits(distances),
+        position=_digits(position),
+        velocity=_digits(velocity),
+        acceleration=_digits(accelerations),
+        kinetic=_digits(kinetic),
+        potential=_digits(potential),
+        energy_error=_digits(kinetic + potential - outcome.energy_start - work),
+    )
+    return row, trace
+
+
+def _rms(values: Array) -> float | None:
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else None
+
+
+def _last(values: Array) -> float | None:
+    return float(values[-1]) if len(values) else None
+
+
+def _digits(values: Any) -> tuple[float, ...]:
+    """Return the values that are drawn, to five digits."""
+    every = max(1, -(-len(values) // LONGEST))
+    return tuple(float(f"{x:.5g}") for x in values[::every])

@@ -1,0 +1,1 @@
+"""References: motions by routes that share nothing with the emitted code."""

@@ -1,0 +1,379 @@
+"""Reference motions of whole families: the independent equations compiled once, for any values of the parameters.
+
+The route of `symgen.study.references.independent` (positions written out, SymPy on the whole constraints,
+accelerations by least squares) with two differences that studies over many parameter values need: parameters stay
+symbols, and the equations are compiled. They are integrated by Gragg's extrapolated midpoint rule (W. B. Gragg, SIAM
+J. Numer. Anal. 2 (1965) 384-403), which shares no code and no coefficients with the integrators under test, or, where
+decay is much faster than the motion, by SciPy's Radau; twice with different tolerances, the difference being the
+estimated error.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numba
+import numpy as np
+import sympy as sp
+from numba import types
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import Mechanism, Table
+from symgen.errors import SimulationError
+from symgen.result.points import Points
+from symgen.store.jit import jit
+from symgen.study.references.independent import CUTOFF, IndependentEquations
+from symgen.study.references.reference import Reference
+from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
+
+if TYPE_CHECKING:
+    from symgen.vocabulary.expressions import Expr
+
+Array = NDArray[np.float64]
+
+#: Tolerances of the two integrations by extrapolation, and of the two by Radau.
+FINE, COARSE = 3e-14, 3e-13
+#: The same where rounding of very stiff forces makes those unattainable.
+ROUGH_FINE, ROUGH_COARSE = 1e-10, 1e-9
+STIFF_FINE, STIFF_COARSE = 1e-9, 1e-8
+#: Steps below this share of the time to the next output lead nowhere.
+COLLAPSE = 1e-7
+#: Columns of the extrapolation: order 2 x 8.
+COLUMNS = 8
+#: Evaluations after which a reference of few coordinates is given up. Costs of an evaluation grow with their square;
+#: with dependent rows it needs singular values, which cost about so many times as much.
+BUDGET, FEW, DEPENDENT = 3_000_000, 9, 20
+
+_F8, _A, _I8, _I = types.float64, types.float64[::1], types.int64, types.int64[::1]
+#: equations(t, q, v, p, out).
+EQUATIONS = types.FunctionType(types.int64(_F8, _A, _A, _A, _A))
+
+
+class CompiledEquations(IndependentEquations):
+    """Independent equations with parameters that stay adjustable.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated planar mechanism.
+    parameters : mapping
+        Values of all its parameters, for a start; `set_parameters` gives others.
+    """
+
+    def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
+        self.dependent = False
+        self.symbols = [sp.Symbol(f"p{i}", real=True) for i in range(len(mechanism.parameters))]
+        super().__init__(mechanism, parameters)
+        self.set_parameters(parameters)
+
+    def set_parameters(self, parameters: Mapping[str, float]) -> None:
+        """Take other values of the parameters; compiles nothing."""
+        self.parameters = parameters
+        self.values = np.array([parameters[p.name] for p in self.mechanism.parameters] or [0.0])
+        self.mass = self._masses()
+        self.root = 1.0 / np.sqrt(self.mass)
+
+    def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Return Phi, D, nu, gamma and f at a state."""
+        m, k = self.m, len(self._entries)
+        flat = np.zeros(3 * m + k + self.n)
+        self._function(float(t), np.ascontiguousarray(q), np.ascontiguousarray(v), self.values, flat)
+        d = np.zeros((m, self.n))
+        d[self._row_index, self._column_index] = flat[m : m + k]
+        return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
+
+    def rate(self, t: float, y: Array) -> Array:
+        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss)."""
+        found = np.empty(2 * self.n)
+        _rate(
+            self._function,
+            self._index,
+            self.m,
+            self.n,
+            self.root,
+            self.values,
+            float(t),
+            np.ascontiguousarray(y),
+            found,
+        )
+        return found
+
+    @property
+    def budget(self) -> int:
+        """Evaluations of an integration by extrapolation."""
+        return int(BUDGET * min(1.0, (FEW / self.n) ** 2) / (DEPENDENT if self.dependent else 1))
+
+    @cached_property
+    def _index(self) -> Any:
+        return np.concatenate([self._row_index, self._column_index]).astype(np.int64)
+
+    def advance(self, t: float, y: Array, until: float, rtol: float, scale: Array, state: Array, used: Any) -> Array:
+        """Integrate to `until` by extrapolation.
+
+        Parameters
+        ----------
+        t, y, until : float, Array, float
+            From where and how far.
+        rtol, scale : float, Array
+            Tolerance, relative to `scale` or the state, whichever is larger.
+        state : Array, shape (1,)
+            Step to begin with [s]; 0 where none is known yet. Changed to the next one.
+        used : integer array, shape (1,)
+            Evaluations so far; those of this call are added.
+
+        Raises
+        ------
+        SimulationError
+            If the step collapses or the budget is used up.
+        """
+        y = y.copy()
+        code = _extrapolate(
+            *(self._function, self._index, self.m, self.n, self.root, self.values, t, y, until, rtol, scale, state),
+            *(self.budget, used),
+        )
+        if code == 1:
+            raise OverBudgetError(f"the reference takes more than {self.budget:.3g} evaluations")
+        if code == 2 or not np.all(np.isfinite(y)):
+            raise SimulationError(f"the reference motion cannot be integrated beyond t = {t:.6g} s")
+        return y
+
+    # -- formulas ------------------------------------------------------------------------------------------------------
+
+    def _parameter_symbols(self) -> dict[str, Any]:
+        return {p.name: symbol for p, symbol in zip(self.mechanism.parameters, self.symbols, strict=True)}
+
+    def _weight(self, i: int, mass: Expr, gravity: Expr) -> Any:
+        return self._expression(mass) * self._expression(gravity)
+
+    def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
+        """Return the outputs as a compiled function (t, q, v, p, out)."""
+        shared, results = sp.cse(outputs, symbols=sp.numbered_symbols("x"), order="canonical")
+        names = [*(f"q{i} = q[{i}]" for i in range(self.n)), *(f"v{i} = v[{i}]" for i in range(self.n))]
+        names += [f"p{i} = p[{i}]" for i in range(len(self.symbols))]
+        lines = ["def equations(t, q, v, p, out):", *names]
+        lines += [f"{symbol} = {sp.pycode(e)}" for symbol, e in shared]
+        lines += [f"out[{i}] = {sp.pycode(e)}" for i, e in enumerate(results)]
+        space: dict[str, Any] = {"math": math}
+        for table in self.mechanism.tables:
+            space |= _table_functions(table)
+        exec("\n    ".join([*lines, "return 0"]), space)  # SymPy's own printing of a checked mechanism
+        signature = types.int64(_F8, _A, _A, _A, _A)
+        function: Callable[..., Any] = numba.njit(signature, error_model="numpy", nogil=True)(space["equations"])
+        return function
+
+
+def _table_functions(table: Table) -> dict[str, Any]:
+    x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
+
+    def value(at: float) -> Any:
+        return np.interp(at, x, y)
+
+    def slope(at: float) -> Any:
+        if at <= x[0] or at >= x[-1]:
+            return 0.0
+        i = np.searchsorted(x, at, side="right")
+        return (y[i] - y[i - 1]) / (x[i] - x[i - 1])
+
+    inlined = numba.njit(error_model="numpy")
+    return {f"table_{table.name}": inlined(value), f"slope_{table.name}": inlined(slope)}
+
+
+@jit(types.Array(_F8, 1, "C")(types.Array(_F8, 2, "C"), _A))
+def _shortest(a: Any, b: Any) -> Any:
+    """Return the shortest x with A x = b: by Householder's QR of A^T, or by singular values where rows depend."""
+    m = a.shape[0]
+    if m <= a.shape[1]:
+        basis, r = np.linalg.qr(np.ascontiguousarray(a.T))
+        smallest, largest = np.inf, 0.0
+        for i in range(m):
+            smallest, largest = min(smallest, abs(r[i, i])), max(largest, abs(r[i, i]))
+        if smallest > 1e-7 * largest:
+            z = np.zeros(m)
+            for i in range(m):
+                z[i] = b[i]
+                for j in range(i):
+                    z[i] -= r[j, i] * z[j]
+                z[i] /= r[i, i]
+            x = np.zeros(a.shape[1])
+            for j in range(a.shape[1]):
+                for i in range(m):
+                    x[j] += basis[j, i] * z[i]
+            return x
+    return np.linalg.lstsq(a, b, CUTOFF)[0]
+
+
+@jit(types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A))
+def _rate(function: Any, index: Any, m: int, n: int, root: Any, p: Any, t: float, y: Any, rate: Any) -> None:
+    """Set ``rate`` to (v, v'), v' by least squares in the metric of M."""
+    k = index.shape[0] // 2
+    out = np.zeros(3 * m + k + n)
+    q, v = y[:n].copy(), y[n:].copy()
+    function(t, q, v, p, out)
+    free = np.zeros(n)
+    for j in range(n):
+        rate[j] = v[j]
+        free[j] = root[j] * out[3 * m + k + j]
+    if m > 0:
+        scaled = np.zeros((m, n))
+        for e in range(k):
+            scaled[index[e], index[k + e]] = out[m + e] * root[index[k + e]]
+        missing = np.zeros(m)
+        for i in range(m):
+            missing[i] = out[2 * m + k + i]
+            for j in range(n):
+                missing[i] -= scaled[i, j] * free[j]
+        finite = True
+        for i in range(m):
+            finite = finite and math.isfinite(missing[i])
+        if finite:
+            free += _shortest(scaled, missing)
+        else:
+            free[:] = np.nan
+    for j in range(n):
+        rate[n + j] = root[j] * free[j]
+
+
+@jit(types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I))
+def _extrapolate(
+    function: Any,
+    index: Any,
+    m: int,
+    n: int,
+    root: Any,
+    p: Any,
+    t: float,
+    y: Any,
+    until: float,
+    rtol: float,
+    scale: Any,
+    state: Any,
+    budget: int,
+    used: Any,
+) -> int:
+    """Integrate y to ``until``; return 0, 1 (budget used up) or 2 (the step collapses)."""
+    size = y.shape[0]
+    first, rate = np.zeros(size), np.zeros(size)
+    table = np.zeros((COLUMNS, size))
+    step = state[0] if state[0] > 0.0 else 1e-3 * (until - t)
+    smallest = max(1e-16 * max(until, abs(t)), COLLAPSE * (until - t))
+    while t < until:
+        last = step >= until - t
+        h = until - t if last else step
+        _rate(function, index, m, n, root, p, t, y, first)
+        used[0] += 1
+        for row in range(COLUMNS):
+            count = 2 * (row + 1)
+            small = h / count
+            before = y.copy()
+            now = y + small * first
+            for i in range(1, count):
+                _rate(function, index, m, n, root, p, t + i * small, now, rate)
+                now, before = before + 2.0 * small * rate, now
+            _rate(function, index, m, n, root, p, t + h, now, rate)
+            used[0] += count
+            # the smoothing that keeps the expansion in even powers of the small step
+            value = 0.5 * (now + before + small * rate)
+            for column in range(row):  # Neville's scheme: table[j] is T[row - 1, j] and becomes T[row, j]
+                ratio = (count / (2.0 * (row - column))) ** 2
+                better = value + (value - table[column]) / (ratio - 1.0)
+                table[column, :] = value
+                value = better
+            table[row, :] = value
+        error = 0.0
+        for i in range(size):
+            weight = rtol * max(scale[i], abs(y[i]))
+            error = max(error, abs(table[COLUMNS - 1, i] - table[COLUMNS - 2, i]) / weight)
+        factor = 0.1
+        if math.isfinite(error):
+            factor = 4.0 if error == 0.0 else min(4.0, max(0.2, 0.85 * error ** (-1.0 / (2.0 * COLUMNS - 1.0))))
+            if error <= 1.0:
+                y[:] = table[COLUMNS - 1]
+                t = until if last else t + h
+        if not last or factor < 1.0:
+            step = h * factor
+        if used[0] > budget:
+            return 1
+        if step < smallest:
+            return 2
+    state[0] = step
+    return 0
+
+
+# -- a motion ----------------------------------------------------------------------------------------------------------
+
+
+def motion(
+    equations: CompiledEquations, q: Array, v: Array, times: Array, progress: Callable[[float], None] | None = None
+) -> Reference:
+    """Return the reference motion from a start that is consistent within rounding.
+
+    Parameters
+    ----------
+    equations : CompiledEquations
+        With the parameters set.
+    q, v : Array, shapes (nq,), (nv,)
+        The start.
+    times : Array
+        Where the motion is wanted [s], increasing from 0.
+    progress : callable, optional
+        Called with the fraction that is done.
+
+    Raises
+    ------
+    SimulationError
+        If the motion cannot be integrated within the budget, e.g. into a singularity.
+    """
+    say = progress or (lambda done: None)
+    y = equations.project(0.0, np.concatenate([q, v]))
+    d = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[1] * equations.root
+    equations.dependent = bool(np.linalg.matrix_rank(d, CUTOFF * np.linalg.norm(d)) < equations.m) if d.size else False
+    stiff = is_stiff(equations, y, float(times[-1]))
+    scale = _scale(y, equations.n)
+    integrate = by_radau if stiff else _by_extrapolation
+    attempts = [(STIFF_FINE, STIFF_COARSE)] if stiff else [(FINE, COARSE), (ROUGH_FINE, ROUGH_COARSE)]
+    for tolerances in attempts:
+        try:
+            fine = integrate(equations, y, times, tolerances[0], 1, lambda done: say(0.6 * done), scale)
+            coarse = integrate(equations, y, times, tolerances[1], 2, lambda done: say(0.6 + 0.4 * done), scale)
+            break
+        except SimulationError:
+            if tolerances == attempts[-1]:
+                raise
+    estimated = Points.of(equations.mechanism, equations.parameters).distance(fine, coarse)
+    scheme = "SciPy's Radau" if stiff else "Gragg's extrapolation of order 16"
+    how = (
+        f"independently derived equations, {scheme} at {tolerances[0]:g}, projected at every output; "
+        f"estimated from a second run at {tolerances[1]:g}"
+    )
+    return Reference(how, max(estimated, 1e-14), times, fine)
+
+
+Walk = Callable[[float], None]
+
+
+def _by_extrapolation(
+    equations: CompiledEquations, y: Array, times: Array, rtol: float, every: int, progress: Walk, scale: Array
+) -> Array:
+    """Return q at `times`; every `every`-th output is projected."""
+    step, used = np.zeros(1), np.zeros(1, dtype=np.int64)
+    result = np.empty((len(times), equations.n))
+    t = 0.0
+    for k, following in enumerate(times):
+        if following > t:
+            y = equations.advance(t, y, float(following), rtol, scale, step, used)
+            t = float(following)
+        if k % every == 0:
+            y = equations.project(t, y)
+        result[k] = y[: equations.n]
+        progress(t / float(times[-1]))
+    return result
+
+
+def _scale(y: Array, n: int) -> Array:
+    """Return the size that errors of each component are measured by: 1 m or rad, and at least 1 m/s or rad/s."""
+    scale = np.maximum(np.abs(y), 1.0)
+    scale[n:] = np.maximum(scale[n:], float(np.abs(y[n:]).max(initial=0.0)))
+    return scale

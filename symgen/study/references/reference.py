@@ -1,0 +1,356 @@
+"""References: the motion as exactly as it can be had, by routes that share nothing with the emitted code.
+
+A mechanism of the catalogue for which `CLOSED` knows a formula, or an equation in one coordinate, gets that; every
+other one is integrated by SciPy's DOP853 at a tight tolerance from independently derived equations, projected at each
+output, twice with different tolerances and segments, the difference of the two being the estimated error. Where the
+motion comes near a singular position, constant steps lead through, and two runs whose steps fall differently have to
+agree (`symgen.study.references.passing`); where they do not, the reference says so. Another of SciPy's solvers can be
+asked for, for every mechanism: then schemes, too, are others than symgen's.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import Mechanism
+from symgen.errors import InputError, SimulationError
+from symgen.result.agreement import AGREEMENT
+from symgen.result.points import Points
+from symgen.study.references.closed_space import CLOSED_SPACE
+from symgen.study.references.passing import FAILURES, Watch, pass_through
+from symgen.study.references.solvers import AUTO, SOLVERS, check_solver, in_one_go, jacobian_for
+
+if TYPE_CHECKING:
+    from symgen.study.references.independent import IndependentEquations
+
+Array = NDArray[np.float64]
+
+#: Steps below this fraction of the mean one, so many in a row, do not get anywhere: a singular position.
+COLLAPSE, PATIENCE = 1e-3, 30
+#: Two runs through singular positions that agree by chance understate their error; it was up to five times the
+#: difference with `n-four-bar`, whose exact motion is known.
+DOUBT = 5.0
+
+
+@dataclass(frozen=True)
+class Reference:
+    """A motion to compare with.
+
+    Attributes
+    ----------
+    how : str
+        Where it comes from, one sentence.
+    estimated_error : float
+        How far its points may be off [m].
+    times, q : Array, shapes (k,), (k, nq)
+        Times [s] and coordinates.
+    note : str
+        One sentence where two runs with different steps part at a singular position: what errors mean then. Empty
+        where there is nothing to say.
+    """
+
+    how: str
+    estimated_error: float
+    times: Array
+    q: Array
+    note: str = ""
+
+
+#: Called with how far the work is, from 0 to 1.
+Progress = Callable[[float], None]
+
+
+def reference(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    q: Array,
+    v: Array,
+    times: Array,
+    progress: Progress | None = None,
+    solver: str = AUTO,
+) -> Reference:
+    """Return the reference motion of a mechanism.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What moves.
+    parameters : mapping
+        Values of all parameters.
+    q, v : Array, shapes (nq,), (nv,)
+        Consistent start.
+    times : Array
+        Where the motion is wanted [s], increasing from 0 or later.
+    progress : callable, optional
+        Called with the fraction that is done.
+    solver : str
+        ``auto``, or one of `SOLVERS`.
+
+    Raises
+    ------
+    InputError
+        If there is no such solver.
+    SimulationError
+        If the motion cannot be integrated, e.g. into a singularity.
+    """
+    if check_solver(solver) != AUTO:
+        return integrated(mechanism, parameters, q, v, times, progress, solver)
+    closed = closed_form(mechanism)
+    if closed is not None:
+        how, estimated, motion = closed(mechanism, parameters, q, times)
+        return Reference(how, estimated, times, motion)
+    return integrated(mechanism, parameters, q, v, times, progress)
+
+
+def closed_form(mechanism: Mechanism) -> Callable[[Mechanism, Mapping[str, float], Array, Array], Closed] | None:
+    """Return the formula for the motion of a mechanism of the catalogue, None where there is none."""
+    closed = CLOSED.get(_family(mechanism))
+    return closed if closed is not None and _from_catalogue(mechanism) else None
+
+
+def _family(mechanism: Mechanism) -> str:
+    return "n-four-bar" if mechanism.name.startswith("n-four-bar-") else mechanism.name
+
+
+def _from_catalogue(mechanism: Mechanism) -> bool:
+    """Whether a mechanism is the one of the catalogue, not another of the same name."""
+    from symgen.describe.load import load
+
+    family = _family(mechanism)
+    size = mechanism.name.removeprefix("n-four-bar-")
+    try:
+        return load(f"{family}:{size}" if family == "n-four-bar" else family) == mechanism
+    except InputError:
+        return False
+
+
+# -- formulas ----------------------------------------------------------------------------------------------------------
+
+Closed = tuple[str, float, Array]
+
+
+def pendulum(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """Released at rest at x = -1: sin(phi / 2) = k cd(w t, k^2), phi from the downward vertical, k = sin(phi_0 / 2)."""
+    from scipy.special import ellipj, ellipk
+
+    length, gravity = 1.0, 9.81
+    phi0 = math.atan2(q[0], -q[1])
+    k = math.sin(phi0 / 2.0)
+    # whole periods are taken off first: the functions lose digits with the size of their argument
+    u = np.remainder(math.sqrt(gravity / length) * times, 4.0 * ellipk(k * k))
+    _, cn, dn, _ = ellipj(u, k * k)
+    phi = 2.0 * np.arcsin(k * cn / dn)
+    motion = length * np.column_stack([np.sin(phi), -np.cos(phi)])
+    return "Jacobi's elliptic functions", 1e-14 * max(100.0, float(times[-1])), motion
+
+
+def n_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """((N + 1) / 3 + N) theta'' = g ((N + 1) / 2 + N) sin(theta), theta clockwise from the upward vertical."""
+    from scipy.integrate import solve_ivp
+
+    n = int(mechanism.name.removeprefix("n-four-bar-"))
+    factor = 9.81 * ((n + 1) / 2 + n) / ((n + 1) / 3 + n)
+
+    def solve(rtol: float) -> Array:
+        def rate(_: float, y: Array) -> list[float]:
+            return [y[1], factor * math.sin(y[0])]
+
+        end = float(times[-1])
+        # short steps: interpolation to the output times must not be what limits the accuracy
+        found = solve_ivp(rate, (0.0, end), [0.0, 1.0], "DOP853", times, rtol=rtol, atol=rtol, max_step=0.01)
+        return np.asarray(found.y[0], dtype=float)
+
+    theta = solve(3e-14)
+    s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
+    columns: list[Array] = []
+    for body in mechanism.bodies:
+        if body.name.startswith("vertical"):
+            i = int(body.name.removeprefix("vertical"))
+            columns += [i + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+        else:
+            i = int(body.name.removeprefix("coupler"))
+            columns += [i + 0.5 + s, c, zero]
+    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
+    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
+
+
+def driven_four_bar(mechanism: Mechanism, parameters: Mapping[str, float], q: Array, times: Array) -> Closed:
+    """Crank angle as prescribed; the joint of coupler and rocker where two circles meet, on the side of the start."""
+    crank, coupler, rocker, base = 2.0, 8.0, 5.0, 10.0
+    theta = parameters["crank_start"] + parameters["crank_speed"] * times
+    bx, by = crank * np.cos(theta), crank * np.sin(theta)
+    dx, dy = base - bx, -by
+    d = np.hypot(dx, dy)
+    along = (d**2 + coupler**2 - rocker**2) / (2.0 * d)
+    across = np.sqrt(coupler**2 - along**2)
+    # q holds crank x, y, theta, coupler x, y, theta, ...: on which side of the line from B to D the coupler lies
+    b0 = crank * np.array([math.cos(parameters["crank_start"]), math.sin(parameters["crank_start"])])
+    side = math.copysign(1.0, (base - b0[0]) * (q[4] - b0[1]) + b0[1] * (q[3] - b0[0]))
+    cx = bx + (along * dx - side * across * dy) / d
+    cy = by + (along * dy + side * across * dx) / d
+    coupler_angle = np.unwrap(np.arctan2(cy - by, cx - bx))
+    rocker_angle = np.unwrap(np.arctan2(cy, cx - base))
+    motion = np.column_stack(
+        [bx / 2, by / 2, theta, (bx + cx) / 2, (by + cy) / 2, coupler_angle, (base + cx) / 2, cy / 2, rocker_angle]
+    )
+    return "closed form: the prescribed crank and the intersection of two circles", 1e-13, motion
+
+
+#: Mechanism of the catalogue -> formula.
+CLOSED: Mapping[str, Callable[[Mechanism, Mapping[str, float], Array, Array], Closed]] = {
+    "driven-four-bar": driven_four_bar,
+    "n-four-bar": n_four_bar,
+    "pendulum": pendulum,
+    **CLOSED_SPACE,
+}
+
+
+# -- any mechanism -----------------------------------------------------------------------------------------------------
+
+
+def integrated(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    q: Array,
+    v: Array,
+    times: Array,
+    progress: Progress | None = None,
+    solver: str = "scipy-dop853",
+) -> Reference:
+    """Integrate independently derived equations twice; arguments as for `reference`."""
+    from symgen.study.references.independent_space import independent_equations
+
+    name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
+    equations = independent_equations(mechanism, parameters)
+    y = equations.project(0.0, equations.state(q, v))
+
+    def part(first: float, share: float) -> Progress:
+        return lambda done: None if progress is None else progress(first + share * done)
+
+    if not goes_on:
+        fine = in_one_go(equations, y, times, name, fine_tolerance, part(0.0, 0.6))
+        coarse = in_one_go(equations, y, times, name, coarse_tolerance, part(0.6, 0.4))
+    else:
+        watch, sizes = Watch(equations, y), list[float]()
+        try:
+            fine = _integrate(equations, y, times, name, fine_tolerance, 1, True, part(0.0, 0.5), watch, sizes)
+        except _CollapsedError:
+            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
+        if watch.passed:
+            return _through(mechanism, parameters, equations, y, times, sizes, part(0.5, 0.5))
+        coarse = _integrate(equations, y, times, name, coarse_tolerance, 3, False, part(0.5, 0.5))
+    estimated = Points.of(mechanism, parameters).distance(fine, coarse)
+    how = (
+        f"independently derived equations, SciPy {name} at {fine_tolerance:g}, projected at every output; "
+        f"estimated from a second run at {coarse_tolerance:g}"
+    )
+    return Reference(how, max(estimated, 1e-14), times, fine)
+
+
+def _usual(sizes: list[float]) -> float:
+    """Return the step by which half of the time was covered: steps that collapsed are many but cover nothing."""
+    ordered = np.sort(np.array(sizes))
+    covered = np.cumsum(ordered)
+    return float(ordered[int(np.searchsorted(covered, 0.5 * covered[-1]))])
+
+
+class _CollapsedError(SimulationError):
+    """Steps became too small to get anywhere, or the state is not finite: a singular position lies ahead."""
+
+
+def _through(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    sizes: list[float],
+    progress: Progress,
+) -> Reference:
+    """Return the reference of a motion that comes near singular positions."""
+    step = _usual(sizes) if sizes else float(times[-1]) / 1000.0
+    found = pass_through(equations, y, times, step, Points.of(mechanism, parameters), progress)
+    how = (
+        f"independently derived equations, SciPy DOP853 at constant steps near {step:.2g} s, projected after every "
+        f"step, through singular positions; estimated from {found.runs} runs whose steps fall differently"
+    )
+    note = ""
+    if found.parted is not None:
+        note = (
+            f"the two reference runs that agree best part by more than {AGREEMENT:g} of the mechanism's size at "
+            f"t = {found.parted:.4g} s, behind a singular position: from there on it is not known which branch the "
+            "motion takes, and errors are distances to one of them"
+        )
+    return Reference(how, max(DOUBT * found.difference, 1e-14), times, found.q, note)
+
+
+def _integrate(
+    equations: IndependentEquations,
+    y: Array,
+    times: Array,
+    name: str,
+    rtol: float,
+    every: int,
+    mass_weighted: bool,
+    progress: Progress,
+    watch: Watch | None = None,
+    sizes: list[float] | None = None,
+) -> Array:
+    """Return q at `times`; steps end at the outputs, and every `every`-th output is projected and gone on from.
+
+    A `watch` sees every step; `sizes` collects their lengths [s].
+    """
+    import scipy.integrate
+
+    n = equations.n
+    scale = np.maximum(np.abs(y), 1.0)
+    motion = np.empty((len(times), n))
+    solver: Any = None  # SciPy's types know neither arrays of tolerances nor that a step changes the status
+    make: Any = getattr(scipy.integrate, name)
+    usual, steps, tiny = 0.0, 0, 0
+    end = float(times[-1]) if len(times) else 0.0
+    for k, t in enumerate(times):
+        if t > 0.0:
+            if solver is None:
+                more = jacobian_for(equations, name)
+                solver = make(equations.rate, 0.0, y, float(t), rtol=rtol, atol=rtol * scale, **more)
+            else:
+                solver.t_bound, solver.status = float(t), "running"
+                # the step before an output is cut short; going on with it would waste evaluations
+                solver.h_abs = max(solver.h_abs, usual)
+            while solver.status == "running":
+                before = solver.h_abs
+                try:
+                    message = solver.step()
+                except FAILURES as error:
+                    where = f"t = {solver.t:.6g} s"
+                    raise _CollapsedError(
+                        f"the reference motion cannot be integrated beyond {where}: the state is not finite"
+                    ) from error
+                steps += 1
+                # of steps that are cut short before an output there is one in a row; many tiny ones lead nowhere
+                tiny = (
+                    tiny + 1 if solver.step_size is not None and solver.step_size < COLLAPSE * solver.t / steps else 0
+                )
+                if solver.status == "failed" or tiny >= PATIENCE or not np.all(np.isfinite(solver.y)):
+                    reason = message or ("the step size collapses" if tiny else "the state is not finite")
+                    where = f"t = {solver.t:.6g} s"
+                    raise _CollapsedError(f"the reference motion cannot be integrated beyond {where}: {reason}")
+                if watch is not None and sizes is not None:
+                    watch.see(float(solver.t), solver.y)
+                    sizes.append(float(solver.step_size))
+                usual = before if solver.status == "finished" else solver.h_abs
+            if k % every == 0:
+                solver.y = equations.project(float(t), solver.y, mass_weighted)
+                solver.f = solver.fun(float(t), solver.y)
+            y = solver.y
+        motion[k] = y[:n]
+        if end > 0.0:
+            progress(float(t) / end)
+    return motion

@@ -1,0 +1,1 @@
+"""Stress: which methods stay stable on stiff and extreme cases."""

@@ -1,0 +1,273 @@
+"""Mechanisms to be stressed: a base model with handles that are turned at run time, one module for many cases.
+
+What compiles anew is what costs: a spring-damper, a factor on a body's mass and a factor on gravity are added as
+parameters that change nothing until they are set, and starts may change freely, since they are outside the digest.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from symgen.describe.evaluate import evaluate
+from symgen.describe.load import read_raw
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.validate import validate
+from symgen.errors import SymgenError
+from symgen.forces import FORCES
+
+#: Handles of a stressed mechanism and their neutral values.
+STIFFNESS, DAMPING, FREE_LENGTH = "stress_stiffness", "stress_damping", "stress_free_length"
+MASS, GRAVITY = "stress_mass", "stress_gravity"
+HANDLES: Mapping[str, tuple[float, str]] = {
+    STIFFNESS: (0.0, "N/m"),
+    DAMPING: (0.0, "N s/m"),
+    FREE_LENGTH: (1.0, "m"),
+    MASS: (1.0, "1"),
+    GRAVITY: (1.0, "1"),
+}
+#: Nominal runs last this many of the mechanism's own steps.
+NOMINAL_STEPS = 1000
+#: Standard gravity where a base has none [m/s^2].
+STANDARD_GRAVITY = 9.81
+
+
+class NotApplicable(SymgenError):
+    """A family has no case for a base model; the text says why."""
+
+
+@dataclass(frozen=True)
+class Level:
+    """One case of a family, to be run with many methods.
+
+    Attributes
+    ----------
+    family, label : str
+        Which family, and the case in words.
+    values : tuple of float
+        What is varied: one number, or two for a plane.
+    mechanism : Mechanism
+        What moves.
+    parameters : mapping
+        Values that differ from the mechanism's own.
+    until, step : float
+        End, and step of integrators with constant steps [s].
+    outputs : int
+        Output times after the start.
+    options : mapping
+        Options of methods and integrators, ``method.penalty`` and the like.
+    methods : tuple of str or None
+        Only these; None for all.
+    pairs : tuple of (str, str) or None
+        Only these methods with these integrators.
+    constant_steps : bool
+        Only integrators with constant steps: the step is what is varied.
+    spring_end : tuple of float or None
+        Where the body's coordinates begin and where the fixed end is [m], for a spring that is unloaded at the start.
+    watched : bool
+        Whether the run watches its own violations and energy; off where stability alone is asked for.
+    closed : str or None
+        What has a closed form to compare with: a catalogue entry, or ``"parallelogram"``.
+    """
+
+    family: str
+    label: str
+    values: tuple[float, ...]
+    mechanism: Mechanism
+    until: float
+    step: float
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    outputs: int = 50
+    options: Mapping[str, float | str] = field(default_factory=dict)
+    methods: tuple[str, ...] | None = None
+    pairs: tuple[tuple[str, str], ...] | None = None
+    constant_steps: bool = False
+    spring_end: tuple[float, ...] | None = None
+    watched: bool = True
+    closed: str | None = None
+
+
+@dataclass(frozen=True)
+class Base:
+    """A model of the catalogue or of a file as the origin of stressed mechanisms.
+
+    Attributes
+    ----------
+    name : str
+        As typed.
+    raw : dict
+        Its description as nested tables.
+    """
+
+    name: str
+    raw: dict[str, Any]
+
+    @classmethod
+    def of(cls, model: str | Path) -> Base:
+        """Read a catalogue entry or a file.
+
+        Raises
+        ------
+        InputError
+            If there is no such model or it is wrong.
+        """
+        raw, _ = read_raw(model)
+        base = cls(str(model), raw)
+        _ = base.mechanism  # refuses what is wrong
+        return base
+
+    @cached_property
+    def mechanism(self) -> Mechanism:
+        """The base itself."""
+        return validate(self.raw, self.name)
+
+    @cached_property
+    def stressed(self) -> Mechanism:
+        """The base with all handles."""
+        return self.build({})
+
+    @property
+    def step(self) -> float:
+        """Step of the base [s]."""
+        return self.mechanism.defaults.step
+
+    @property
+    def nominal(self) -> float:
+        """Length of a nominal run [s]."""
+        defaults = self.mechanism.defaults
+        return min(defaults.until, defaults.predictable_until or math.inf, NOMINAL_STEPS * defaults.step)
+
+    @property
+    def closed(self) -> str | None:
+        """The base's own name if there is a closed form of its motion."""
+        from symgen.study.references.reference import closed_form
+
+        return self.name if closed_form(self.mechanism) is not None else None
+
+    @property
+    def middle(self) -> str:
+        """The body in the middle of the list: it carries the spring and the factor on its mass."""
+        names = [body.name for body in self.mechanism.bodies]
+        return names[len(names) // 2]
+
+    def level(self, family: str, label: str, *values: float, **changes: Any) -> Level:
+        """Return a case: the stressed mechanism, nominal length and step, but for `changes`."""
+        settings: dict[str, Any] = {"mechanism": self.stressed, "until": self.nominal, "step": self.step} | changes
+        return Level(family, label, values, **settings)
+
+    def build(self, change: Mapping[str, Any], suffix: str = "stressed") -> Mechanism:
+        """Return the stressed mechanism with further entries.
+
+        Parameters
+        ----------
+        change : mapping
+            Section -> name -> table, merged into the description; keys of a table that is there are replaced, and None
+            takes a key away.
+        suffix : str
+            Goes after the name; mechanisms with other equations need other names.
+        """
+        raw = copy.deepcopy(self.raw)
+        raw["mechanism"]["name"] = f"{raw['mechanism']['name']}-{suffix}"
+        raw.setdefault("parameters", {}).update(
+            {name: {"value": value, "unit": unit} for name, (value, unit) in HANDLES.items()}
+        )
+        heavy = raw["bodies"][self.middle]
+        for key in ("mass", "inertia"):
+            given = heavy.get(key, 0.0)
+            if isinstance(given, list):  # the inertia of a spatial body
+                heavy[key] = [f"({_text(x)})*{MASS}" if x != 0.0 else 0.0 for x in given]
+            elif given != 0.0:
+                heavy[key] = f"({_text(given)})*{MASS}"
+        dimensions = len(self.anchor)
+        gravity = raw["mechanism"].get("gravity", [0.0] * dimensions)
+        if any(component != 0.0 for component in gravity):
+            raw["mechanism"]["gravity"] = [f"({_text(g)})*{GRAVITY}" if g != 0.0 else 0.0 for g in gravity]
+        else:
+            raw["parameters"][GRAVITY]["value"] = 0.0
+            raw["mechanism"]["gravity"] = [0.0, f"-{STANDARD_GRAVITY}*{GRAVITY}", 0.0][:dimensions]
+        if self.has_spring:
+            raw.setdefault("forces", {})["stress_spring"] = {
+                "type": "spring-damper",
+                "between": ["ground", self.middle],
+                "at": [self.anchor, "centre"],
+                "stiffness": STIFFNESS,
+                "damping": DAMPING,
+                "free_length": FREE_LENGTH,
+            }
+        for section, entries in change.items():
+            for name, table in entries.items():
+                kept = {**raw.setdefault(section, {}).get(name, {}), **table}
+                raw[section][name] = {key: value for key, value in kept.items() if value is not None}
+        return validate(raw, f"{self.name} ({suffix})")
+
+    # -- numbers of the base -------------------------------------------------------------------------------------------
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Values of the base's own parameters."""
+        return {p.name: p.value for p in self.mechanism.parameters}
+
+    @cached_property
+    def size(self) -> float:
+        """Half of the largest distance between bodies and points at the start [m], at least 1e-3."""
+        from symgen.result.points import own_length
+
+        places = [self.centre(body.name) for body in self.mechanism.bodies]
+        spread = max(math.dist(a, b) for a in [*places, (0.0,) * len(places[0])] for b in places)
+        return max(1e-3, spread / 2.0, *(own_length(body, self.values) for body in self.mechanism.bodies))
+
+    def centre(self, body: str) -> tuple[float, ...]:
+        """Return about where a body starts [m]: its centre of mass if its frame were not turned."""
+        b = self.mechanism.body(body)
+        pairs = zip(b.position, b.centre_of_mass, strict=True)
+        return tuple(evaluate(x, self.values, body) + evaluate(c, self.values, body) for x, c in pairs)
+
+    @cached_property
+    def anchor(self) -> list[float]:
+        """Fixed end of the spring: from the body's centre along the diagonal, as far as the mechanism is large [m]."""
+        return [round(x + self.size, 6) for x in self.centre(self.middle)]
+
+    @property
+    def has_spring(self) -> bool:
+        """Whether a spring-damper can act in the space of the base."""
+        return self.mechanism.space in FORCES.get("spring-damper").SPACES
+
+    def need_spring(self) -> None:
+        """Say that a family has no case without a spring-damper."""
+        if not self.has_spring:
+            raise NotApplicable(f"there is no spring-damper in {self.mechanism.space} mechanisms")
+
+    @property
+    def spring_end(self) -> tuple[float, ...]:
+        """Where the middle body's coordinates begin, and the spring's fixed end [m]."""
+        first = 0
+        for body in self.mechanism.bodies:
+            if body.name == self.middle:
+                break
+            first += len(body.coordinates)
+        return first, *self.anchor
+
+    @cached_property
+    def gravity(self) -> float:
+        """Acceleration of gravity where its factor is 1 [m/s^2]."""
+        components = [evaluate(e, self.values, "gravity") for e in self.mechanism.gravity]
+        return math.hypot(*components) or STANDARD_GRAVITY
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else repr(float(value))
+
+
+def shown(value: float) -> str:
+    """Return a number as labels show it."""
+    return f"{value:g}"
+
+
+def pick(values: Sequence[float], quick: Sequence[float], is_quick: bool) -> tuple[float, ...]:
+    """Return the values of a family, or those of a quick study."""
+    return tuple(quick if is_quick else values)

@@ -1,0 +1,311 @@
+"""The cells of a stress study: references, single runs, and bisections for the largest step.
+
+Each is one task for a process (`symgen.study.runner`), and its outcome is plain JSON.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.api import Model
+from symgen.auto import AUTO, resolve
+from symgen.describe.evaluate import parameter_values
+from symgen.errors import AssemblyError, InputError
+from symgen.lower.looped.law import is_loopable
+from symgen.plan import Plan, make_plan
+from symgen.result.agreement import settle
+from symgen.result.judge import judge
+from symgen.result.points import Points
+from symgen.result.result import INTERRUPTED
+from symgen.runtime import abi
+from symgen.runtime.run import Outcome, integrate
+from symgen.settings import Settings, default
+from symgen.study.stress import outcome as judged
+from symgen.study.stress.bench import Level
+from symgen.study.stress.effort import budget_of, further_budget, predicted
+from symgen.study.stress.known import KnownModel
+from symgen.study.stress.other_route import EmittedGeometry
+from symgen.study.stress.outcome import Run, classify, largest_error
+from symgen.study.stress.reference import equations_of, reference_of, times_of, without_reference
+
+Array = NDArray[np.float64]
+Fields = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of a run, as in `symgen.Settings`."""
+
+    max_violation: float = default("max_violation")
+    max_energy_error: float = default("max_energy_error")
+    max_steps: float | None = None
+
+
+#: Of a run that watches itself, by default, and of one that does not.
+WATCHED, UNWATCHED = Limits(), Limits(1e30, 1e30)
+#: How a loop ends that stopped itself although it could have gone on.
+WATCHES = (abi.POSITION, abi.VELOCITY, abi.ENERGY)
+#: The search for the largest step: factor of the scan, halvings afterwards, and how far it goes down from the step.
+SCAN, HALVINGS, SMALLEST = 4.0, 7, 4096.0
+
+
+@dataclass(frozen=True)
+class ReferenceTask:
+    """Compute the motion that a case is compared with."""
+
+    level: Level
+
+
+@dataclass(frozen=True)
+class RunTask:
+    """Run a case with a method and an integrator; `reference` is the outcome of its `ReferenceTask`.
+
+    `limits` are those of a run that watches itself.
+    """
+
+    level: Level
+    method: str
+    integrator: str
+    reference: Fields
+    limits: Limits = WATCHED
+
+
+@dataclass(frozen=True)
+class LimitTask:
+    """Find the largest constant step of a method and an integrator for a case."""
+
+    level: Level
+    method: str
+    integrator: str
+    reference: Fields
+
+
+def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
+    """Compute a cell; see the classes of tasks."""
+    if isinstance(task, ReferenceTask):
+        return reference_of(task.level)
+    if isinstance(task, RunTask):
+        return _run(task.level, task.method, task.integrator, task.reference, task.limits).to_json()
+    return _limit(task)
+
+
+# -- runs --------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class RunFields:
+    """What a run of a case gave; the fields of a row that depend on the run."""
+
+    outcome: str
+    error: float | None
+    status: str
+    reason: str | None
+    evaluations: int
+    position_violation_max: float | None
+    velocity_violation_max: float | None
+    energy_drift_max: float | None
+    chosen: str
+    note: str
+
+    def to_json(self) -> Fields:
+        """Return what JSON can express; numbers that are not finite are None."""
+        fields = dict(self.__dict__)
+        return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in fields.items()}
+
+
+def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> RunFields:
+    return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
+
+
+def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limits = WATCHED) -> RunFields:
+    """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
+    why = without_reference(known)
+    if why is not None:
+        return _nothing(judged.UNJUDGED, why)
+    model = KnownModel(level.mechanism)
+    watched = limits if level.watched else replace(UNWATCHED, max_steps=limits.max_steps)
+    parameters = {**level.parameters, **known.get("parameters", {})}
+    settings = Settings(
+        method=method,
+        integrator=integrator,
+        step=None if integrator == AUTO else level.step,
+        until=level.until,
+        times=times_of(level),
+        parameters=parameters,
+        options=level.options,
+        **asdict(watched),
+    )
+    try:
+        settings, plan = _planned(model, settings)
+        budget = budget_of(plan, level.mechanism)
+        chosen = f"{plan.choice.method.name}, {plan.tableau.name}" if method == AUTO else ""
+        least = predicted(plan, known["decay"])
+        if least > budget:
+            what = "at least " if plan.spec.adaptive else ""
+            return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
+        compiled, start = model.ready(plan, parameters)
+    except (InputError, AssemblyError) as error:
+        return _nothing(judged.REFUSED, str(error))
+    plan = replace(plan, spec=replace(plan.spec, max_evaluations=budget))
+    outcome = integrate(compiled, plan.tableau, start, plan.spec)
+    second = None
+    if method == AUTO:
+        second = settle(model.mechanism, parameters, plan, compiled, outcome, free=True)
+        plan, outcome = second.plan, second.outcome
+    if outcome.interrupted:
+        raise KeyboardInterrupt
+    if outcome.evaluations > budget or outcome.code == abi.STOPPED:
+        return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
+    verdict = judge(plan, compiled, outcome, second, asked=False)
+    assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
+    run, note = _compared(level, parameters, outcome, known), ""
+    found = classify(run)
+    if outcome.code != abi.DONE:
+        note = f"ended at t = {outcome.end:.4g} s"
+    if outcome.code in WATCHES and found == judged.DIVERGED:
+        # it stopped itself before its error could be seen: what would have become of it says what it was
+        most = further_budget(budget, outcome.evaluations)
+        violation, energy = UNWATCHED.max_violation, UNWATCHED.max_energy_error
+        spec = replace(plan.spec, max_violation=violation, max_energy_error=energy, max_evaluations=most)
+        further = integrate(compiled, plan.tableau, start, spec)
+        if further.interrupted:
+            raise KeyboardInterrupt
+        run = _compared(level, parameters, further, known)
+        found = classify(run)
+        if found == judged.GOOD:
+            found, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
+    return RunFields(
+        outcome=found,
+        error=largest_error(run.errors) if run.reference_error is not None else None,
+        status=verdict.status,
+        reason=verdict.reason,
+        evaluations=outcome.evaluations,
+        position_violation_max=outcome.position_violation_max,
+        velocity_violation_max=outcome.velocity_violation_max,
+        energy_drift_max=outcome.energy_drift_max,
+        chosen=chosen,
+        note=note,
+    )
+
+
+def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
+    """Return settings without ``auto``, and the plan; an adaptive run chooses its own first step.
+
+    The shape is looped where a method has one: it compiles once for all mechanisms, and the runs of a study are short.
+    """
+    settings, _ = resolve(model.mechanism, replace(settings, shape="looped"))
+    settings = replace(settings, shape="straight")
+    plan = make_plan(model.mechanism, settings)
+    if plan.spec.adaptive and settings.step is not None:
+        settings = replace(settings, step=None)
+        plan = make_plan(model.mechanism, settings)
+    if is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
+        plan = replace(plan, choice=replace(plan.choice, shape="looped"))
+    return settings, plan
+
+
+def _points(level: Level, parameters: Mapping[str, float]) -> Points:
+    return Points.of(level.mechanism, parameter_values(level.mechanism, parameters))
+
+
+def _compared(level: Level, parameters: Mapping[str, float], outcome: Outcome, known: Fields) -> Run:
+    """Return what classification asks for."""
+    values, points = parameter_values(level.mechanism, parameters), _points(level, parameters)
+    nq, count = outcome.compiled.info.nq, len(outcome.times)
+    states = outcome.states[:, :nq]
+    with np.errstate(all="ignore"):
+        errors = points.distances(states, np.array(known["q"])[:count])
+    violation = 0.0
+    if not np.all(errors <= judged.ACCURATE):  # the equations are compiled only where it matters
+        violation = math.inf
+        if count and np.all(np.isfinite(outcome.states[-1])):
+            planar = level.mechanism.space == "planar"
+            equations = equations_of(level, values) if planar else EmittedGeometry(outcome.compiled, outcome.start)
+            v = outcome.states[-1, nq : nq + outcome.compiled.info.nv]
+            phi = equations.evaluate(float(outcome.times[-1]), states[-1].copy(), v.copy())[0]
+            violation = float(np.linalg.norm(phi))
+    return Run(
+        finished=outcome.code == abi.DONE,
+        over_budget=False,
+        errors=errors,
+        sines=np.array(known["sines"]),
+        violation=violation,
+        reference_error=known["estimated_error"],
+        size=known["size"],
+    )
+
+
+# -- the largest step --------------------------------------------------------------------------------------------------
+
+
+def _limit(task: LimitTask) -> Fields:
+    """Find the largest step that follows the motion at all, and the largest one that is accurate."""
+    if without_reference(task.reference) is not None:
+        return {"stable_step": None, "accurate_step": None, "runs": 0}
+    ran: dict[float, tuple[bool, bool]] = {}
+
+    def attempt(step: float) -> tuple[bool, bool]:
+        if step not in ran:
+            level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
+            found = _run(level, task.method, task.integrator, task.reference)
+            lost = judged.LOST * task.reference["size"]
+            error = found.error if found.error is not None and found.note == "" else math.inf
+            ran[step] = error <= lost, error <= judged.ACCURATE
+        return ran[step]
+
+    first = task.level.step
+    stable = largest(lambda h: attempt(h)[0], first, task.level.until)
+    accurate = largest(lambda h: attempt(h)[1], first, task.level.until)
+    return {"stable_step": stable, "accurate_step": accurate, "runs": len(ran)}
+
+
+def _constant(task: LimitTask) -> dict[str, str]:
+    from symgen.integrators import INTEGRATORS
+
+    return {"integrator.adaptive": "false"} if INTEGRATORS.get(task.integrator).adaptive else {}
+
+
+def largest(holds: Callable[[float], bool], first: float, top: float) -> float | None:
+    """Return the largest number below which a condition holds, by a scan upwards and bisection of its logarithm.
+
+    Parameters
+    ----------
+    holds : callable
+        The condition; it need not be monotone: what is found is where it fails for the first time on the way up.
+    first : float
+        Where to begin; smaller ones are tried where it does not hold.
+    top : float
+        Nothing above this is tried.
+
+    Returns
+    -------
+    float or None
+        Exact within 1.1 percent; `top` where it holds everywhere; None where it does not even hold at
+        ``first / SMALLEST``.
+    """
+    low, floor = first, first / SMALLEST
+    while not holds(low):
+        low /= SCAN
+        if low < floor * (1.0 - 1e-9):
+            return None
+    high = low
+    while True:
+        high = min(high * SCAN, top)
+        if not holds(high):
+            break
+        if high >= top:
+            return top
+        low = high
+    for _ in range(HALVINGS):
+        middle = math.sqrt(low * high)
+        if holds(middle):
+            low = middle
+        else:
+            high = middle
+    return low

@@ -1,0 +1,167 @@
+"""What a cell of a stress study may cost, told from a mechanism's size and never by a clock.
+
+Budgets are what small mechanisms may take, and fall as mechanisms grow: with the coordinates for explicit schemes,
+with the third power of a stage's unknowns for implicit ones. That is more than sparse Newton matrices cost, and keeps
+studies of large mechanisms short.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from symgen.auto import AUTO
+from symgen.compiling.choose_shape import STRAIGHT_EACH, STRAIGHT_LEAST
+from symgen.compiling.pipeline import choose_method
+from symgen.integrators import INTEGRATORS
+from symgen.lower.looped.law import is_loopable
+from symgen.methods import METHODS
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.plan import Plan
+
+#: Evaluations that a run of a small mechanism may take: of right-hand sides at constant and at adaptive steps, and of
+#: residuals of implicit stages, which come with Newton's matrices.
+BUDGET, ADAPTIVE_BUDGET, IMPLICIT_BUDGET = 5_000_000, 2_500_000, 100_000
+#: A run that stopped itself goes on without its watch for so many times its evaluations, and for so many at least.
+FURTHER, LEAST_FURTHER = 100, 100_000
+#: Coordinates, and unknowns of an implicit stage, up to which a mechanism is small.
+SMALL, SMALL_STAGE = 15, 30
+#: No budget of implicit stages is below this: some hundred steps.
+LEAST_IMPLICIT = 1_500
+#: Mechanisms of more coordinates get no implicit reference: SciPy's Newton matrices are dense.
+LARGEST_IMPLICIT_REFERENCE = 40
+#: An explicit adaptive run is not begun where the decay at the start asks for so many times its budget.
+HOPELESS = 1.5
+
+
+def coordinates(mechanism: Mechanism) -> int:
+    """Return the number of a mechanism's coordinates."""
+    return sum(len(body.coordinates) for body in mechanism.bodies)
+
+
+def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
+    """Return how many evaluations of a sparse right-hand side may be made, `most` for a small mechanism."""
+    return int(most * min(1.0, SMALL / coordinates(mechanism)))
+
+
+def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
+    """Return how many residuals of implicit stages may be computed, `most` for a small mechanism."""
+    speeds = sum(len(body.speeds) for body in mechanism.bodies)
+    unknowns = 2 * speeds + sum(len(joint.rows) for joint in mechanism.joints)
+    return max(LEAST_IMPLICIT, int(most * min(1.0, (SMALL_STAGE / unknowns) ** 3)))
+
+
+def budget_of(plan: Plan, mechanism: Mechanism) -> int:
+    """Return how many evaluations a run may take."""
+    if is_implicit(plan):
+        return implicit_budget(mechanism)
+    return explicit_budget(mechanism, ADAPTIVE_BUDGET if plan.spec.adaptive else BUDGET)
+
+
+def further_budget(budget: int, used: int) -> int:
+    """Return how many evaluations a run may take that stopped itself after `used`, without its watch.
+
+    Off the constraints steps may become tiny, and iterated methods need many iterations.
+    """
+    return min(budget, max(LEAST_FURTHER, FURTHER * used))
+
+
+def is_implicit(plan: Plan) -> bool:
+    """Whether a run solves for implicit stages."""
+    return plan.choice.implicit and "index-1" in plan.tableau.forms
+
+
+def predicted(plan: Plan, decay: float) -> float:
+    """Return how many evaluations a run takes at least, as far as that is known before.
+
+    Parameters
+    ----------
+    plan : Plan
+        The run.
+    decay : float
+        Fastest decay at the start [1/s].
+
+    Returns
+    -------
+    float
+        Of constant steps their number, one evaluation a stage; of an explicit adaptive run what stability asks for at
+        the start, over `HOPELESS`, as the decay may fall later; 0 where nothing is known.
+    """
+    stages, spec = float(plan.tableau.stages), plan.spec
+    if not spec.adaptive:
+        return 0.0 if spec.step is None else spec.until / spec.step * stages
+    if is_implicit(plan):
+        return 0.0
+    return decay * spec.until / plan.tableau.real_boundary * stages / HOPELESS
+
+
+# -- what is compiled --------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A pair that a mechanism is not run with, because its code would take too long to compile.
+
+    Attributes
+    ----------
+    mechanism : str
+        Name of the mechanism.
+    method, integrator : str
+        The pair.
+    why : str
+        With figures.
+    """
+
+    mechanism: str
+    method: str
+    integrator: str
+    why: str
+
+
+def needs_straight(method: str, integrator: str) -> bool:
+    """Whether a pair has no looped shape, so that it is compiled for each mechanism anew."""
+    if method == AUTO:
+        return False  # what it chooses is known only case by case
+    choice = choose_method(method, {}, not {"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+    return not is_loopable(choice.method, choice.options, choice.implicit)
+
+
+def straight_seconds(mechanism: Mechanism) -> float:
+    """Return about how long the straight code of a method takes to derive and compile [s]."""
+    return STRAIGHT_LEAST + STRAIGHT_EACH * coordinates(mechanism)
+
+
+def left_out(mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float) -> tuple[LeftOut, ...]:
+    """Return the pairs that do not fit into a time of compilation.
+
+    Parameters
+    ----------
+    mechanisms : sequence of Mechanism
+        What is made of a base model and has equations of its own, the base itself first.
+    pairs : sequence of (str, str)
+        Methods with their integrators.
+    seconds : float
+        Expected seconds of compilation that pairs without a looped shape may take together [s]. They are taken in the
+        order of `mechanisms` and `pairs`, those with a method's own integrator first.
+    """
+    wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair)]
+    wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
+    found, spent = [], 0.0
+    for mechanism in mechanisms:
+        each, fits = straight_seconds(mechanism), dict[tuple[str, bool], bool]()
+        for method, integrator in wanted:
+            # explicit integrators share the code of a method
+            stem = method, bool({"ode", "one-step"} & set(INTEGRATORS.get(integrator).forms))
+            if stem not in fits:
+                spent += each
+                fits[stem] = spent <= seconds
+            if not fits[stem]:
+                why = (
+                    f"its code takes about {each:.2g} s to compile for {coordinates(mechanism)} coordinates, and the "
+                    f"{seconds:g} s that are allowed are used up by others"
+                )
+                found.append(LeftOut(mechanism.name, method, integrator, why))
+    return tuple(found)

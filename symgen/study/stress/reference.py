@@ -1,0 +1,195 @@
+"""What the runs of a case are compared with: closed forms, or independent equations with another integrator."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.auto import linearised
+from symgen.describe.digest import digest
+from symgen.describe.load import load as load_mechanism
+from symgen.errors import AssemblyError, InputError, SimulationError
+from symgen.plan import make_plan
+from symgen.result.points import Points
+from symgen.runtime.assembly import state_scales
+from symgen.settings import Settings
+from symgen.study.references.reference import closed_form
+from symgen.study.stress.bench import FREE_LENGTH, Level
+from symgen.study.stress.known import KnownModel
+from symgen.study.stress.outcome import ACCURATE, TRUSTED
+
+if TYPE_CHECKING:
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+
+Array = NDArray[np.float64]
+Fields = dict[str, Any]
+
+#: A start counts as consistent up to this |Phi| and |D v - nu| by the independent equations, times size and speed.
+CONSISTENT = 1e-8
+
+
+def reference_of(level: Level) -> Fields:
+    """Return the motion at the outputs, or why there is none."""
+    try:
+        return _moved(level)
+    except (AssemblyError, InputError, SimulationError) as error:
+        return {"unusable": str(error)}
+
+
+def _moved(level: Level) -> Fields:
+    from symgen.study.references.motion import motion
+    from symgen.study.stress.other_route import EmittedGeometry, agreed
+
+    model = KnownModel(level.mechanism)
+    parameters = model.parameters(level.parameters)
+    settings = Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step, shape="looped")
+    plan = make_plan(model.mechanism, settings)
+    compiled, start = model.ready(plan, parameters)
+    nq, nv = compiled.info.nq, compiled.info.nv
+    q, v = start.y[:nq].copy(), start.y[nq : nq + nv].copy()
+    if level.spring_end is not None:
+        column, fixed = int(level.spring_end[0]), level.spring_end[1:]
+        parameters[FREE_LENGTH] = math.dist(q[column : column + len(fixed)], fixed)
+    planar = level.mechanism.space == "planar"
+    equations: Any = equations_of(level, parameters) if planar else EmittedGeometry(compiled, start)
+    points = Points.of(level.mechanism, parameters)
+    size = _size(points, q[None, :])
+    phi, d, nu = equations.evaluate(0.0, q, v)[:3]
+    speed = max(1.0, float(np.abs(v).max(initial=0.0)))
+    if not (np.linalg.norm(phi) <= CONSISTENT * max(1.0, size) and np.linalg.norm(d @ v - nu) <= CONSISTENT * speed):
+        raise SimulationError("the start does not satisfy the independent equations")
+    times = np.array(times_of(level))
+    how, estimated, moved = _closed(level, parameters, q, times)
+    falling = fastest_decay(compiled, start, level.until)
+    if moved is None:
+        try:
+            found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
+        except SimulationError as error:  # over its budget, or at a singular position
+            if not planar:
+                raise
+            try:
+                found = agreed(model, parameters, times, falling)
+            except SimulationError as other:
+                raise SimulationError(f"{error}; {other}") from None
+        how, estimated, moved = found.how, found.estimated_error, found.q
+    return {
+        "unusable": None,
+        "how": how,
+        "estimated_error": float(estimated),
+        "q": moved.tolist(),
+        "decay": falling,
+        "sines": _sines(equations, times, moved).tolist(),
+        "size": _size(points, moved),
+        "parameters": {
+            name: value for name, value in parameters.items() if name in {**level.parameters, FREE_LENGTH: 0}
+        },
+    }
+
+
+def without_reference(known: Mapping[str, Any]) -> str | None:
+    """Return why the outcome of a reference judges nothing, None where it does."""
+    if known["unusable"] is not None:
+        return str(known["unusable"])
+    if known["estimated_error"] > TRUSTED * ACCURATE:
+        return f"the two reference runs differ by {known['estimated_error']:.2g} m"
+    return None
+
+
+def fastest_decay(compiled: CompiledModel, start: Start, until: float) -> float:
+    """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
+    jacobian = linearised(compiled, start, state_scales(compiled, start.w, until))
+    if not np.all(np.isfinite(jacobian)):
+        return 0.0
+    return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))
+
+
+def times_of(level: Level) -> list[float]:
+    """Return the output times of a case [s]."""
+    return [level.until * k / level.outputs for k in range(level.outputs + 1)]
+
+
+def _size(points: Points, q: Array) -> float:
+    """Return the size of a mechanism [m]: of its largest body, between two bodies, or of the space that one moves in.
+
+    Parameters
+    ----------
+    points : Points
+        Its bodies.
+    q : Array, shape (k, nq)
+        A motion.
+    """
+    places = np.array([q[:, i : i + points.dimension] for i, _ in points.bodies])
+    between = float(np.max(np.ptp(places, axis=0), initial=0.0))
+    travelled = 0.5 * float(np.max(np.ptp(places, axis=1), initial=0.0))
+    return max(1e-6, between, travelled, *(length for _, length in points.bodies))
+
+
+def equations_of(level: Level, parameters: Mapping[str, float]) -> Any:
+    """Return the independent equations of a case; compiled once a process for all cases with the same equations."""
+    from symgen.study.references.motion import CompiledEquations
+
+    key = digest(level.mechanism)
+    if key not in _KNOWN:
+        _KNOWN[key] = CompiledEquations(level.mechanism, parameters)
+    equations = _KNOWN[key]
+    equations.mechanism = level.mechanism
+    equations.set_parameters(parameters)
+    return equations
+
+
+_KNOWN: dict[str, Any] = {}
+
+
+def _closed(level: Level, parameters: Mapping[str, float], q: Array, times: Array) -> tuple[str, float, Array | None]:
+    if level.closed is None:
+        return "", 0.0, None
+    if level.closed == "parallelogram":
+        return parallelogram(times)
+    base = load_mechanism(level.closed)
+    formula = closed_form(base)
+    assert formula is not None, "levels name only what has a closed form"
+    return formula(base, {p.name: parameters[p.name] for p in base.parameters}, q, times)
+
+
+def parallelogram(times: Array) -> tuple[str, float, Array]:
+    """Return the regular branch of crank, coupler and rocker of 1 m and 1 kg, from upright with 1 rad/s to the right.
+
+    (2/3 + 1) theta'' = 2 g sin(theta), theta clockwise from the upward vertical: two rods turn, one is carried.
+    """
+    from scipy.integrate import solve_ivp
+
+    def solve(rtol: float) -> Array:
+        found = solve_ivp(
+            lambda _, y: [y[1], 9.81 * 2.0 / (2.0 / 3.0 + 1.0) * math.sin(y[0])],
+            *((0.0, float(times[-1])), [0.0, 1.0], "DOP853", times),
+            rtol=rtol,
+            atol=rtol,
+            max_step=0.01,
+        )
+        return np.asarray(found.y[0], dtype=float)
+
+    theta = solve(3e-14)
+    s, c, zero = np.sin(theta), np.cos(theta), np.zeros(len(times))
+    columns = [0.5 * s, 0.5 * c, math.pi / 2 - theta, 0.5 + s, c, zero, 1.0 + 0.5 * s, 0.5 * c, math.pi / 2 - theta]
+    estimated = 2.0 * float(np.abs(solve(1e-12) - theta).max(initial=0.0))
+    return "the equation of the regular branch in one coordinate, DOP853 at 3e-14", estimated, np.column_stack(columns)
+
+
+def _sines(equations: Any, times: Array, q: Array) -> Array:
+    """Return the smallest singular value of independent rows, scaled to length 1, as a share of the largest."""
+    if equations.m == 0:
+        return np.ones(len(times))
+    values, rank = [], 0
+    for t, at in zip(times, q, strict=True):
+        d = equations.evaluate(float(t), at, np.zeros(equations.n))[1]
+        lengths = np.linalg.norm(d, axis=1)
+        singular = np.linalg.svd(d / np.where(lengths > 0.0, lengths, 1.0)[:, None], compute_uv=False)
+        rank = rank or int(np.sum(singular > 1e-6))
+        values.append(float(singular[rank - 1]) if rank else 1.0)
+    largest = max(values)
+    return np.array(values) / largest if largest > 0.0 else np.ones(len(times))

@@ -1,0 +1,155 @@
+"""What a stress study gives: rows of the map and of planes, largest steps, and their JSON and CSV."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any, cast
+
+from symgen.files import check_writable, write_csv
+from symgen.result.result import finite
+from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
+from symgen.study.stress.outcome import ACCURATE, counts, false_success
+
+
+@dataclass(frozen=True)
+class Row:
+    """One cell of the map.
+
+    Attributes
+    ----------
+    model, family, case : str
+        Base model (``-`` for a family with a mechanism of its own), family and case in words.
+    values : tuple of float
+        What is varied.
+    method, integrator : str
+        What was run; what ``auto`` chose is in `chosen`.
+    step : float or None
+        Constant step [s].
+    until : float
+        End [s].
+    outcome : str
+        One of `symgen.study.stress.outcome.OUTCOMES`: told by the distance to the reference.
+    error : float or None
+        Largest distance to the reference [m] at the outputs that the run reached.
+    reference_error : float or None
+        How far the reference may be off [m]; None where there is none.
+    status, reason
+        What the run says of itself; ``not run`` where it was refused or predicted to be too slow.
+    evaluations : int
+        Right-hand sides or residuals; the budget where it took more.
+    position_violation_max, velocity_violation_max, energy_drift_max : float or None
+        As of a result.
+    chosen, note : str
+        What ``auto`` chose, and where a run ended early.
+    watched : bool
+        Whether the run watched itself; its status counts only then.
+    """
+
+    model: str
+    family: str
+    case: str
+    values: tuple[float, ...]
+    method: str
+    integrator: str
+    step: float | None
+    until: float
+    outcome: str
+    error: float | None
+    reference_error: float | None
+    status: str
+    reason: str | None
+    evaluations: int
+    position_violation_max: float | None
+    velocity_violation_max: float | None
+    energy_drift_max: float | None
+    chosen: str
+    note: str
+    watched: bool
+
+    @property
+    def false_success(self) -> bool:
+        """Whether the run says ok although its error exceeds 1e-3 m."""
+        return self.watched and false_success(self.status, self.outcome, self.error)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """The largest constant steps of a method on a case [s]; None where the smallest that was tried is too large."""
+
+    model: str
+    family: str
+    case: str
+    method: str
+    integrator: str
+    stable_step: float | None
+    accurate_step: float | None
+    until: float
+
+
+@dataclass(frozen=True)
+class Stress:
+    """What a stress study found.
+
+    Attributes
+    ----------
+    models : tuple of str
+        Base models.
+    rows : tuple of Row
+        Cells of the map and of the planes.
+    limits : tuple of Limit
+        Largest steps.
+    skipped : tuple of (str, str, str)
+        Model, family and why it has no cases.
+    unusable : tuple of (str, str, str, str)
+        Model, family, case and why its reference judges nothing.
+    left_out : tuple of (str, str, str, str)
+        Mechanism, method, integrator and why the pair is not run at all.
+    quick, interrupted : bool
+        Fewer cases were asked for; cells are missing because the study was stopped.
+    """
+
+    models: tuple[str, ...]
+    rows: tuple[Row, ...]
+    limits: tuple[Limit, ...]
+    skipped: tuple[tuple[str, str, str], ...]
+    unusable: tuple[tuple[str, str, str, str], ...]
+    left_out: tuple[tuple[str, str, str, str], ...] = ()
+    quick: bool = False
+    interrupted: bool = False
+
+    @property
+    def false_successes(self) -> tuple[Row, ...]:
+        """Cells in which a run says ok although its error exceeds 1e-3 m."""
+        return tuple(row for row in self.rows if row.false_success)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen stress --json``."""
+        from symgen.study.stress.findings import explained, findings
+
+        contract = {
+            "models": list(self.models),
+            "quick": self.quick,
+            "interrupted": self.interrupted,
+            "accurate": ACCURATE,
+            "budget": {"explicit": BUDGET, "adaptive": ADAPTIVE_BUDGET, "implicit": IMPLICIT_BUDGET},
+            "cells": len(self.rows),
+            "outcomes": counts([row.outcome for row in self.rows]),
+            "rows": [asdict(row) for row in self.rows],
+            "limits": [asdict(limit) for limit in self.limits],
+            "skipped": [dict(zip(("model", "family", "why"), s, strict=True)) for s in self.skipped],
+            "unusable": [dict(zip(("model", "family", "case", "why"), s, strict=True)) for s in self.unusable],
+            "left_out": [
+                dict(zip(("mechanism", "method", "integrator", "why"), s, strict=True)) for s in self.left_out
+            ],
+            "false_successes": [{**asdict(row), "why": explained(row)} for row in self.false_successes],
+            "findings": list(findings(self)),
+        }
+        return cast(dict[str, Any], finite(contract))
+
+
+def save_csv(study: Stress, path: Path) -> Path:
+    """Write the rows of a study to a CSV file; it appears whole or not at all."""
+    check_writable("csv", path)
+    rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
+    return write_csv(path, [f.name for f in fields(Row)], [list(row.values()) for row in rows])
