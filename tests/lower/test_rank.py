@@ -74,10 +74,14 @@ def corrected(equations: Equations, values, d, b, weight=None):
     def formula(system):
         rank = system.rank_factor()
         right = system.variable("right", "m")
-        return [system.solve(rank if weight is None else system.weighted_factor(rank, "mass"), right)]
+        return [rank, system.solve(rank if weight is None else system.weighted_factor(rank, "mass"), right)]
 
-    scalars, (nodes,) = laid_out(equations, formula)
+    scalars, (rank, nodes) = laid_out(equations, formula)
     known = values | {("right", i): float(x) for i, x in enumerate(b)}
+    # what `geometry` leaves for the factor of another metric: D, and the reciprocal pivots that decide rank
+    stored = node_values(scalars.graph, [rank.reciprocal[k] for k in rank.order], known)
+    known |= {("reciprocal", i): float(x) for i, x in enumerate(stored)}
+    known |= {("jacobian", e.slot): float(d[e.row, e.column]) for e in scalars.jacobian}
     y = node_values(scalars.graph, nodes, known)
     return (np.ones(d.shape[1]) if weight is None else weight) * (d.T @ y), np.array(y)
 
