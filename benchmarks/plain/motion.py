@@ -117,7 +117,8 @@ class _Run:
         a, _ = system.accelerations(c, f, self.rank)
         lam, open_ = system.multipliers(c, f, a, self.rank)
         reactions = system.reactions(state, c.d, lam)
-        unique = np.linalg.norm(open_, axis=1) < 1e-6 if len(lam) else np.ones(0, dtype=bool)
+        # by so little of what is open, of the size of the others, a multiplier may differ
+        unique = np.linalg.norm(open_, axis=1) < 1e-10 if len(lam) else np.ones(0, dtype=bool)
         told = np.array([self._told(i, c.d, open_) for i in range(len(system.joints))], dtype=bool)
         motion.unique = unique if motion.unique is None else motion.unique & unique
         motion.unique_reactions = told if motion.unique_reactions is None else motion.unique_reactions & told

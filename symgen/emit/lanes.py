@@ -82,7 +82,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
         expected = "a method that is a formula with at most one correction (--target lanes)"
         raise InputError(f"method '{program.method}'", expected, "one that iterates, or chooses coordinates")
     n_p = program.parameter_offset + len(program.parameters) + program.hoisted
-    bases = bases_of(layout.nq + layout.nv + 1, n_p, layout.nw)
+    bases = bases_of(layout.ny, n_p, layout.nw)
     access = LaneAccess(layout, {}, bases, LANES)
     blocks = {b.name: b for b in (*model.blocks, *program.blocks)}  # a law's own take the place of the model's
     if "refactor" in blocks:

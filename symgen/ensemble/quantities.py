@@ -41,7 +41,7 @@ def known_quantities(info: ModelInfo) -> tuple[Quantity, ...]:
     found += [
         Quantity("energy.kinetic", "J", e.STATUS, abi.KINETIC),
         Quantity("energy.potential", "J", e.STATUS, abi.POTENTIAL),
-        Quantity("energy.work", "J", e.STATE, info.ny - 1),
+        Quantity("energy.work", "J", e.STATE, info.work),
         Quantity("energy.total", "J", e.ENERGY, 0),
         Quantity("energy.error", "J", e.ENERGY_ERROR, 0),
         Quantity("violation.position", "m", e.STATUS, abi.PHI),
@@ -68,7 +68,7 @@ def choose_quantities(info: ModelInfo, names: Sequence[str] | None) -> tuple[Qua
         If a name is not known; says the nearest one.
     """
     known = {q.name: q for q in known_quantities(info)}
-    states = [q for q in known.values() if q.source == e.STATE and q.column < info.ny - 1]
+    states = [q for q in known.values() if q.source == e.STATE and q.column < info.work]
     groups: dict[str, list[Quantity]] = {
         "q": [q for q in states if q.column < info.nq],
         "v": [q for q in states if q.column >= info.nq],

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import assert_never
 
 from symgen.errors import InputError
-from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, multiplier_law
+from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, Tangent, multiplier_law
 from symgen.methods._formula import Factor, Operation, Scalar, Value, Vector
 from symgen.methods._recorder import Recorder
 
@@ -97,8 +98,10 @@ class _Law:
             self.iterated(law)
         elif isinstance(law, Dense):
             self.dense(law)
-        else:
+        elif isinstance(law, Tangent):
             self.tangent()
+        else:
+            assert_never(law)
 
     def rates(
         self,

@@ -59,7 +59,7 @@ def build_result(
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes))
     states, status = outcome.states, outcome.status_columns
-    kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, -1]
+    kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
     return Result(
         mechanism=mechanism.name,

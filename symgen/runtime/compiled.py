@@ -78,6 +78,11 @@ class ModelInfo(msgspec.Struct, frozen=True):
         return len(self.rows)
 
     @property
+    def work(self) -> int:
+        """Index of the work in the state."""
+        return self.nq + self.nv
+
+    @property
     def ny(self) -> int:
         """Length of the state: q, v and the work."""
         return self.nq + self.nv + 1

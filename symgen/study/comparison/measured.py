@@ -71,7 +71,8 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
         energy_drift_max=outcome.energy_drift_max,
         warnings=verdict.warnings,
     )
-    kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], outcome.states[:, -1]
+    kinetic, potential = status[:, abi.KINETIC], status[:, abi.POTENTIAL]
+    work = outcome.states[:, outcome.compiled.info.work]
     trace = Trace(
         t=_digits(outcome.times),
         error=() if distances is None else _digits(distances),
