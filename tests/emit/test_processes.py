@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 from support.emitted import Emitted
 
 from symgen.api import load
@@ -57,6 +58,7 @@ def finished(process) -> str:
     return out
 
 
+@pytest.mark.slow
 def test_the_whole_catalogue_is_emitted_byte_for_byte_alike(tmp_path):
     """Straight, looped with tables, in lanes and for CUDA; all methods for the four-bar.
 

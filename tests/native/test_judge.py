@@ -20,9 +20,7 @@ TESTS = Path(__file__).parents[1]
 QUICK = (
     ("pendulum", ("lagrange", "augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl")),
     ("four-bar", ("direct-correction", "index1-augmented-lagrangian")),
-    ("everything", ("lagrange",)),
     ("rough", ("lagrange",)),
-    ("spatial-slider-crank", ("direct-correction",)),
 )
 
 
@@ -43,6 +41,8 @@ def test_functions_of_small_models(model, methods):
 #: Larger ones, and every method once: minutes, nearly all of them Numba's.
 LONG = (
     *(("slider-crank", (name,)) for name in METHODS),
+    ("everything", ("lagrange",)),
+    ("spatial-slider-crank", ("direct-correction",)),
     ("andrews", ("lagrange",)),
     ("rolling-disc", ("direct-correction",)),
     ("flyball-governor", ("lagrange",)),

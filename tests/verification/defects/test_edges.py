@@ -131,7 +131,12 @@ def entries(cache: Path) -> list[Path]:
     return sorted(p for p in cache.rglob("*") if p.is_file() and p.stat().st_size > 0 and p.parent != cache)
 
 
-@pytest.mark.parametrize("kind", ["fifo", "folder", "link to itself", "unreadable"])
+SLOW = pytest.mark.slow
+
+
+@pytest.mark.parametrize(
+    "kind", ["fifo", *(pytest.param(k, marks=SLOW) for k in ("folder", "link to itself", "unreadable"))]
+)
 def test_something_else_in_place_of_an_entry_is_a_miss(kind: str, tmp_path: Path) -> None:
     cache = tmp_path / "cache"
     expected = filled(cache, tmp_path)
