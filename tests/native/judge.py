@@ -66,6 +66,15 @@ def judged(folder: Path, model: str, methods: tuple[str, ...]) -> list[str]:
     return found
 
 
+def of_file(path: Path) -> list[str]:
+    """Return what differs in function ``f`` of a module."""
+    direct, plain = load_twice(path)
+    return differences(direct.f, plain.f, arguments_of(direct.f), 64, rounds=8)
+
+
 if __name__ == "__main__":
-    with tempfile.TemporaryDirectory() as made:
-        print(*judged(Path(made), sys.argv[1], tuple(sys.argv[2:])), sep="\n")
+    if sys.argv[1].endswith(".py"):
+        print(*of_file(Path(sys.argv[1])), sep="\n")
+    else:
+        with tempfile.TemporaryDirectory() as made:
+            print(*judged(Path(made), sys.argv[1], tuple(sys.argv[2:])), sep="\n")

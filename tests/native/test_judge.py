@@ -6,16 +6,12 @@ sum takes in, and chooses by what stands around it: two right translations of on
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import pytest
 
 from symgen.methods import METHODS
 
-TESTS = Path(__file__).parents[1]
+from .twofold import apart
+
 #: Small models with methods of every kind of law and correction: what the usual tests try.
 QUICK = (
     ("pendulum", ("lagrange", "augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl")),
@@ -24,18 +20,9 @@ QUICK = (
 )
 
 
-def judged(model, methods):
-    """Return what differs in any function of a model and its methods, where nothing can be contracted."""
-    command = [sys.executable, "-m", "native.judge", model, *methods]
-    environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "PYTHONPATH": str(TESTS)}
-    done = subprocess.run(command, cwd=TESTS, env=environment, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr[-3000:]
-    return done.stdout.strip()
-
-
 @pytest.mark.parametrize(("model", "methods"), QUICK, ids=[model for model, _ in QUICK])
 def test_functions_of_small_models(model, methods):
-    assert judged(model, methods) == ""
+    assert apart(model, *methods) == ""
 
 
 #: Larger ones, and every method once: minutes, nearly all of them Numba's.
@@ -52,4 +39,4 @@ LONG = (
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "methods"), LONG, ids=[f"{model}-{methods[0]}" for model, methods in LONG])
 def test_functions_of_every_method(model, methods):
-    assert judged(model, methods) == ""
+    assert apart(model, *methods) == ""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import os
+import subprocess
+import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -19,6 +21,7 @@ from symgen.store.emitted import COMPILER
 from symgen.store.modules import load_module
 
 ARRAY, WHOLE, NUMBER = types.float64[::1], types.int64[::1], types.float64
+TESTS = Path(__file__).parents[1]
 #: Types of arguments by their names in emitted modules.
 BY_NAME = {"t": NUMBER, "x": NUMBER, "iw": WHOLE, **dict.fromkeys(("y", "p", "w", "ydot", "out", "k", "r", "j"), ARRAY)}
 #: Of functions that have one of these, the others are integers too, but for ``w``.
@@ -154,3 +157,12 @@ def differences(direct: Any, plain: Any, arguments: Sequence[Any], size: int, ro
             pairs = [answers, *zip(mine, yours, strict=True)]
             found += [f"{direct.__name__}: argument {i - 1}" for i, (a, b) in enumerate(pairs) if not same(a, b)]
     return found
+
+
+def apart(*words: str) -> str:
+    """Return what `native.judge` says in a process where nothing can be contracted; see `test_judge`."""
+    command = [sys.executable, "-m", "native.judge", *words]
+    environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "PYTHONPATH": str(TESTS)}
+    done = subprocess.run(command, cwd=TESTS, env=environment, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return done.stdout.strip()
