@@ -80,7 +80,7 @@ def _options(where: str, value: object) -> dict[str, str | float]:
 
 def _times(where: str, value: object) -> Sequence[float]:
     # an array is checked by who makes it one; it may be long
-    return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]
+    return value if hasattr(value, "dtype") else arguments.numbers(where, value)  # type: ignore[return-value]  # an array is numbers
 
 
 def _setting(default: object, text: str, kind: type, check: Callable[[str, Any], Any], **further: str) -> Any:

@@ -66,7 +66,7 @@ def _warmed() -> None:
     import symgen.api
     import symgen.formulate.formulate
     import symgen.joints
-    import symgen.runtime.assembly  # noqa: F401
+    import symgen.runtime.assembly  # noqa: F401  # loaded beforehand: its time is not that of a file
 
     Path("file.toml").write_text('[mechanism]\nname = "a"\n[bodies.b]\ntype = "point"\nmass = 1\n', encoding="utf-8")
     _said(["check", "file.toml"])

@@ -333,34 +333,32 @@ class Scalars(Replay):
 
     def _on_rank(self, operation: Operation) -> Factor:
         """Return the factor of D G D^T that decides rank: dependent rows get a reciprocal pivot of 0."""
-        g = self.graph
 
         def reciprocal(row: int, pivot: int, diagonal: int) -> int:
-            if pivot == diagonal:
-                return g.div(g.one, pivot)
-            # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
-            return self._kept(g.call("step", pivot, self.least(row, diagonal)), pivot)
+            return self._kept(self._decided(row, pivot, diagonal), pivot)
 
         return factorise(self.graph, self.gram(self.rows, self.gauge), self.order, reciprocal)
 
+    def _decided(self, row: int, pivot: int, diagonal: int) -> int:
+        """Return 1 where a pivot of D G D^T says that its row is kept, else 0; a row eliminated alone always is."""
+        g = self.graph
+        if pivot == diagonal:
+            return g.one
+        # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
+        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row]))
+
     def _kept(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
-        return self.graph.div(keep, self.graph.call("max", pivot, self.graph.constant(TINY)))
-
-    def least(self, row: int, diagonal: int) -> int:
-        """Return what a pivot of D D^T must exceed for its row to be kept."""
         g = self.graph
-        return g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row])
+        return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
     def _weighted(self, rows: Rows, keep: Callable[[int], int], weight: Weight | None) -> Factor:
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
-        g = self.graph
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
-            kept = keep(row)
-            return g.div(g.one, pivot) if kept == g.one else self._kept(kept, pivot)
+            return self._kept(keep(row), pivot)
 
-        return factorise(g, self.gram(rows, weight), self.order, reciprocal)
+        return factorise(self.graph, self.gram(rows, weight), self.order, reciprocal)
 
     def _weighted_apart(self, rank: Factor, weight: Weight | None) -> Factor:
         """Return the same from what ``geometry`` left in w."""
@@ -381,11 +379,9 @@ class Scalars(Replay):
 
     def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
-        g = self.graph
 
         def keep(row: int) -> int:
-            pivot, diagonal = rank.pivots[row], rank.diagonal[row]
-            return g.one if pivot == diagonal else g.call("step", pivot, self.least(row, diagonal))
+            return self._decided(row, rank.pivots[row], rank.diagonal[row])
 
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
         return self._weighted(self.rows, keep, [{j: node} for j, node in enumerate(dependent)])
@@ -450,7 +446,7 @@ class Scalars(Replay):
                 continue
             relative = g.div(rank.pivots[i], rank.diagonal[i])
             outputs.append((Target("pivot", i), relative))
-            kept = g.add(kept, g.call("step", rank.pivots[i], self.least(i, rank.diagonal[i])))
+            kept = g.add(kept, self._decided(i, rank.pivots[i], rank.diagonal[i]))
             smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
         shortest = g.one
         for i, row in enumerate(self.equations.rows):

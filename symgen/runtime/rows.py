@@ -256,7 +256,7 @@ def run_rows(
 
 
 def integrate(*arguments: Any) -> int:
-    """Stand for the loop over one run."""
+    """Stand for the loop over one run, which `instances` and `on_device` put in its place."""
     raise NotImplementedError
 
 
