@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Protocol
 
 from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, module, render, templates_digest
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import ElementAccess, print_block
 from symgen.emit.text import table_name
 from symgen.errors import InputError
-from symgen.formulate.equations import Equations
+from symgen.formulate.equations import Equations, Quantity
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
 
@@ -182,7 +182,23 @@ def table_codes(
     return codes
 
 
-def straight(blocks: Sequence[Block], layout: Layout, equations: Equations, target: str = "cpu") -> list[Code]:
+class Named(Protocol):
+    """Names and units of what stands in ``y`` and ``p``: `Equations`, or a program that carries them."""
+
+    @property
+    def coordinates(self) -> tuple[Quantity, ...]:
+        """Of q."""
+
+    @property
+    def velocities(self) -> tuple[Quantity, ...]:
+        """Of v."""
+
+    @property
+    def parameters(self) -> tuple[Quantity, ...]:
+        """Of p."""
+
+
+def straight(blocks: Sequence[Block], layout: Layout, equations: Named, target: str = "cpu") -> list[Code]:
     """Return blocks as functions of straight lines."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}

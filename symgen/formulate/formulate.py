@@ -52,7 +52,7 @@ def formulate(mechanism: Mechanism) -> Equations:
     forces, power, potential = _forces(model)
     mass, kinetic, gravity_potential = _inertia(model, forces)
     joint_coordinates = _joint_coordinates(model)
-    coordinates, velocities = _quantities(mechanism)
+    coordinates, velocities = quantities(mechanism)
     return Equations(
         name=mechanism.name,
         graph=model.graph,
@@ -103,7 +103,8 @@ def _joint_coordinates(model: Model) -> list[JointCoordinate]:
     return found
 
 
-def _quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
+def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
+    """Return names and units of q and v."""
     q = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates)
     v = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds)
     return q, v

@@ -140,7 +140,13 @@ class Model(Formulas):
             return derived.value
         if r.order == 1:
             return derived.rate(g, self.velocities)
-        return g.add(derived.rate(g, tuple(g.input("rates.v", i) for i in range(self.size))), derived.bias)
+        return g.add(derived.rate(g, self.accelerations), derived.bias)
+
+    @property
+    def accelerations(self) -> tuple[int, ...]:
+        """Nodes of v', where the rate of the state is known."""
+        nq = sum(len(body.coordinates) for body in self.mechanism.bodies)
+        return tuple(self.graph.input("ydot", nq + i) for i in range(self.size))
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
@@ -237,11 +243,15 @@ class Model(Formulas):
         growth = g.mul(g.constant(2.0), g.add(g.mul(along, rates[0]), g.mul(across, rates[1])))
         bias = g.sub(g.sub(g.mul(across, y.bias), g.mul(along, x.bias)), g.mul(rate, growth))
         angle = g.call("atan2", y.value, x.value)
-        before = g.input("winding", len(self.windings))
+        before = g.input("winding", self.place_of_turn(m))
         turns = g.call("floor", g.add(g.div(g.sub(before, angle), g.constant(math.tau)), g.constant(0.5)))
         value = g.add(angle, g.mul(g.constant(math.tau), turns))
         self.windings.append(value)
         return Derived(value, {i: n for i, n in row.items() if n != g.zero}, bias)
+
+    def place_of_turn(self, m: Measure) -> int:
+        """Return where the section ``winding`` remembers an angle: behind those that were derived before."""
+        return len(self.windings)
 
     def _angle(self, m: Angle) -> Derived:
         g, value, row = self.graph, self.graph.zero, dict[int, int]()

@@ -17,8 +17,9 @@ import msgspec
 from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
 from symgen.describe.repeats import without_repeats
-from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names, readings
-from symgen.vocabulary.measures import GROUND, Bearing, Direction, Effort, Marker, Measure, Sum, Turn
+from symgen.lower.windings import measures_of, turns
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names
+from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 
 #: Fields of the vocabulary's structs that hold the name of a body.
 _BODY_FIELDS = frozenset(("body", "a", "b"))
@@ -82,25 +83,6 @@ def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
     )
 
 
-def _angles(element: Joint | Force) -> tuple[Measure, ...]:
-    """Return the measures of an element whose turns are counted, in the order in which they are derived."""
-    measures: list[Any]
-    if isinstance(element, Joint):
-        measures = [getattr(row, "measure", None) for row in element.rows] + [m for _, m in element.coordinates]
-    else:
-        measures = [
-            m for effort in element.efforts for m in (effort.measure, *(r.measure for r in readings(effort.magnitude)))
-        ]
-    found: dict[Measure, None] = {}
-    while measures:
-        measure = measures.pop(0)
-        if isinstance(measure, Sum):
-            measures = [part for _, part in measure.terms] + measures
-        elif isinstance(measure, Turn | Bearing):
-            found[measure] = None
-    return tuple(found)
-
-
 @dataclass(frozen=True)
 class _Known:
     """A mechanism, its formulas as nodes, and its bodies, parameters and tables by name."""
@@ -151,7 +133,7 @@ class _Rewriting:
         frames = tuple(self.frame(self.known.bodies[name], alias) for name, alias in self.frames.items())
         nothing = (ZERO,) * len(self.mechanism.gravity)
         found = self.instance(kind, element.name, element.kind, nothing, frames, content)
-        return found if self.mechanism.space == "planar" else replace(found, angles=_angles(element))
+        return found if self.mechanism.space == "planar" else replace(found, angles=turns(measures_of(element)))
 
     def instance(
         self, kind: str, name: str, label: str, gravity: Any, frames: tuple[Any, ...], content: Any = None

@@ -1,0 +1,116 @@
+"""From formulas of a run to a compiled function: beside the model's modules, with a digest and an entry of its own.
+
+    mechanism, formulas --lower--> program --emit--> source --load--> function
+
+The function serves compiled models of both shapes. SymPy and Jinja2 are imported only where the cache has no entry.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.pipeline import folder_of, generator_digest
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.printer import to_text
+from symgen.errors import InputError
+from symgen.lower.windings import winding_order
+from symgen.runtime.compiled import CompiledModel
+from symgen.store.entries import Entries
+from symgen.store.modules import interpreted, load_module
+from symgen.vocabulary.expressions import Expr
+
+Array = NDArray[np.float64]
+
+#: Sections of ``w`` that formulas of a run may read; they stand where a model of either shape has them.
+_READ = ("status", "winding", "multipliers")
+
+
+@dataclass(frozen=True)
+class Side:
+    """Formulas of a run, compiled.
+
+    Parameters
+    ----------
+    function : compiled function
+        ``(t, y, p, w, ydot, out)``, of type `symgen.runtime.abi.OBSERVE`; nothing is compiled before a loop takes it.
+    labels : tuple of str
+        What the elements of ``out`` are.
+    """
+
+    function: Any
+    labels: tuple[str, ...]
+
+    @cached_property
+    def plain(self) -> Any:
+        """The function as plain Python, which a few evaluations are cheaper by."""
+        return interpreted(self.function)
+
+    def __call__(self, t: float, y: Array, p: Array, w: Array, ydot: Array) -> Array:
+        """Return the values at one state, by plain Python."""
+        out = np.zeros(len(self.labels))
+        with np.errstate(all="ignore"):
+            self.plain(t, y, p, w, ydot, out)
+        return out
+
+
+def compile_side(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    name: str,
+    purpose: str,
+    formulas: Sequence[tuple[str, Expr]],
+    rates: bool = False,
+    entries: Entries | None = None,
+) -> Side:
+    """Return a function that evaluates formulas of a run, generated only if the cache does not have it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What they are about: names are t, parameters, and coordinates and velocities of bodies.
+    compiled : CompiledModel
+        The model that the function is called beside: its ``p`` and ``w``.
+    name, purpose : str
+        Of the function, which its module is called after.
+    formulas : sequence of (str, Expr)
+        What each is called, for people, and the formula.
+    rates : bool
+        Whether the derivatives of all formulas along the motion follow behind their values; they take v' from
+        ``ydot``, and q' from the velocities.
+    entries : Entries, optional
+        The cache; by default the user's.
+
+    Raises
+    ------
+    InputError
+        If numbers that meet in a formula overflow.
+    """
+    store = Entries() if entries is None else entries
+    info = compiled.info
+    turning = winding_order(mechanism, compiled.shape)
+    sections = {section: info.sections[section] for section in _READ if section in info.sections}
+    labels = [label for label, _ in formulas] + [f"rate of {label}" for label, _ in formulas if rates]
+    folder = folder_of(mechanism)
+    text = "\n".join([purpose, str(rates), str(sorted(sections.items())), repr(turning), generator_digest(), *labels])
+    text += "\n".join(to_text(e) for _, e in formulas)
+    stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    if store.get(folder, stem) is None:
+        with store.building(folder):
+            if store.get(folder, stem) is None:  # another process may have built it while this one waited
+                from symgen.emit.side import emit_side
+                from symgen.lower.side import lower_side
+
+                try:
+                    program = lower_side(mechanism, name, purpose, formulas, turning, sections, rates)
+                except OverflowError:
+                    expected = "numbers whose products, sums and quotients are finite"
+                    raise InputError(purpose, expected, "some that overflow") from None
+                store.put(folder, stem, emit_side(program), {})
+    return Side(getattr(load_module(store.path(folder, stem)), name), tuple(labels))

@@ -1,0 +1,126 @@
+"""Functions of the state that belong to no model: formulas of a run, in a module of their own.
+
+What a run asks for beside its model (switching functions of events, quantities of a user) is lowered apart, so that
+asking for it leaves the modules of the model as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from symgen.describe.mechanism import Mechanism
+from symgen.formulate.equations import Quantity
+from symgen.formulate.formulate import quantities
+from symgen.formulate.measures import Model
+from symgen.ir.derivative import jacobian
+from symgen.ir.graph import Graph
+from symgen.ir.program import Block, Layout, Target
+from symgen.vocabulary.expressions import Expr
+from symgen.vocabulary.measures import Measure
+
+
+@dataclass(frozen=True)
+class SideProgram:
+    """One function ``NAME(t, y, p, w, ydot, out)``; `formulas` are what each element of ``out`` is, for people."""
+
+    mechanism: str
+    block: Block
+    layout: Layout
+    parameters: tuple[Quantity, ...]
+    coordinates: tuple[Quantity, ...]
+    velocities: tuple[Quantity, ...]
+    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    formulas: tuple[str, ...]
+
+
+@dataclass
+class SideModel(Model):
+    """The names of a mechanism as nodes; angles whose turns are counted are those that the model remembers.
+
+    Parameters
+    ----------
+    turning : sequence of Measure
+        The angles of the section ``winding``.
+    """
+
+    turning: Sequence[Measure] = field(default=(), kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self._places = {measure: i for i, measure in enumerate(self.turning)}
+
+    def place_of_turn(self, m: Measure) -> int:
+        """Return where the section ``winding`` remembers an angle."""
+        return self._places[m]
+
+    def rates(self, nodes: Sequence[int]) -> list[int]:
+        """Return the derivatives of `nodes` along the motion: q' = N v, and v' as ``ydot`` has it."""
+        g, nq = self.graph, len(self.q_rates())
+        known = {("t", 0): g.one}
+        known |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
+        known |= {("v", i): g.input("ydot", nq + i) for i in range(self.size)}
+        return [
+            g.total(g.mul(slope, known[key]) for key, slope in sorted(slopes.items()))
+            for slopes in jacobian(g, nodes, known)
+        ]
+
+
+def lower_side(
+    mechanism: Mechanism,
+    name: str,
+    purpose: str,
+    formulas: Sequence[tuple[str, Expr]],
+    turning: Sequence[Measure],
+    sections: Mapping[str, tuple[int, int]],
+    rates: bool = False,
+) -> SideProgram:
+    """Lower formulas of a run.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What they are about.
+    name, purpose : str
+        Of the function.
+    formulas : sequence of (str, Expr)
+        What each is called, for people, and the formula.
+    turning : sequence of Measure
+        Angles whose turns are counted, see `symgen.lower.windings.winding_order`.
+    sections : mapping of str to (int, int)
+        Sections of the model's ``w`` that may be read.
+    rates : bool
+        Whether the derivatives of all formulas along the motion follow behind their values.
+
+    Raises
+    ------
+    OverflowError
+        If numbers that meet in a formula overflow.
+    """
+    model = SideModel(mechanism, turning=turning)
+    nodes = [model.expression(e) for _, e in formulas]
+    labels = [label for label, _ in formulas]
+    if rates:
+        nodes += model.rates(nodes)
+        labels += [f"rate of {label}" for label in labels]
+    graph = Graph()
+    keys = {
+        key: graph.input(*key)
+        for n in model.graph.needed(nodes)
+        if model.graph.nodes[n].op == "input" and isinstance(key := model.graph.nodes[n].payload, tuple)
+    }
+    images = graph.inline(model.graph, nodes, keys)
+    outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
+    block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
+    coordinates, velocities = quantities(mechanism)
+    used = {table for table, _ in block.tables}
+    return SideProgram(
+        mechanism=mechanism.name,
+        block=block,
+        layout=Layout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(sections)),
+        parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        coordinates=coordinates,
+        velocities=velocities,
+        tables=tuple((t.name, t.x, t.y) for t in mechanism.tables if t.name in used),
+        formulas=tuple(labels),
+    )

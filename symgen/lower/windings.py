@@ -1,0 +1,55 @@
+"""Which angle each element of the section ``winding`` remembers, in each shape of code."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from symgen.describe.mechanism import Force, Joint, Mechanism
+from symgen.describe.repeats import without_repeats
+from symgen.vocabulary.expressions import readings
+from symgen.vocabulary.measures import Bearing, Measure, Sum, Turn
+
+
+def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
+    """Return those measures, and parts of sums among them, whose turns are counted, each once, in this order."""
+    waiting, found = list(measures), dict[Measure, None]()
+    while waiting:
+        measure = waiting.pop(0)
+        if isinstance(measure, Sum):
+            waiting = [part for _, part in measure.terms] + waiting
+        elif isinstance(measure, Turn | Bearing):
+            found[measure] = None
+    return tuple(found)
+
+
+def measures_of(element: Joint | Force) -> list[Any]:
+    """Return the measures of an element in the order in which they are derived."""
+    if isinstance(element, Joint):
+        return [*_held(element), *(m for _, m in element.coordinates)]
+    return [m for e in element.efforts for m in (e.measure, *(r.measure for r in readings(e.magnitude)))]
+
+
+def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
+    """Return the angles of the section ``winding`` in its order.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    shape : {"straight", "looped"}
+        Straight code derives the rows of all joints first and what is reported last, looped code goes element by
+        element.
+    """
+    if mechanism.space == "planar":
+        return ()
+    kept, _ = without_repeats(mechanism)
+    efforts = [m for force in kept.forces for m in measures_of(force)]
+    if shape == "looped":
+        return turns([m for joint in kept.joints for m in turns(measures_of(joint))] + efforts)
+    rows = [m for joint in kept.joints for m in _held(joint)]
+    return turns([*rows, *efforts, *(m for joint in kept.joints for _, m in joint.coordinates)])
+
+
+def _held(joint: Joint) -> list[Any]:
+    return [getattr(row, "measure", None) for row in joint.rows]
