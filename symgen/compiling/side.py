@@ -96,9 +96,11 @@ def compile_side(
     info = compiled.info
     turning = winding_order(mechanism, compiled.shape)
     sections = {section: info.sections[section] for section in _READ if section in info.sections}
+    rows = {row.name: i for i, row in enumerate(info.rows)}
     labels = [label for label, _ in formulas] + [f"rate of {label}" for label, _ in formulas if rates]
     folder = folder_of(mechanism)
-    text = "\n".join([purpose, str(rates), str(sorted(sections.items())), repr(turning), generator_digest(), *labels])
+    places = str(sorted(sections.items())), str(sorted(rows.items())), repr(turning)
+    text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])
     text += "\n".join(to_text(e) for _, e in formulas)
     stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     if store.get(folder, stem) is None:
@@ -108,7 +110,7 @@ def compile_side(
                 from symgen.lower.side import lower_side
 
                 try:
-                    program = lower_side(mechanism, name, purpose, formulas, turning, sections, rates)
+                    program = lower_side(mechanism, name, purpose, formulas, turning, sections, rows, rates)
                 except OverflowError:
                     expected = "numbers whose products, sums and quotients are finite"
                     raise InputError(purpose, expected, "some that overflow") from None

@@ -23,6 +23,10 @@ StateFunction = Annotated[
     float | str,
     Meta(description="a number or an expression of t, parameters and body coordinates such as crank.theta"),
 ]
+OutputFunction = Annotated[
+    float | str,
+    Meta(description="a number or an expression of t, parameters and what is known of the motion, such as arm.tip.x"),
+]
 Potential = Annotated[float | str, Meta(description="an expression of parameters and the element's own coordinate")]
 Pair = Annotated[tuple[float | str, float | str], Meta(description="two numbers or expressions of parameters")]
 #: Two or three of them: the schema publishes that much, which of the two a mechanism needs is said by its `Scope`.

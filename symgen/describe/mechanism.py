@@ -10,6 +10,17 @@ from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import Effort, Measure, Row
 
+#: Velocity -> what its rate is called.
+ACCELERATIONS = {
+    "vx": "ax",
+    "vy": "ay",
+    "vz": "az",
+    "omega": "alpha",
+    "wx": "alphax",
+    "wy": "alphay",
+    "wz": "alphaz",
+}
+
 #: Components of a vector: two in the plane, three in space.
 Vec = tuple[Expr, ...]
 
@@ -139,6 +150,14 @@ class Force(msgspec.Struct, frozen=True):
     efforts: tuple[Effort, ...]
 
 
+class Output(msgspec.Struct, frozen=True):
+    """A formula that results report; it may read what is known at outputs only (`symgen.describe.readings`)."""
+
+    name: str
+    value: Expr
+    unit: str = ""
+
+
 class Defaults(msgspec.Struct, frozen=True):
     """What a run uses where nothing else is asked for."""
 
@@ -165,6 +184,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
+    outputs: tuple[Output, ...] = ()
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

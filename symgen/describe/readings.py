@@ -1,17 +1,22 @@
-"""What formulas may read of a motion by dotted names: points of bodies, coordinates of joints, lengths of forces.
+"""What formulas may read of a motion by dotted names: points of bodies, joints, forces and drivers.
 
-| written | is |
-| --- | --- |
-| ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] |
-| ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] |
-| ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2], where v' is known: in outputs |
-| ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives [rad, m] |
-| ``motor.angle.rate`` | its rate; ``motor.rate`` where the joint has one coordinate |
-| ``spring.length``, ``spring.angle``, ``spring.rate`` | of a force along one measure, once all forces are known |
+| written | is | where |
+| --- | --- | --- |
+| ``arm.tip.x``, ``.y``, in space ``.z`` | a point's coordinate in the ground frame [m] | everywhere |
+| ``arm.tip.vx``, ``.vy``, ``.vz`` | its velocity [m/s] | everywhere |
+| ``arm.tip.ax``, ``.ay``, ``.az`` | its acceleration [m/s^2] | outputs |
+| ``motor.angle``, ``slide.displacement``, ... | a coordinate that a joint reports, or a driver drives | everywhere |
+| ``motor.angle.rate``, ``motor.rate`` | its rate; the short form where there is one coordinate | everywhere |
+| ``motor.effort``, ``motor.power`` | what a driver exerts along its coordinate | outputs |
+| ``spring.length``, ``.angle``, ``.rate`` | of a force along one measure | outputs, events |
+| ``spring.force``, ``.torque``, ``.Fx`` ..., ``.power`` | what a force exerts | outputs |
+
+`symgen.describe.outputs` makes columns of results from the same table.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -23,11 +28,15 @@ from symgen.vocabulary.measures import (
     Bearing,
     Component,
     Distance,
+    Dot,
+    Driven,
+    Effort,
+    Exerted,
     Holonomic,
     Marker,
-    Measure,
-    PointSpeed,
+    Source,
     Spin,
+    Sum,
     Turn,
     axes,
 )
@@ -35,34 +44,89 @@ from symgen.vocabulary.measures import (
 if TYPE_CHECKING:
     from symgen.describe.scope import Model
 
-#: What begins the names of a point's coordinates, by the order of the derivative.
-_ORDERS = ("", "v", "a")
-#: Orders that functions of state may use.
-STATE = 1
+#: What begins the names of a point's coordinates, by the order of the derivative, and their units.
+ORDERS = {"": "m", "v": "m/s", "a": "m/s^2"}
+#: Largest order that functions of state may read, and outputs, which know v' and what is exerted.
+STATE, OUTPUT = 1, 2
+
+#: Names behind an owner's -> what is read, and its unit.
+Table = dict[str, tuple[Reading, str]]
 
 
-def point_reading(name: str, marker: Marker, axis: str, order: int, dimension: int) -> Reading:
-    """Return the reading of a point's coordinate along an axis of the ground, or of its derivative."""
-    origin = Marker(GROUND, (ZERO,) * dimension)
-    return Reading(name, Component(origin, marker, axes(GROUND, dimension)["xyz".index(axis)]), order)
+def of_point(name: str, marker: Marker, dimension: int, order: int) -> Table:
+    """Return a point's coordinates and their derivatives up to an order; `name` is the point's with its body's."""
+    origin, found = Marker(GROUND, (ZERO,) * dimension), Table()
+    for derivative, (letter, unit) in enumerate(list(ORDERS.items())[: order + 1]):
+        for axis, direction in zip("xyz", axes(GROUND, dimension), strict=False):
+            label = f"{letter}{axis}"
+            found[label] = Reading(f"{name}.{label}", Component(origin, marker, direction), derivative), unit
+    return found
 
 
-def driven(joint: Joint) -> tuple[tuple[str, Measure], ...]:
-    """Return the coordinates of a joint by label; of a driver the one that it drives."""
-    if joint.coordinates or joint.kind != "driver":
-        return joint.coordinates
-    (row,) = joint.rows
-    assert isinstance(row, Holonomic), "a driver has one row, on a coordinate"
-    return (("angle" if row.unit == "rad" else "displacement", row.measure),)
+def of_joint(joint: Joint, order: int) -> Table:
+    """Return the coordinates of a joint with their rates, of a driver the one that it drives, and what it exerts."""
+    row = joint.rows[0] if joint.kind == "driver" else None
+    coordinates = joint.coordinates
+    if isinstance(row, Holonomic) and not coordinates:
+        coordinates = (("angle" if row.unit == "rad" else "displacement", row.measure),)
+    found = Table()
+    for label, measure in coordinates:
+        unit = joint.unit(label)
+        found |= _with_rate(joint.name, label, measure, unit)
+        if len(coordinates) == 1:
+            found["rate"] = Reading(f"{joint.name}.rate", measure, 1), f"{unit}/s"
+    if isinstance(row, Holonomic) and order == OUTPUT:
+        driven = Driven(f"{joint.name}.{row.label}", row.measure)
+        found["effort"] = Reading(f"{joint.name}.effort", driven), "N m" if row.unit == "rad" else "N"
+        found["power"] = Reading(f"{joint.name}.power", Driven(driven.row, driven.measure, power=True)), "W"
+    return found
 
 
-def extent(force: Force) -> tuple[str, Measure] | None:
-    """Return what the measure of a force along one measure is called, and the measure; None for other forces."""
-    if len(force.efforts) != 1 or isinstance(force.efforts[0].measure, PointSpeed | Spin | Component):
-        return None
-    measure = force.efforts[0].measure
-    word = "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, Angle | Turn | Bearing) else ""
-    return (word, measure) if word else None
+def of_force(force: Force, order: int) -> Table:
+    """Return the measure of a force along one measure, and at outputs what a force exerts."""
+    found, name = Table(), force.name
+    single = force.efforts[0] if len(force.efforts) == 1 else None
+    word = "" if single is None else _extent(single.measure)
+    if single is not None and word:
+        unit = "m" if word == "length" else "rad"
+        found[word] = Reading(f"{name}.{word}", single.measure), unit
+        found["rate"] = Reading(f"{name}.rate", single.measure, 1), f"{unit}/s"
+    if order == OUTPUT and force.efforts:
+        components: dict[str, list[Effort]] = {}
+        for effort in force.efforts:
+            for component in _components(effort, word):
+                components.setdefault(component, []).append(effort)
+        for component, efforts in components.items():
+            unit = "N m" if _turns(efforts[0].measure) else "N"
+            found[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
+        found["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
+    return found
+
+
+def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
+    name = f"{owner}.{label}"
+    return {label: (Reading(name, measure), unit), f"{label}.rate": (Reading(f"{name}.rate", measure, 1), f"{unit}/s")}
+
+
+def _extent(measure: Source) -> str:
+    """Return what the measure of a force is called, nothing where it has no name."""
+    return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, Angle | Turn | Bearing) else ""
+
+
+def _components(effort: Effort, extent: str) -> list[str]:
+    """Return what an effort is part of: the force or torque along a measure, or components along axes."""
+    if extent:
+        return ["force" if extent == "length" else "torque"]
+    kind = "M" if _turns(effort.measure) else "F"
+    axes_ = re.findall(r"(turn_)?([xyz])(?![a-z])", effort.label)
+    return [("M" if turn else kind) + axis for turn, axis in axes_] or [effort.label]
+
+
+def _turns(measure: Source) -> bool:
+    """Whether what works along a measure is a torque."""
+    if isinstance(measure, Sum):
+        return _turns(measure.terms[0][1])
+    return isinstance(measure, Angle | Turn | Bearing | Spin | Dot)
 
 
 class Readings:
@@ -73,7 +137,7 @@ class Readings:
     model : Model
         What is known of the mechanism.
     order : int
-        Largest derivative that may be read: 1 where v' is not known.
+        `STATE`, or `OUTPUT` where v' and what is exerted are known.
     """
 
     def __init__(self, model: Model, order: int = STATE) -> None:
@@ -89,11 +153,9 @@ class Readings:
     def known(self, owner: str, where: str) -> tuple[str, ...]:
         """Return what can be read of a body, joint or force beside a body's own coordinates."""
         if owner in self._model.bodies:
-            letters = [f"{order}{axis}" for order in _ORDERS[: self._order + 1] for axis in "xyz"[: self._dimension]]
-            return tuple(f"{point}.{letter}" for point in self._model.points[owner] for letter in letters)
-        measures = self._measures(owner, where)
-        short = ("rate",) if len(measures) == 1 else ()
-        return (*(name for label in measures for name in (label, f"{label}.rate")), *short)
+            points = self._model.points[owner]
+            return tuple(f"{p}.{label}" for p in points for label in self._of_point(owner, p))
+        return tuple(self._of_element(owner, where))
 
     def find(self, path: tuple[str, ...], where: str) -> Expr | None:
         """Return what a dotted name means, None where it means nothing.
@@ -106,26 +168,19 @@ class Readings:
             File and key, for messages about joints that are resolved on the way.
         """
         owner, *words = path
-        name = ".".join(path)
-        if owner in self._model.bodies:
-            if len(words) != 2 or words[0] not in self._model.points[owner]:
-                return None
-            letter, axis = words[1][:-1], words[1][-1:]
-            if letter not in _ORDERS[: self._order + 1] or axis not in tuple("xyz"[: self._dimension]):
-                return None
-            marker = Marker(owner, self._model.points[owner][words[0]])
-            return point_reading(name, marker, axis, _ORDERS.index(letter), self._dimension)
-        measures = self._measures(owner, where)
-        if words == ["rate"] and len(measures) == 1:
-            return Reading(name, next(iter(measures.values())), 1)
-        order = 1 if len(words) == 2 and words[1] == "rate" else 0
-        if len(words) != 1 + order or words[0] not in measures:
-            return None
-        return Reading(name, measures[words[0]], order)
+        if owner not in self._model.bodies:
+            found = self._of_element(owner, where).get(".".join(words))
+        elif len(words) == 2 and words[0] in self._model.points[owner]:
+            found = self._of_point(owner, words[0]).get(words[1])
+        else:
+            found = None
+        return None if found is None else found[0]
 
-    def _measures(self, owner: str, where: str) -> dict[str, Measure]:
-        """Return the measures of a joint or force by label."""
+    def _of_point(self, body: str, point: str) -> Table:
+        marker = Marker(body, self._model.points[body][point])
+        return of_point(f"{body}.{point}", marker, self._dimension, self._order)
+
+    def _of_element(self, owner: str, where: str) -> Table:
         if owner in self._model.joint_names:
-            return dict(driven(self._model.joint(owner, where)))
-        found = extent(self._model.forces[owner]) if owner in self._model.forces else None
-        return {} if found is None else dict([found])
+            return of_joint(self._model.joint(owner, where), self._order)
+        return of_force(self._model.forces[owner], self._order)

@@ -11,6 +11,7 @@ import msgspec
 from symgen.describe.sections import (
     BodySection,
     MechanismSection,
+    OutputSection,
     ParameterSection,
     RunSection,
     SpatialBodySection,
@@ -39,6 +40,7 @@ def schema() -> dict[str, Any]:
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases)}),
+            "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
         },
     }

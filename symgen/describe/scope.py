@@ -12,9 +12,9 @@ import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import AnyBody, Force, Joint, Vec
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Vec
 from symgen.describe.parser import Names, parse
-from symgen.describe.readings import Readings
+from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
@@ -289,6 +289,18 @@ class Scope:
         tables = self.model.times.elsewhere
         return self._expression(
             key, value, Names(what, plain, self.model.coordinates, tables, readings=Readings(self.model))
+        )
+
+    def of_motion(self, key: str, value: float | str) -> Expr:
+        """Return a number or an expression of t, parameters and all that is known at outputs."""
+        what = "a number or an expression of t, parameters and what is known of the motion"
+        own = {
+            name: (*known, *(ACCELERATIONS[speed] for speed in self.model.bodies[name].speeds))
+            for name, known in self.model.coordinates.items()
+        }
+        times = self.model.times
+        return self._expression(
+            key, value, Names(what, times.plain, own, times.elsewhere, readings=Readings(self.model, OUTPUT))
         )
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:

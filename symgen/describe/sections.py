@@ -6,7 +6,18 @@ from typing import Literal
 
 import msgspec
 
-from symgen.describe.fields import Numbers, PlainScalar, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
+from symgen.describe.fields import (
+    Numbers,
+    OutputFunction,
+    PlainScalar,
+    Point,
+    Points,
+    PositiveNumber,
+    Scalar,
+    Tensor,
+    Text,
+    Vector,
+)
 
 
 class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -75,6 +86,21 @@ class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
 
     x: Numbers
     y: Numbers
+
+
+class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A formula that results report, given as ``name = "arm.tip.x"`` or with its unit as a table.
+
+    Parameters
+    ----------
+    value : function of the motion
+        An expression of t, parameters, body coordinates, points, joint coordinates, forces and accelerations.
+    unit : str
+        For people.
+    """
+
+    value: OutputFunction
+    unit: Text = ""
 
 
 class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -186,6 +212,13 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
 
 
 #: Sections whose entries are named tables -> what one entry is called.
-NAMED = {"parameters": "parameter", "tables": "table", "bodies": "body", "joints": "joint", "forces": "force"}
+NAMED = {
+    "parameters": "parameter",
+    "tables": "table",
+    "bodies": "body",
+    "joints": "joint",
+    "forces": "force",
+    "outputs": "output",
+}
 #: All sections of a file.
 SECTIONS = ("mechanism", "run", *NAMED)

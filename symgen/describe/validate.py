@@ -11,8 +11,8 @@ import msgspec
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import PlainScalar, found, read, read_value
-from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
+from symgen.describe.fields import OutputFunction, PlainScalar, found, read, read_value
+from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Output, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
 from symgen.describe.scope import Model, Scope
@@ -20,6 +20,7 @@ from symgen.describe.sections import (
     NAMED,
     SECTIONS,
     MechanismSection,
+    OutputSection,
     ParameterSection,
     RunSection,
     TableSection,
@@ -86,6 +87,9 @@ class _Validator:
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
+        joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
+        forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
+        self.model = msgspec.structs.replace(self.model, forces={force.name: force for force in forces})
         return Mechanism(
             name=head.name,
             title=line(head.title),
@@ -94,9 +98,10 @@ class _Validator:
             parameters=parameters,
             tables=tables,
             bodies=bodies,  # type: ignore[arg-type]  # all of one space
-            joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
-            forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
+            joints=joints,
+            forces=forces,
             defaults=self.defaults(line(head.source)),
+            outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
         )
 
     # Names ---------------------------------------------------------------------------------------------------------
@@ -161,6 +166,15 @@ class _Validator:
             if not left < right:
                 raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
         return Table(name, section.x, section.y)
+
+    def output(self, name: str, raw: object) -> Output:
+        where = self.where(f"outputs.{name}")
+        if isinstance(raw, Mapping):
+            section, key = read(OutputSection, raw, where), "value"
+        else:
+            section, key = OutputSection(value=read_value(OutputFunction, raw, where)), ""
+        value = Scope(self.model, f"outputs.{name}", name).of_motion(key, section.value)
+        return Output(name, value, check_unit(section.unit, f"{where}.unit"))
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest
 from symgen.result.reactions import multiplier_unit
-from symgen.result.result import ACCELERATIONS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 

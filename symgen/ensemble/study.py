@@ -20,8 +20,9 @@ from symgen.arguments import shown, whole
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
 from symgen.errors import InputError, nearest
 from symgen.files import write_whole
+from symgen.result.contract import finite
 from symgen.result.export import check_path, need, netcdf
-from symgen.result.result import FAILED, OK, UNVERIFIED, finite
+from symgen.result.result import FAILED, OK, UNVERIFIED
 
 if TYPE_CHECKING:
     import xarray as xr

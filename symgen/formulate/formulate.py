@@ -8,18 +8,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
 
 import sympy as sp
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.errors import InputError
+from symgen.formulate.efforts import as_symbols, exertion, translated
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
 from symgen.formulate.measures import Model
-from symgen.formulate.translate import Translator, to_sympy
+from symgen.formulate.translate import to_sympy
 from symgen.vocabulary.expressions import ZERO, Expr, names
-from symgen.vocabulary.measures import Effort, Holonomic, Row
+from symgen.vocabulary.measures import Holonomic, Row
 
 _UNITS = {
     **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
@@ -136,21 +136,12 @@ def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:
     g = model.graph
     if "t" not in names(e):
         return model.expression(e), g.zero, g.zero
-    symbols = _symbols(model, e)
+    symbols = as_symbols(e)
     value = to_sympy(e, symbols)
     t = symbols["t"]
     first = sp.diff(value, t)
-    nodes = _translate(model, symbols, [value, first, sp.diff(first, t)])
+    nodes = translated(model, symbols, [value, first, sp.diff(first, t)])
     return nodes[0], nodes[1], nodes[2]
-
-
-def _symbols(model: Model, e: Expr, *placeholders: str) -> dict[str, Any]:
-    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
-
-
-def _translate(model: Model, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
-    known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
-    return Translator(model.graph, known).all(expressions)
 
 
 # -- forces, inertia and energies ------------------------------------------------------------------------------------
@@ -163,26 +154,12 @@ def _forces(model: Model) -> tuple[list[int], int, int]:
     for force in model.mechanism.forces:
         with _finite(f"forces.{force.name}"):
             for effort in force.efforts:
-                measure = model.motion(effort.measure)
-                rate = measure.rate(g, model.velocities)
-                conservative, energy = _conservative(model, effort, measure.value)
-                magnitude = model.expression(effort.magnitude, s=measure.value, rate=rate)
-                total = g.add(conservative, magnitude)
-                for i, entry in sorted(measure.row.items()):
-                    forces[i] = g.add(forces[i], g.mul(entry, total))
-                power = g.add(power, g.mul(magnitude, rate))
-                potential = g.add(potential, energy)
+                found = exertion(model, effort)
+                for i, entry in sorted(found.row.items()):
+                    forces[i] = g.add(forces[i], g.mul(entry, found.total))
+                power = g.add(power, g.mul(found.magnitude, found.rate))
+                potential = g.add(potential, found.energy)
     return forces, power, potential
-
-
-def _conservative(model: Model, effort: Effort, s: int) -> tuple[int, int]:
-    """Return -dU/ds and U of an effort's potential."""
-    if effort.potential == ZERO:
-        return model.graph.zero, model.graph.zero
-    symbols = _symbols(model, effort.potential, "s")
-    potential = to_sympy(effort.potential, symbols)
-    force, energy = _translate(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
-    return force, energy
 
 
 def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], int, int]:

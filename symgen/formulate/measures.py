@@ -20,6 +20,8 @@ from symgen.vocabulary.measures import (
     Component,
     Distance,
     Dot,
+    Driven,
+    Exerted,
     LinkStretch,
     Measure,
     PointSpeed,
@@ -135,7 +137,8 @@ class Model(Formulas):
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value, rate, or second derivative, which needs v'."""
-        derived, g = self.motion(r.measure), self.graph
+        assert not isinstance(r.source, Exerted | Driven), "what is exerted is read at outputs only"
+        derived, g = self.motion(r.source), self.graph
         if r.order == 0:
             return derived.value
         if r.order == 1:

@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import ACCELERATIONS, Mechanism
+from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Quantity
 from symgen.formulate.formulate import quantities
 from symgen.formulate.measures import Model
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Layout, Target
-from symgen.vocabulary.expressions import Expr
-from symgen.vocabulary.measures import Measure
+from symgen.vocabulary.expressions import Expr, Reading
+from symgen.vocabulary.measures import Driven, Exerted, Measure
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,30 @@ class SideModel(Model):
     ----------
     turning : sequence of Measure
         The angles of the section ``winding``.
+    rows : mapping of str to int
+        Where the multiplier of each row stands.
     """
 
     turning: Sequence[Measure] = field(default=(), kw_only=True)
+    rows: Mapping[str, int] = field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         self._places = {measure: i for i, measure in enumerate(self.turning)}
+        speeds = ((body.name, speed) for body in self.mechanism.bodies for speed in body.speeds)
+        for (body, speed), node in zip(speeds, self.accelerations, strict=True):
+            self.names[f"{body}.{ACCELERATIONS[speed]}"] = node
+
+    def reading(self, r: Reading) -> int:
+        """Return the node of what is read: a measure, or what is exerted along measures."""
+        g, source = self.graph, r.source
+        if isinstance(source, Exerted):
+            found = [exertion(self, effort) for effort in source.efforts]
+            return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in found)
+        if isinstance(source, Driven):
+            effort = g.neg(g.input("multipliers", self.rows[source.row]))
+            return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
+        return super().reading(r)
 
     def place_of_turn(self, m: Measure) -> int:
         """Return where the section ``winding`` remembers an angle."""
@@ -73,6 +91,7 @@ def lower_side(
     formulas: Sequence[tuple[str, Expr]],
     turning: Sequence[Measure],
     sections: Mapping[str, tuple[int, int]],
+    rows: Mapping[str, int],
     rates: bool = False,
 ) -> SideProgram:
     """Lower formulas of a run.
@@ -89,6 +108,8 @@ def lower_side(
         Angles whose turns are counted, see `symgen.lower.windings.winding_order`.
     sections : mapping of str to (int, int)
         Sections of the model's ``w`` that may be read.
+    rows : mapping of str to int
+        Where the multiplier of each row stands.
     rates : bool
         Whether the derivatives of all formulas along the motion follow behind their values.
 
@@ -97,7 +118,7 @@ def lower_side(
     OverflowError
         If numbers that meet in a formula overflow.
     """
-    model = SideModel(mechanism, turning=turning)
+    model = SideModel(mechanism, turning=turning, rows=rows)
     nodes = [model.expression(e) for _, e in formulas]
     labels = [label for label, _ in formulas]
     if rates:

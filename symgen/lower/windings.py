@@ -27,7 +27,7 @@ def measures_of(element: Joint | Force) -> list[Any]:
     """Return the measures of an element in the order in which they are derived."""
     if isinstance(element, Joint):
         return [*_held(element), *(m for _, m in element.coordinates)]
-    return [m for e in element.efforts for m in (e.measure, *(r.measure for r in readings(e.magnitude)))]
+    return [m for e in element.efforts for m in (e.measure, *(r.source for r in readings(e.magnitude)))]
 
 
 def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:

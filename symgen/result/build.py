@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
-from symgen.result.reactions import Forces
+from symgen.result.measured import Measured
+from symgen.result.reactions import Forces, Seat
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.runtime import abi
 
@@ -53,8 +54,9 @@ def build_result(
         With status, reason, warnings and notes settled.
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
-    forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in mechanism.joints})
     parameters = parameter_values(mechanism, settings.parameters)
+    forces = Forces(outcome, {joint.name: Seat.of(joint, mechanism, parameters) for joint in mechanism.joints})
+    measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes))
@@ -102,6 +104,7 @@ def build_result(
         error_estimate=None if second is None or verdict.status == FAILED else second.error,
         outcome=outcome,
         forces=forces,
+        measured=measured,
     )
 
 

@@ -41,6 +41,11 @@ _PREFIX = {
     "joint_coordinates": "joint.",
     "lam": "lam.",
     "reactions": "reaction.",
+    "body_reactions": "reaction.body.",
+    "magnitudes": "reaction.",
+    "points": "",
+    "elements": "",
+    "outputs": "",
     "energy": "energy.",
     "violations": "violation.",
 }
@@ -52,6 +57,11 @@ _DIMENSION = {
     "joint_coordinates": "joint_coordinate",
     "lam": "multiplier",
     "reactions": "reaction",
+    "body_reactions": "body_reaction",
+    "magnitudes": "magnitude",
+    "points": "point_coordinate",
+    "elements": "element_quantity",
+    "outputs": "output",
     "energy": "kind_of_energy",
     "violations": "level",
 }

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import msgspec
 import numpy as np
 
+from symgen.describe.evaluate import evaluate
+from symgen.describe.orientation import matrix
 from symgen.result.labelled import Array, Labelled
 from symgen.runtime import abi
-from symgen.vocabulary.measures import GROUND
+from symgen.vocabulary.measures import GROUND, Marker
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Joint, Mechanism
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome
 
@@ -21,16 +25,41 @@ CUTOFF = 1e-6
 #: A multiplier direction that changes no acceleration and has more than this in a joint makes its reaction not unique.
 _SHARE = 1e-8
 
-#: Velocity component -> label and unit of the generalised force that works on it.
-_FORCE = {
-    "vx": ("Fx", "N"),
-    "vy": ("Fy", "N"),
-    "vz": ("Fz", "N"),
-    "omega": ("M", "N m"),
-    "wx": ("Mx", "N m"),
-    "wy": ("My", "N m"),
-    "wz": ("Mz", "N m"),
-}
+
+@dataclass(frozen=True)
+class Seat:
+    """Where the reaction of a joint acts: its first body, and its point there relative to the centre of mass [m].
+
+    On the ground the point is relative to the origin. Where a kind of joint has no point, that is 0.
+    """
+
+    body: str
+    place: tuple[float, ...]
+
+    @classmethod
+    def of(cls, joint: Joint, mechanism: Mechanism, parameters: Mapping[str, float]) -> Seat:
+        """Return the seat of a joint: the first point on its first body that its rows speak of."""
+        body, nothing = joint.bodies[0], (0.0,) * len(mechanism.gravity)
+        marker = next((m for row in joint.rows for m in _markers(row) if m.body == body), None)
+        if marker is None:
+            return cls(body, nothing)
+        point = tuple(evaluate(e, parameters, f"joints.{joint.name}") for e in marker.point)
+        if body == GROUND:
+            return cls(body, point)
+        centre = (evaluate(e, parameters, f"bodies.{body}") for e in mechanism.body(body).centre_of_mass)
+        return cls(body, tuple(x - c for x, c in zip(point, centre, strict=True)))
+
+
+def _markers(value: object) -> Iterator[Marker]:
+    """Yield the markers in a value of the vocabulary, in the order of its fields."""
+    if isinstance(value, Marker):
+        yield value
+    elif isinstance(value, msgspec.Struct):
+        for name in value.__struct_fields__:
+            yield from _markers(getattr(value, name))
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _markers(item)
 
 
 @dataclass(frozen=True)
@@ -41,12 +70,12 @@ class Forces:
     ----------
     outcome : Outcome
         States and raw multipliers at the outputs; its model gives D.
-    joints : mapping
-        Joint name -> name of its first body.
+    seats : mapping
+        Joint name -> where its reaction acts.
     """
 
     outcome: Outcome
-    joints: Mapping[str, str]
+    seats: Mapping[str, Seat]
 
     @property
     def compiled(self) -> CompiledModel:
@@ -87,75 +116,124 @@ class Forces:
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)
             found |= {row.joint for row, x in zip(info.rows, share, strict=True) if x > _SHARE}
-        return tuple(joint for joint in self.joints if joint in found)
+        return tuple(joint for joint in self.seats if joint in found)
 
     # -- reactions -----------------------------------------------------------------------------------------------------
 
     def reactions(self, multipliers: Labelled) -> Labelled:
         """Return -D^T lambda of each joint on its first body, at all outputs, as forces and moments in ground axes.
 
-        Moments are about the body's centre of mass, on the ground about the origin.
+        Moments are about the joints' points.
         """
-        info = self.compiled.info
         columns: dict[str, list[tuple[int, str]]] = {}
-        for i, velocity in enumerate(info.velocities):
+        for i, velocity in enumerate(self.compiled.info.velocities):
             body, _, component = velocity.name.rpartition(".")
             columns.setdefault(body, []).append((i, component))
-        entries = self._entries()
-        by_joint: dict[str, list[tuple[int, int, Array]]] = {joint: [] for joint in self.joints}
-        for row, column, value in entries:
-            by_joint[info.rows[row].joint].append((row, column, value))
-        names, units, values = list[str](), list[str](), list[Array]()
-        for joint, body in self.joints.items():
+        by_joint: dict[str, list[tuple[int, int, Array]]] = {joint: [] for joint in self.seats}
+        for row, column, value in self._entries():
+            by_joint[self.compiled.info.rows[row].joint].append((row, column, value))
+        names, values = list[str](), list[Array]()
+        for joint, seat in self.seats.items():
             generalised: dict[int, Array] = {}
             for row, column, value in by_joint[joint]:
                 part = -value * multipliers.values[:, row]
                 generalised[column] = generalised[column] + part if column in generalised else part
-            if body == GROUND:
-                found = self._on_ground(generalised, columns)
+            if seat.body == GROUND:
+                force, moment = self._on_ground(generalised, columns)
             else:
-                found = self._on_body(body, generalised, columns[body])
-            labels = {label: unit for label, unit in _FORCE.values()}
-            for label, value in found.items():
+                force, moment = self._on_body(seat.body, generalised, columns[seat.body])
+            arm = self._in_space(np.array(seat.place)) @ np.swapaxes(self._axes(seat.body), 1, 2)
+            moment = moment - np.cross(arm, force)
+            for label, value in self._labelled(force, moment, columns.get(seat.body, [])):
                 names.append(f"{joint}.{label}")
-                units.append(labels[label])
                 values.append(value)
+        return self._table(names, values)
+
+    def in_body_axes(self, reactions: Labelled) -> Labelled:
+        """Return reactions in the axes of the bodies that they act on."""
+        values = reactions.values.copy()
+        for joint, seat in self.seats.items():
+            for letter in "FM":
+                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
+                if seat.body != GROUND and len(indices) > 1:
+                    turned = self._in_space(reactions.values[:, indices])[:, np.newaxis] @ self._axes(seat.body)
+                    values[:, indices] = turned[:, 0, : len(indices)]
+        return Labelled(values, reactions.names, reactions.units)
+
+    def magnitudes(self, reactions: Labelled) -> Labelled:
+        """Return the lengths of the reactions' forces, and of their moments where these have several components."""
+        names, values = list[str](), list[Array]()
+        for joint in self.seats:
+            for letter, name in (("F", "F"), ("M", "T")):
+                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
+                if len(indices) > 1:
+                    names.append(f"{joint}.{name}")
+                    values.append(np.linalg.norm(reactions.values[:, indices], axis=1))
+        return self._table(names, values)
+
+    def _table(self, names: list[str], values: list[Array]) -> Labelled:
         stacked = np.column_stack(values) if values else np.zeros((len(self.outcome.times), 0))
-        return Labelled(stacked, tuple(names), tuple(units))
+        return Labelled(stacked, tuple(names), tuple("N" if n.rpartition(".")[2][0] == "F" else "N m" for n in names))
+
+    @property
+    def _spatial(self) -> bool:
+        return any(velocity.name.endswith(".vz") for velocity in self.compiled.info.velocities)
+
+    def _labelled(self, force: Array, moment: Array, indices: list[tuple[int, str]]) -> Iterator[tuple[str, Array]]:
+        """Yield the components that a reaction has on a body: a point mass, unlike the ground, takes no moment."""
+        axes = "xyz" if self._spatial else "xy"
+        for k, axis in enumerate(axes):
+            yield f"F{axis}", force[:, k]
+        if not indices or len(indices) > len(axes):
+            moments = enumerate("xyz") if self._spatial else [(2, "")]
+            for k, axis in moments:
+                yield f"M{axis}", moment[:, k]
 
     def _on_ground(
         self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
-    ) -> dict[str, Array]:
+    ) -> tuple[Array, Array]:
         """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
-        nothing = np.zeros(len(self.outcome.times))
-        spatial = any(name == "vz" for indices in columns.values() for _, name in indices)
-        total = dict.fromkeys(("Fx", "Fy", "Fz", "Mx", "My", "Mz") if spatial else ("Fx", "Fy", "M"), nothing)
+        total, about = np.zeros((len(self.outcome.times), 3)), np.zeros((len(self.outcome.times), 3))
         for body, indices in columns.items():
-            if not any(i in generalised for i, _ in indices):
-                continue
-            part = self._on_body(body, generalised, indices)
-            x, y, *rest = self._coordinates(body, "xyz" if spatial else "xy")
-            part["M" + "z" * spatial] = part.get("M" + "z" * spatial, nothing) + x * part["Fy"] - y * part["Fx"]
-            if spatial:
-                part["Mx"] = part.get("Mx", nothing) + y * part["Fz"] - rest[0] * part["Fy"]
-                part["My"] = part.get("My", nothing) + rest[0] * part["Fx"] - x * part["Fz"]
-            for label in total:
-                total[label] = total[label] - part[label]
-        return total
+            if any(i in generalised for i, _ in indices):
+                force, moment = self._on_body(body, generalised, indices)
+                place = np.column_stack(self._coordinates(body, "xyz" if self._spatial else "xy"))
+                total -= force
+                about -= moment + np.cross(self._in_space(place), force)
+        return total, about
 
-    def _on_body(self, body: str, generalised: Mapping[int, Array], indices: list[tuple[int, str]]) -> dict[str, Array]:
-        """Return force, and moment about the centre of mass, both in ground axes."""
+    def _on_body(
+        self, body: str, generalised: Mapping[int, Array], indices: list[tuple[int, str]]
+    ) -> tuple[Array, Array]:
+        """Return force, and moment about the centre of mass, both in ground axes, shapes (k, 3)."""
         nothing = np.zeros(len(self.outcome.times))
-        found = {_FORCE[c][0]: generalised.get(i, nothing) for i, c in indices}
-        if "Mx" in found:  # works on angular velocities in body axes
-            real, *vector = self._coordinates(body, ("e0", "e1", "e2", "e3"))
-            e, moment = np.stack(vector, axis=1), np.stack([found[f"M{c}"] for c in "xyz"], axis=1)
-            real = real[:, np.newaxis]
-            square = real**2 + np.sum(e * e, axis=1, keepdims=True)
-            once = np.cross(e, moment)
-            turned = moment + 2.0 * (real * once + np.cross(e, once)) / square
-            found |= dict(zip(("Mx", "My", "Mz"), turned.T, strict=True))
-        return found
+        parts = {component: generalised.get(i, nothing) for i, component in indices}
+        force = np.column_stack([parts.get(c, nothing) for c in ("vx", "vy", "vz")])
+        if "omega" in parts:
+            return force, np.column_stack([nothing, nothing, parts["omega"]])
+        moment = np.column_stack([parts.get(c, nothing) for c in ("wx", "wy", "wz")])  # in body axes
+        return force, (moment[:, np.newaxis] @ np.swapaxes(self._axes(body), 1, 2))[:, 0]
+
+    def _axes(self, body: str) -> Array:
+        """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
+        known = {quantity.name for quantity in self.compiled.info.coordinates}
+        axes = np.zeros((len(self.outcome.times), 3, 3)) + np.eye(3)
+        if f"{body}.theta" in known:
+            (theta,) = self._coordinates(body, ("theta",))
+            axes[:, 0, 0] = axes[:, 1, 1] = np.cos(theta)
+            axes[:, 1, 0] = np.sin(theta)
+            axes[:, 0, 1] = -axes[:, 1, 0]
+        elif f"{body}.e0" in known:
+            e = np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3")))
+            e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
+            axes = np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
+        return axes
+
+    @staticmethod
+    def _in_space(vectors: Array) -> Array:
+        """Return vectors with three components."""
+        missing = 3 - vectors.shape[-1]
+        return np.concatenate([vectors, np.zeros((*vectors.shape[:-1], missing))], axis=-1)
 
     def _coordinates(self, body: str, names: Iterable[str]) -> list[Array]:
         """Return coordinates of a body at the outputs."""

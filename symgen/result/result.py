@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,6 +13,7 @@ import numpy as np
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, words
+from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
 from symgen.result.labelled import Array, Labelled
 
@@ -21,28 +21,28 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.result.measured import Measured
     from symgen.result.reactions import Forces
     from symgen.runtime.run import Outcome, RankEvent
 
-ACCELERATIONS = {
-    "vx": "ax",
-    "vy": "ay",
-    "vz": "az",
-    "omega": "alpha",
-    "wx": "alphax",
-    "wy": "alphay",
-    "wz": "alphaz",
-}
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
+#: Tables of a result: of the state and of what follows from it, of forces, and of the file's own quantities.
+TABLES = (
+    *("q", "v", "a", "lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates"),
+    *("points", "elements", "outputs", "energy", "violations"),
+)
+#: Those that need code of their own.
+SIDE = ("points", "elements", "outputs")
 #: Reason of a run that was stopped from outside.
 INTERRUPTED = "interrupted"
 
 
 #: What a copy does without, and what is worked out before.
-_OF_THE_RUN = ("outcome", "forces")
+_OF_THE_RUN = ("outcome", "forces", "measured")
 _DERIVED = (
-    *("a", "joint_coordinates", "violations", "lam", "reactions", "non_unique_reactions", "shape"),
+    *("a", "joint_coordinates", "violations", "lam", "reactions", "body_reactions", "magnitudes"),
+    *("points", "elements", "outputs", "non_unique_reactions", "shape"),
     "_final_multipliers",
 )
 
@@ -148,6 +148,7 @@ class Result:
     error_estimate: float | None
     outcome: Outcome
     forces: Forces
+    measured: Measured
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -201,10 +202,20 @@ class Result:
         """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
 
         In space ``JOINT.Fx`` ... ``.Fz`` and ``JOINT.Mx`` ... ``.Mz``, all in ground axes. ``-D^T lambda`` of the
-        joint's rows; the moment is about the body's centre of mass, where the first body is the ground about the
-        ground's origin.
+        joint's rows; moments are about the joint's own point on that body, and where a kind of joint has none about
+        the body's centre of mass, on the ground about the origin.
         """
         return self.forces.reactions(self.lam)
+
+    @cached_property
+    def body_reactions(self) -> Labelled:
+        """The reactions in the axes of the bodies that they act on, under the same names."""
+        return self.forces.in_body_axes(self.reactions)
+
+    @cached_property
+    def magnitudes(self) -> Labelled:
+        """Magnitudes of the reactions: ``JOINT.F`` [N] and, in space, ``JOINT.T`` [N m] of their moments."""
+        return self.forces.magnitudes(self.reactions)
 
     def reaction(self, joint: str) -> Array:
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
@@ -212,6 +223,21 @@ class Result:
         if joint not in known:
             raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), known))
         return self.reactions[joint]
+
+    @cached_property
+    def points(self) -> Labelled:
+        """Named points of bodies in the ground frame: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
+        return self.measured.table("points")
+
+    @cached_property
+    def elements(self) -> Labelled:
+        """Force elements and drivers: ``spring.length``, ``.rate``, ``.force``, ``.power``; ``motor.effort``, ..."""
+        return self.measured.table("elements")
+
+    @cached_property
+    def outputs(self) -> Labelled:
+        """The formulas of the file's ``[outputs]``."""
+        return self.measured.table("outputs")
 
     @cached_property
     def non_unique_reactions(self) -> tuple[str, ...]:
@@ -239,17 +265,8 @@ class Result:
         return Labelled(values, ("kinetic", "potential", "work", "error"), ("J",) * 4)
 
     def tables(self) -> dict[str, Labelled]:
-        """Return all tables by name: q, v, a, lam, reactions, joint_coordinates, energy, violations."""
-        return {
-            "q": self.q,
-            "v": self.v,
-            "a": self.a,
-            "lam": self.lam,
-            "reactions": self.reactions,
-            "joint_coordinates": self.joint_coordinates,
-            "energy": self.energy,
-            "violations": self.violations,
-        }
+        """Return all tables by name; see `TABLES`."""
+        return {name: getattr(self, name) for name in TABLES}
 
     def __getitem__(self, name: str) -> Array:
         """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
@@ -263,7 +280,10 @@ class Result:
             return self.t
         known: list[str] = []
         # cheap ones first: a table behind the one that has the name is never computed
-        for table in ("q", "v", "joint_coordinates", "a", "lam", "reactions"):
+        for table in ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points"):
+            if table in SIDE and name not in (names := [c.name for c in self.measured.columns(table)]):
+                known += names  # nothing is generated to find out that a name is not among its columns
+                continue
             found: Labelled = getattr(self, table)
             if name in found:
                 return found[name]
@@ -279,55 +299,9 @@ class Result:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen run --json``; numbers that are not finite become None."""
-        last = self.t.shape[0] - 1
-        contract: dict[str, Any] = finite(
-            {
-                "mechanism": self.mechanism,
-                "method": self.method,
-                "integrator": self.integrator,
-                "shape": self.shape,
-                "step": self.step,
-                "rtol": self.rtol,
-                "atol": self.atol,
-                "until": self.until,
-                "status": self.status,
-                "reason": self.reason,
-                "warnings": list(self.warnings),
-                "notes": list(self.notes),
-                "parameters": dict(self.parameters),
-                "steps": self.steps,
-                "rejected": self.rejected,
-                "evaluations": self.evaluations,
-                "iterations": self.iterations,
-                "seconds": {
-                    "derive": self.seconds.derive,
-                    "emit": self.seconds.emit,
-                    "compile": self.seconds.compile,
-                    "run": self.seconds.run,
-                },
-                "position_violation_max": self.position_violation_max,
-                "velocity_violation_max": self.velocity_violation_max,
-                "energy_drift_max": self.energy_drift_max,
-                "error_estimate": self.error_estimate,
-                "rank": {
-                    "rows": self.rank.rows,
-                    "rank": self.rank.rank,
-                    "identical_rows_dropped": self.rank.identical_rows_dropped,
-                },
-                "rank_events": [
-                    {"t_in": e.t_in, "t_out": e.t_out, "rank": e.rank, "smallest_pivot": e.smallest_pivot}
-                    for e in self.rank_events
-                ],
-                "rank_event_count": self.rank_event_count,
-                "final": {
-                    "t": float(self.t[last]) if last >= 0 else None,
-                    "q": self.q.row(),
-                    "v": self.v.row(),
-                    "lam": self._final_multipliers,
-                },
-            }
-        )
-        return contract
+        from symgen.result.contract import contract
+
+        return contract(self)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return all tables as one data frame over time; columns carry their table's name where it is needed.
@@ -388,14 +362,3 @@ class Result:
         from symgen.result.summary import html
 
         return html(self)
-
-
-def finite(value: Any) -> Any:
-    """Return `value` with every number that JSON cannot express replaced by None."""
-    if isinstance(value, dict):
-        return {key: finite(item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return [finite(item) for item in value]
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value

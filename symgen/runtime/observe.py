@@ -72,7 +72,7 @@ def observe_rates(
 
 @jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
 def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
-    """Evaluate D v' - gamma and the joint coordinates with their rates at outputs.
+    """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or what was asked for.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
     sizes, outputs, count, p, w
         As for `observe_rates`.
     observed : Observed
-        Holds accelerations; receives rows, in the order that ``observe`` writes.
+        Holds accelerations and multipliers; receives rows, in the order that ``observe`` writes.
     room : Array
         Working memory for two states and a row.
     """
@@ -91,6 +91,8 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
         output(sizes, outputs, k, y, w)
         for i in range(sizes.nv):
             rate[sizes.nq + i] = observed.accelerations[k, i]
+        for i in range(sizes.m):
+            w[sizes.multipliers + i] = observed.multipliers[k, i]
         observe(outputs.times[k], y, p, w, rate, row)
         for i in range(length):
             observed.rows[k, i] = row[i]

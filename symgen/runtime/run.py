@@ -156,8 +156,7 @@ class Outcome:
         from symgen.runtime.records import Observed, Outputs
 
         info, k = self.compiled.info, len(self.times)
-        rows = np.zeros((k, info.m + 2 * len(info.joint_coordinates)))
-        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), rows)
+        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, 0)))
         return sizes_of(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
 
     @cached_property
@@ -181,12 +180,29 @@ class Outcome:
 
     @cached_property
     def _rows(self) -> Array:
+        info = self.compiled.info
+        return self.observed(self.compiled.model.observe, info.m + 2 * len(info.joint_coordinates))
+
+    def observed(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
+        """Return what a function of the motion gives at the outputs, shape (k, length).
+
+        Parameters
+        ----------
+        function : compiled function
+            Of type `symgen.runtime.abi.OBSERVE`.
+        length : int
+            How many numbers it writes.
+        multipliers : Array, shape (k, m), optional
+            What it shall see in place of those that the law left.
+        """
         from symgen.runtime.observe import observe_rows
 
-        (sizes, outputs, _), observed = self._seen, self._rates
-        room = np.zeros(2 * sizes.ny + observed.rows.shape[1])
-        arrays = self.p, self.w.copy(), observed, room
-        observe_rows(self.compiled.model.observe, sizes, outputs, len(self.times), *arrays)
+        (sizes, outputs, _), rates = self._seen, self._rates
+        observed = rates._replace(rows=np.zeros((len(self.times), length)))
+        if multipliers is not None:
+            observed = observed._replace(multipliers=np.ascontiguousarray(multipliers))
+        room = np.zeros(2 * sizes.ny + length)
+        observe_rows(function, sizes, outputs, len(self.times), self.p, self.w.copy(), observed, room)
         return np.asarray(observed.rows)
 
 

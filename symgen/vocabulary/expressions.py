@@ -15,7 +15,7 @@ import msgspec
 from symgen.vocabulary.functions import ELEMENTARY
 
 if TYPE_CHECKING:
-    from symgen.vocabulary.measures import Measure
+    from symgen.vocabulary.measures import Source
 
 
 class Number(msgspec.Struct, frozen=True, tag="number"):
@@ -41,11 +41,11 @@ class Reading(msgspec.Struct, frozen=True, tag="reading"):
     """What a measure shows in the course of a motion: a point's coordinate, a joint's angle, or a rate of these.
 
     `name` is how a formula writes it (``arm.tip.vy``, ``motor.angle``); `order` is 0 for the value, 1 for the rate and
-    2 for the second derivative with respect to time.
+    2 for the second derivative with respect to time. Outputs also read what forces and drivers exert, of order 0.
     """
 
     name: str
-    measure: Measure
+    source: Source
     order: int = 0
 
 

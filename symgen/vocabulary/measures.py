@@ -202,3 +202,22 @@ class Effort(msgspec.Struct, frozen=True):
     measure: Measure | PointSpeed
     magnitude: Expr = ZERO
     potential: Expr = ZERO
+
+
+class Exerted(msgspec.Struct, frozen=True, tag="exerted"):
+    """What efforts exert together: the sum of -dU/ds + F [N, N m], or with `power` of that times s' [W]."""
+
+    efforts: tuple[Effort, ...]
+    power: bool = False
+
+
+class Driven(msgspec.Struct, frozen=True, tag="driven"):
+    """What the driver of a row exerts along its measure: -lambda [N, N m], or with `power` that times s' [W]."""
+
+    row: str
+    measure: Measure
+    power: bool = False
+
+
+#: What a reading may be of.
+Source = Measure | Speed | Exerted | Driven

@@ -48,7 +48,8 @@ def test_reactions_balance_every_body():
     for k in (0, 60, 200):
         q, v, a = (np.asarray(x)[k] for x in (result.q, result.v, result.a))
         at = {body: space.centre(body, q) for body in space.bodies}
-        first = {"pin": np.zeros(3), "cross": at["arm"], "string": at["rod"]}
+        ends = {"cross": space.arm("arm", [0.5, 0.1, 0.0], q), "string": space.arm("rod", [0.0, 0.0, -0.2], q)}
+        first = {"pin": np.zeros(3), "cross": at["arm"] + ends["cross"], "string": at["rod"] + ends["string"]}
 
         def on(joint, body, sign, k=k, at=at, first=first):
             """Force and moment of a joint about a body's centre of mass."""
@@ -74,5 +75,9 @@ def test_reactions_balance_every_body():
         # the pin lets the arm turn about its axis, the string has no moment where it is tied
         axis = space.direction("ground", [0.0, 1.0, 0.3], q)
         assert abs(axis @ r["pin"][1][k]) < 1e-9 < np.linalg.norm(r["pin"][1][k])
-        tied = np.cross(space.arm("rod", [0.0, 0.0, -0.2], q), r["string"][0][k])
-        np.testing.assert_allclose(r["string"][1][k], tied, atol=1e-9)
+        np.testing.assert_allclose(r["string"][1][k], 0.0, atol=1e-9)
+        # the same in the axes of the arm, and their lengths
+        turned = space.matrix("arm", q).T @ np.column_stack([r["cross"][0][k], r["cross"][1][k]])
+        np.testing.assert_allclose(result.body_reactions["cross"][k], turned.T.ravel(), atol=1e-11)
+        lengths = [np.linalg.norm(r["cross"][0][k]), np.linalg.norm(r["cross"][1][k])]
+        np.testing.assert_allclose(result.magnitudes["cross"][k], lengths, rtol=1e-13)

@@ -111,16 +111,29 @@ def test_reactions_balance_each_body(four_bar):
     assert np.allclose(mass * four_bar["crank.ax"], fx, atol=1e-9)
     assert np.allclose(mass * four_bar["crank.ay"], fy - mass * 9.81, atol=1e-9)
     arm = np.column_stack([-np.cos(theta), -np.sin(theta)])  # from the centre of mass to A
-    moment = arm[:, 0] * -r["A.Fy"] - arm[:, 1] * -r["A.Fx"] + r["B.M"]
+    moment = arm[:, 0] * (-r["A.Fy"] - r["B.Fy"]) - arm[:, 1] * (-r["A.Fx"] - r["B.Fx"])  # B is opposite to A
     assert np.allclose(inertia * four_bar["crank.alpha"], moment, atol=1e-9)
 
 
 def test_a_pin_carries_no_moment(four_bar):
     r = four_bar.reactions
+    # moments of forces of 1e2 N about points 10 m away, taken apart and put together again
+    for joint in "ABCD":
+        assert np.abs(r[f"{joint}.M"]).max() < 1e-11 * np.abs(r[f"{joint}.Fy"]).max()
+
+
+def test_reactions_in_axes_of_bodies_and_their_magnitudes(four_bar):
+    r, own, size = four_bar.reactions, four_bar.body_reactions, four_bar.magnitudes
     theta = four_bar["crank.theta"]
-    assert np.allclose(r["B.M"], np.cos(theta) * r["B.Fy"] - np.sin(theta) * r["B.Fx"], atol=1e-9)
-    # D is reported on the ground: about the origin, its force acts at (10, 0)
-    assert np.allclose(r["D.M"], 10.0 * r["D.Fy"], atol=1e-9)
+    assert np.allclose(own["B.Fx"], np.cos(theta) * r["B.Fx"] + np.sin(theta) * r["B.Fy"], rtol=1e-13, atol=1e-12)
+    assert np.allclose(own["B.Fy"], np.cos(theta) * r["B.Fy"] - np.sin(theta) * r["B.Fx"], rtol=1e-13, atol=1e-12)
+    assert np.array_equal(own["D"], r["D"])  # on the ground
+    assert np.allclose(size["C.F"], np.hypot(r["C.Fx"], r["C.Fy"]), rtol=1e-15)
+    assert size.names == ("A.F", "B.F", "C.F", "D.F") and set(size.units) == {"N"}
+
+
+def test_the_shape_and_units_of_a_reaction(four_bar):
+    r = four_bar.reactions
     assert four_bar.reaction("D").shape == (len(four_bar.t), 3)
     assert r.unit("D.M") == "N m" and r.unit("D.Fx") == "N"
 

@@ -228,7 +228,7 @@ class _Rewriting:
             body, dot, coordinate = e.name.partition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
         if isinstance(e, Reading):
-            return Reading("", self.walk(e.measure), e.order)
+            return Reading("", self.walk(e.source), e.order)
         assert isinstance(e, Call), "a literal is constant"
         if e.function.startswith("table:"):
             name = e.function.removeprefix("table:")

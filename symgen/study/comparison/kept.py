@@ -6,7 +6,7 @@ from dataclasses import asdict, fields
 from typing import Any
 
 from symgen.describe.mechanism import Mechanism
-from symgen.result.result import finite
+from symgen.result.contract import finite
 from symgen.settings import Settings
 from symgen.study.comparison.prepare import as_entry, from_entry
 from symgen.study.comparison.rows import Row, Trace

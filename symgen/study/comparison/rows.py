@@ -12,7 +12,8 @@ from typing import Any, cast
 from symgen.arguments import path as argument_path
 from symgen.errors import InputError
 from symgen.files import check_writable, write_csv
-from symgen.result.result import FAILED, finite
+from symgen.result.contract import finite
+from symgen.result.result import FAILED
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
 YARDSTICK = "lagrange"

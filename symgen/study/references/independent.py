@@ -25,13 +25,16 @@ from symgen.vocabulary.measures import (
     Component,
     Direction,
     Distance,
+    Driven,
     Effort,
+    Exerted,
     Holonomic,
     LinkStretch,
     Marker,
     Measure,
     Nonholonomic,
     PointSpeed,
+    Speed,
     Sum,
 )
 
@@ -149,7 +152,8 @@ class IndependentEquations:
 
     def _reading(self, r: Reading) -> Any:
         """Return a measure's value, or its rate."""
-        value = self._measure(r.measure)
+        assert not isinstance(r.source, Speed | Exerted | Driven), "functions of state read measures"
+        value = self._measure(r.source)
         return self._along(value) if r.order else value
 
     def _masses(self) -> Array:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from symgen.files import check_writable, write_csv
-from symgen.result.result import finite
+from symgen.result.contract import finite
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.outcome import ACCURATE, counts, false_success
 
