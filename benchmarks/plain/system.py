@@ -52,7 +52,7 @@ class System:
         self.document = document
         self.bodies = bodies(document)
         kinds = joints_space.KINDS if document.spatial else joints_plane.KINDS
-        parts = Parts(document, self.bodies, kinds)
+        self.parts = parts = Parts(document, self.bodies, kinds)
         self.joints: list[Joint] = [parts.joint(name) for name in document.section("joints")]
         self.forces = [forces.KINDS[t["type"]](parts, n, t) for n, t in document.section("forces").items()]
         self.names_q = [name for body in self.bodies.values() for name in body.coordinates]
@@ -205,15 +205,28 @@ class System:
     def reactions(self, state: State, d: Array, lam: Array) -> dict[str, Array]:
         """Return force and moment of each joint on its first body, -D^T lambda, in ground axes.
 
-        Moments are about the centre of mass, on the ground about the origin (docs/results.md).
+        Moments are about the joint's point on that body; where a kind of joint has no point, about the centre of mass,
+        on the ground about the origin (docs/results.md).
         """
         found, i = {}, 0
         for joint in self.joints:
             n = len(joint.rows)
             works = -d[i : i + n].T @ lam[i : i + n]
-            found[joint.name] = self._reaction(state, joint.bodies[0], works)
+            found[joint.name] = self._moved(state, joint, self._reaction(state, joint.bodies[0], works))
             i += n
         return found
+
+    def _moved(self, state: State, joint: Joint, reaction: Array) -> Array:
+        """Return force and moment about the joint's point of those about the centre of mass or the origin."""
+        table = self.document.section("joints")[joint.name]
+        if "at" not in table:
+            return reaction
+        d, at = self.document.dimension, table["at"][0] if "between" in table else table["at"]
+        marker = self.parts.marker(joint.bodies[0], at)
+        arm = marker.at if marker.body == GROUND else state.matrix(marker.body) @ marker.at
+        force = reaction[:d]
+        lever = crossed(arm, force) if d == 3 else np.array([arm[0] * force[1] - arm[1] * force[0]])
+        return np.concatenate([force, reaction[d:] - lever])
 
     def _reaction(self, state: State, first: str, works: Array) -> Array:
         if first != GROUND:

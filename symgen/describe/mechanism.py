@@ -8,7 +8,7 @@ from symgen.arguments import shown
 from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Expr
-from symgen.vocabulary.measures import Effort, Measure, Row
+from symgen.vocabulary.measures import Effort, Marker, Measure, Row
 
 #: Velocity -> what its rate is called.
 ACCELERATIONS = {
@@ -185,6 +185,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
     outputs: tuple[Output, ...] = ()
+    seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

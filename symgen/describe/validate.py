@@ -26,6 +26,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 from symgen.errors import InputError, nearest, quoted
+from symgen.vocabulary.measures import Marker
 
 Raw = Mapping[str, Any]
 
@@ -54,6 +55,7 @@ class _Validator:
     def __init__(self, raw: Raw, source: str) -> None:
         self.raw, self.source = raw, source
         self._joints: dict[str, Joint | None] = {}
+        self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
 
     def where(self, path: str) -> str:
@@ -102,6 +104,7 @@ class _Validator:
             forces=forces,
             defaults=self.defaults(line(head.source)),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
+            seats=tuple(self._seats.items()),
         )
 
     # Names ---------------------------------------------------------------------------------------------------------
@@ -210,7 +213,12 @@ class _Validator:
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        joint = read(struct, table, self.where(path), ("type",)).build(scope)
+        section = read(struct, table, self.where(path), ("type",))
+        joint = section.build(scope)
+        at = getattr(section, "at", None)
+        if at is not None:
+            point = at[0] if hasattr(section, "between") else at
+            self._seats[name] = scope.marker("at", joint.bodies[0], point)
         self._joints[name] = joint
         self._open -= 1
         return joint

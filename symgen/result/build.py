@@ -9,7 +9,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
-from symgen.result.reactions import Forces, Seat
+from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.runtime import abi
 
@@ -55,7 +55,7 @@ def build_result(
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
     parameters = parameter_values(mechanism, settings.parameters)
-    forces = Forces(outcome, {joint.name: Seat.of(joint, mechanism, parameters) for joint in mechanism.joints})
+    forces = Forces(outcome, seats(mechanism, parameters))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))

@@ -6,17 +6,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-import msgspec
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.orientation import matrix
 from symgen.result.labelled import Array, Labelled
 from symgen.runtime import abi
-from symgen.vocabulary.measures import GROUND, Marker
+from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Joint, Mechanism
+    from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.run import Outcome
 
@@ -30,36 +29,26 @@ _SHARE = 1e-8
 class Seat:
     """Where the reaction of a joint acts: its first body, and its point there relative to the centre of mass [m].
 
-    On the ground the point is relative to the origin. Where a kind of joint has no point, that is 0.
+    On the ground the point is relative to the origin. It is 0 for kinds of joints without a point ``at``.
     """
 
     body: str
     place: tuple[float, ...]
 
-    @classmethod
-    def of(cls, joint: Joint, mechanism: Mechanism, parameters: Mapping[str, float]) -> Seat:
-        """Return the seat of a joint: the first point on its first body that its rows speak of."""
-        body, nothing = joint.bodies[0], (0.0,) * len(mechanism.gravity)
-        marker = next((m for row in joint.rows for m in _markers(row) if m.body == body), None)
-        if marker is None:
-            return cls(body, nothing)
-        point = tuple(evaluate(e, parameters, f"joints.{joint.name}") for e in marker.point)
-        if body == GROUND:
-            return cls(body, point)
-        centre = (evaluate(e, parameters, f"bodies.{body}") for e in mechanism.body(body).centre_of_mass)
-        return cls(body, tuple(x - c for x, c in zip(point, centre, strict=True)))
 
-
-def _markers(value: object) -> Iterator[Marker]:
-    """Yield the markers in a value of the vocabulary, in the order of its fields."""
-    if isinstance(value, Marker):
-        yield value
-    elif isinstance(value, msgspec.Struct):
-        for name in value.__struct_fields__:
-            yield from _markers(getattr(value, name))
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _markers(item)
+def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
+    """Return where the reactions of all joints act, by name: at the points ``at`` of their first bodies."""
+    markers, nothing = dict(mechanism.seats), (0.0,) * len(mechanism.gravity)
+    found = dict[str, Seat]()
+    for joint in mechanism.joints:
+        body, place = joint.bodies[0], nothing
+        if joint.name in markers:
+            place = tuple(evaluate(e, parameters, f"joints.{joint.name}.at") for e in markers[joint.name].point)
+            if body != GROUND:
+                centre = (evaluate(e, parameters, f"bodies.{body}") for e in mechanism.body(body).centre_of_mass)
+                place = tuple(x - c for x, c in zip(place, centre, strict=True))
+        found[joint.name] = Seat(body, place)
+    return found
 
 
 @dataclass(frozen=True)
