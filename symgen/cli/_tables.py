@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
@@ -34,6 +35,18 @@ def show_result(result: Result) -> None:
     out.print(table)
     if len(result.t):
         out.print(_final(result))
+
+
+def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
+    """Print last, smallest and largest values of quantities."""
+    table = Table(box=None, header_style="dim", pad_edge=False)
+    table.add_column("quantity")
+    for heading in ("final", "smallest", "largest", "unit"):
+        table.add_column(heading, justify="left" if heading == "unit" else "right")
+    for name, entry in found.items():
+        numbers = ("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max"))
+        table.add_row(name, *numbers, entry["unit"])
+    console().print(table)
 
 
 def _final(result: Result, most: int = 12) -> Table:

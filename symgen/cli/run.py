@@ -21,9 +21,17 @@ if TYPE_CHECKING:
     *("verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
+@click.option(
+    *("--quantity", "quantities"),
+    multiple=True,
+    metavar="NAME",
+    help="What to show beside: a column, a body or an element, such as spring.force. --save FILE.csv holds these only.",
+)
 @click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")
 @json_option
-def command(model: str, save: str | None, plot: str | None, as_json: bool, **asked: Any) -> int:
+def command(
+    model: str, save: str | None, quantities: tuple[str, ...], plot: str | None, as_json: bool, **asked: Any
+) -> int:
     """Simulate MODEL and say how it went.
 
     Outputs are every step with a constant step and 1001 equidistant times with an adaptive integrator, unless the
@@ -36,6 +44,7 @@ def command(model: str, save: str | None, plot: str | None, as_json: bool, **ask
 
     from symgen.api import load
     from symgen.cli._progress import Bar
+    from symgen.result.select import extremes
 
     loaded = load(model)
     if save_path is not None:
@@ -47,13 +56,16 @@ def command(model: str, save: str | None, plot: str | None, as_json: bool, **ask
         result = loaded.simulate(settings, progress=bar)
     for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
         click.echo(f"symgen: {sentence}", err=True)
+    chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
-        write_json(result.to_json())
+        write_json(result.to_json() | ({"quantities": chosen} if quantities else {}))
     else:
-        from symgen.cli._tables import show_result
+        from symgen.cli._tables import show_quantities, show_result
 
         show_result(result)
-    files = {save_path: result.save, plot_path: result.plot}
+        if quantities:
+            show_quantities(chosen)
+    files = {save_path: lambda path: result.save(path, quantities), plot_path: result.plot}
     return write_files(_exit_code(result), files, None if as_json else lambda path: click.echo(f"written: {path}"))
 
 

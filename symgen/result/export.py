@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
@@ -16,6 +16,7 @@ import numpy as np
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, write_whole
 from symgen.memory import require
+from symgen.result.result import SIDE
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -34,7 +35,7 @@ PLOTTED: Mapping[str, tuple[str, ...]] = {".png": ("matplotlib",), ".svg": ("mat
 
 #: Table -> what its columns are prefixed with in a data frame. Bodies and joints may share names, so all but the
 #: tables of bodies say whose they are.
-_PREFIX = {
+PREFIX = {
     "q": "",
     "v": "",
     "a": "",
@@ -134,13 +135,13 @@ def to_dataframe(result: Result) -> pd.DataFrame:
 
     tables = result.tables()
     columns = {
-        _PREFIX[name] + column: table.values[:, i]
+        PREFIX[name] + column: table.values[:, i]
         for name, table in tables.items()
         for i, column in enumerate(table.names)
     }
     frame = pd.DataFrame(columns, index=pd.Index(result.t, name="t"))
     frame.attrs["units"] = {
-        _PREFIX[name] + column: unit
+        PREFIX[name] + column: unit
         for name, table in tables.items()
         for column, unit in zip(table.names, table.units, strict=True)
     }
@@ -177,15 +178,34 @@ def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_
     return np.array(names, dtype=object)
 
 
-def save(result: Result, path: Path) -> Path:
-    """Write all tables in the format that the ending of `path` names."""
+def save(result: Result, path: Path, quantities: Sequence[str] = ()) -> Path:
+    """Write all tables, or some columns, in the format that the ending of `path` names.
+
+    Columns of CSV files that were chosen carry their units: ``spring.force [N]``.
+    """
     check_path("save", path, SAVED, "data")
-    columns = len(result.q) + 2 * len(result.v) + 3 * result.rank.rows + 16
-    require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
     ending = path.suffix.lower()
-    if ending == ".nc":
-        return write_whole(path, netcdf(to_xarray(result)))
-    frame = to_dataframe(result)
+    if quantities and ending != ".nc":
+        frame = chosen_frame(result, quantities, units=ending == ".csv")
+    else:
+        columns = len(result.q) + 2 * len(result.v) + 3 * result.rank.rows + 16
+        columns += sum(len(result.measured.columns(table)) for table in SIDE)
+        require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
+        if ending == ".nc":
+            return write_whole(path, netcdf(to_xarray(result)))
+        frame = to_dataframe(result)
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
     return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
+
+
+def chosen_frame(result: Result, quantities: Sequence[str], units: bool) -> pd.DataFrame:
+    """Return some columns over time, their units in the names where these are asked for."""
+    need("save", "pandas")
+    import pandas as pd
+
+    chosen = result.select(quantities)
+    names = [f"{n} [{u}]" if units and u else n for n, u in zip(chosen.names, chosen.units, strict=True)]
+    frame = pd.DataFrame(chosen.values, columns=names, index=pd.Index(result.t, name="t [s]" if units else "t"))
+    frame.attrs["units"] = dict(zip(names, chosen.units, strict=True))
+    return frame

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -327,8 +327,22 @@ class Result:
 
         return to_xarray(self)
 
-    def save(self, path: str | PathLike[str]) -> Path:
+    def select(self, names: Sequence[str]) -> Labelled:
+        """Return columns of any tables, by their names in data frames: see `symgen.result.select.select`."""
+        from symgen.result.select import select
+
+        return select(self, names)
+
+    def save(self, path: str | PathLike[str], quantities: Sequence[str] = ()) -> Path:
         """Write all tables to ``.nc`` (NetCDF), ``.parquet`` or ``.csv``; the file appears whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            The file; its ending says the kind.
+        quantities : sequence of str, optional
+            Columns to write, as `select` takes them, with units in the header of a CSV file. A ``.nc`` file always
+            holds everything.
 
         Raises
         ------
@@ -337,7 +351,7 @@ class Result:
         """
         from symgen.result.export import save
 
-        return save(self, argument_path("save", path))
+        return save(self, argument_path("save", path), words("quantities", quantities))
 
     def plot(self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.

@@ -1,0 +1,80 @@
+"""Columns of a result by the names that data frames give them, from whatever tables have them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.arguments import words
+from symgen.errors import InputError, nearest
+from symgen.result.contract import finite
+from symgen.result.export import PREFIX
+from symgen.result.labelled import Labelled
+from symgen.result.result import SIDE, TABLES
+
+if TYPE_CHECKING:
+    from symgen.result.result import Result
+
+
+def select(result: Result, names: Sequence[str]) -> Labelled:
+    """Return columns called `names`, in this order.
+
+    Parameters
+    ----------
+    result : Result
+        Of a run.
+    names : sequence of str
+        Of columns of a data frame, such as ``crank.theta``, ``lam.A.x``, ``spring.force`` or ``reach``; of a group,
+        such as ``crank``, ``spring`` or ``energy``; or of a table, such as ``q`` or ``outputs``.
+
+    Raises
+    ------
+    InputError
+        If there is no such name; says the nearest one.
+    """
+    columns = _columns(result)
+    chosen: dict[str, str] = {}
+    for name in words("quantities", names):
+        found = _named(columns, name)
+        if not found:
+            groups = {column.partition(".")[0] for column in columns}
+            known = [*columns, *groups, *TABLES] if len(columns) <= 60 or "." in name else [*groups, *TABLES]
+            expected = f"a quantity of {result.mechanism}"
+            raise InputError(f"quantity '{name}'", expected, "none of that name", nearest(name, known))
+        chosen |= found
+    tables: dict[str, Labelled] = {table: getattr(result, table) for table in dict.fromkeys(chosen.values())}
+    own = {column: (tables[table], column.removeprefix(PREFIX[table])) for column, table in chosen.items()}
+    values = [table[name] for table, name in own.values()]
+    stacked = np.column_stack(values) if values else np.zeros((len(result.t), 0))
+    return Labelled(stacked, tuple(own), tuple(table.unit(name) for table, name in own.values()))
+
+
+def extremes(table: Labelled) -> dict[str, dict[str, Any]]:
+    """Return unit, last, smallest and largest value of each column, None where there is none."""
+    found: dict[str, dict[str, Any]] = {}
+    for i, (name, unit) in enumerate(zip(table.names, table.units, strict=True)):
+        values = table.values[:, i]
+        numbers = (values[-1], values.min(), values.max()) if len(values) else (math.nan,) * 3
+        found[name] = {"unit": unit, **dict(zip(("final", "min", "max"), map(float, numbers), strict=True))}
+    return {name: finite(entry) for name, entry in found.items()}
+
+
+def _columns(result: Result) -> dict[str, str]:
+    """Return the names of all columns with their tables; nothing is generated for it."""
+    found: dict[str, str] = {}
+    for table in TABLES:
+        names = [c.name for c in result.measured.columns(table)] if table in SIDE else getattr(result, table).names
+        found |= {PREFIX[table] + name: table for name in names}
+    return found
+
+
+def _named(columns: dict[str, str], name: str) -> dict[str, str]:
+    """Return what a name means: a column, all columns of a body, element or prefix, or all of a table."""
+    if name in columns:
+        return {name: columns[name]}
+    if name in TABLES:
+        return {column: table for column, table in columns.items() if table == name}
+    return {column: table for column, table in columns.items() if column.startswith(f"{name}.")}
