@@ -93,9 +93,26 @@ def linearised(compiled: CompiledModel, start: Start, scales: NDArray[np.float64
     return result
 
 
-def gather(mechanism: Mechanism, parameters: Mapping[str, float], shape: str = "auto") -> Facts:
-    """Return the facts of a mechanism with given parameters; `shape` is that of the code that tells them."""
-    plan = make_plan(mechanism, Settings(method="lagrange", integrator="dop853", shape=shape))
+def gather(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    shape: str = "auto",
+    held: Mapping[str, float] | None = None,
+) -> Facts:
+    """Return the facts of a mechanism with given parameters.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    parameters : mapping
+        Values of parameters that differ from the described ones.
+    shape : str
+        Of the code that tells them.
+    held : mapping, optional
+        Values that the start keeps, by name.
+    """
+    plan = make_plan(mechanism, Settings(method="lagrange", integrator="dop853", shape=shape, start=held or {}))
     compiled, start = ready(mechanism, plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
     small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
@@ -188,7 +205,7 @@ def resolve(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
     """
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
-    facts = gather(mechanism, settings.parameters, settings.shape)
+    facts = gather(mechanism, settings.parameters, settings.shape, settings.start)
     method, integrator, reasons = decide(facts, settings.method, settings.integrator)
     options = dict(settings.options)
     if settings.method == AUTO and method == "direct-correction" and not facts.massless:

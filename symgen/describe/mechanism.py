@@ -139,6 +139,17 @@ class Force(msgspec.Struct, frozen=True):
     efforts: tuple[Effort, ...]
 
 
+class Hold(msgspec.Struct, frozen=True):
+    """What a start keeps while assembly moves everything else.
+
+    `name` is a coordinate or velocity of a body (``crank.theta``, ``rod.vx``), the orientation of a body in space
+    (``rod.orientation``), or a joint coordinate or its rate (``motor.angle``, ``motor.angle.rate``).
+    """
+
+    name: str
+    value: Expr | None = None  # None: as the body is described
+
+
 class Defaults(msgspec.Struct, frozen=True):
     """What a run uses where nothing else is asked for."""
 
@@ -165,6 +176,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
+    holds: tuple[Hold, ...] = ()
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

@@ -11,8 +11,9 @@ import msgspec
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import PlainScalar, found, read, read_value
-from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
+from symgen.describe.fields import JointStart, PlainScalar, found, read, read_value
+from symgen.describe.holds import body_holds, holds_of, joint_holds
+from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
 from symgen.describe.scope import Model, Scope
@@ -54,6 +55,7 @@ class _Validator:
         self.raw, self.source = raw, source
         self._joints: dict[str, Joint | None] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
+        self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -85,7 +87,12 @@ class _Validator:
         if not bodies:
             raise InputError(self.where("bodies"), "at least one body, [bodies.NAME]", "none")
         self.model = msgspec.structs.replace(self.model, bodies={body.name: body for body in bodies})
-        return Mechanism(
+        joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
+        kept = [
+            body_holds(Scope(self.model, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
+            for body in bodies
+        ]
+        mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
             space=head.space,
@@ -93,10 +100,15 @@ class _Validator:
             parameters=parameters,
             tables=tables,
             bodies=bodies,  # type: ignore[arg-type]  # all of one space
-            joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
+            joints=joints,
             forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
             defaults=self.defaults(line(head.source)),
+            holds=tuple(
+                hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
+            ),
         )
+        holds_of(mechanism, self.source)  # says what is held twice
+        return mechanism
 
     # Names ---------------------------------------------------------------------------------------------------------
 
@@ -163,8 +175,8 @@ class _Validator:
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 
-    def split(self, path: str, raw: object, what: str) -> tuple[str, dict[str, Any]]:
-        """Return the type of a joint or force and its other keys."""
+    def split(self, path: str, raw: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
+        """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
         where = self.where(path)
         if not isinstance(raw, Mapping):
             raise InputError(where, "a table", found(raw))
@@ -172,7 +184,7 @@ class _Validator:
         if not isinstance(kind, str):
             got = "no such key" if kind is None else found(kind)
             raise InputError(f"{where}.type", f"a {what}", got)
-        return kind, {key: value for key, value in raw.items() if key != "type"}
+        return kind, {key: value for key, value in raw.items() if key not in ("type", *common)}
 
     def joint(self, name: str, where: str) -> Joint:
         """Return the joint `name`, resolved now if another one asks for it first."""
@@ -191,11 +203,14 @@ class _Validator:
         if self._open > DEEPEST:
             raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type")
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        joint = read(struct, table, self.where(path), ("type",)).build(scope)
+        joint = read(struct, table, self.where(path), ("type", "start")).build(scope)
+        if "start" in self.raw["joints"][name]:
+            given = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
+            self._starts[name] = joint_holds(scope, given, joint)
         self._joints[name] = joint
         self._open -= 1
         return joint

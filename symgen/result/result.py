@@ -42,7 +42,7 @@ INTERRUPTED = "interrupted"
 #: What a copy does without, and what is worked out before.
 _OF_THE_RUN = ("outcome", "forces")
 _DERIVED = (
-    *("a", "joint_coordinates", "violations", "lam", "reactions", "non_unique_reactions", "shape"),
+    *("a", "joint_coordinates", "violations", "lam", "reactions", "non_unique_reactions", "shape", "start"),
     "_final_multipliers",
 )
 
@@ -273,6 +273,15 @@ class Result:
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
     @cached_property
+    def start(self) -> dict[str, dict[str, float]]:
+        """State that the run began with, by name: ``q`` and ``v``."""
+        y, nq = self.outcome.start.y, len(self.q.names)
+        return {
+            "q": dict(zip(self.q.names, y[:nq].tolist(), strict=True)),
+            "v": dict(zip(self.v.names, y[nq : nq + len(self.v.names)].tolist(), strict=True)),
+        }
+
+    @cached_property
     def shape(self) -> str:
         """Return the shape of the code that ran: ``straight`` or ``looped``."""
         return self.outcome.compiled.shape
@@ -319,6 +328,7 @@ class Result:
                     for e in self.rank_events
                 ],
                 "rank_event_count": self.rank_event_count,
+                "start": self.start,
                 "final": {
                     "t": float(self.t[last]) if last >= 0 else None,
                     "q": self.q.row(),
