@@ -163,6 +163,8 @@ def make_ensemble(
     """
     from symgen.auto import resolve
 
+    if not isinstance(settings.start, Mapping):
+        raise InputError("start", "values by the names of coordinates and velocities", "the last state of another run")
     if settings.verify:
         raise InputError("verify", "single runs", "an ensemble", "run doubtful ones again by themselves")
     if settings.repeat != 1:

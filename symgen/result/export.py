@@ -174,7 +174,9 @@ def save(result: Result, path: Path) -> Path:
     require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
     ending = path.suffix.lower()
     if ending == ".nc":
-        return write_whole(path, netcdf(to_xarray(result)))
+        from symgen.result.resume import with_last_state
+
+        return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
     frame = to_dataframe(result)
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))

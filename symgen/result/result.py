@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.result.reactions import Forces
+    from symgen.runtime.last_state import LastState
     from symgen.runtime.run import Outcome, RankEvent
 
 ACCELERATIONS = {
@@ -104,6 +105,8 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
+    last_state : LastState
+        Where the run ended, with all that it kept: what another one goes on from.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -148,6 +151,7 @@ class Result:
     error_estimate: float | None
     outcome: Outcome
     forces: Forces
+    last_state: LastState
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -273,10 +277,11 @@ class Result:
     # -- leaving Python ------------------------------------------------------------------------------------------------
 
     @cached_property
-    def start(self) -> dict[str, dict[str, float]]:
-        """State that the run began with, by name: ``q`` and ``v``."""
+    def start(self) -> dict[str, Any]:
+        """State that the run began with: ``t``, and by name ``q`` and ``v``."""
         y, nq = self.outcome.start.y, len(self.q.names)
         return {
+            "t": self.outcome.start.t,
             "q": dict(zip(self.q.names, y[:nq].tolist(), strict=True)),
             "v": dict(zip(self.v.names, y[nq : nq + len(self.v.names)].tolist(), strict=True)),
         }

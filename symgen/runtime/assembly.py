@@ -7,9 +7,9 @@ is said where things that are held contradict each other.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,6 +56,12 @@ class Start:
         Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where nobody asked.
     warnings : tuple of str
         What was changed by so much that another motion may have been meant.
+    t : float
+        Time at which the run begins [s].
+    work : float
+        Work done before [J], which is not in `y`.
+    saved : mapping of str to Array, optional
+        What another run kept that this one goes on with.
     """
 
     y: Array
@@ -67,6 +73,9 @@ class Start:
     changes: tuple[Change, ...] = ()
     light: bool = False
     warnings: tuple[str, ...] = ()
+    t: float = 0.0
+    work: float = 0.0
+    saved: Mapping[str, NDArray[Any]] | None = None
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
@@ -101,6 +110,7 @@ def assemble(
     held: Held | None = None,
     ask_light: bool = False,
     moved: Callable[[Array, Array], Iterable[tuple[str, float, str]]] | None = None,
+    instant: tuple[float, Sequence[float]] = (0.0, ()),
 ) -> Start:
     """Return the consistent start of a single run.
 
@@ -126,6 +136,8 @@ def assemble(
         Whether the start shall say if bodies are too light for the law's solver.
     moved : callable, optional
         What is told of the coordinates as described and as closed beside these: names, by how much, and units.
+    instant : tuple of float and sequence of float, optional
+        Time of the start [s], and the angles that count turns where their branches are known.
 
     Raises
     ------
@@ -136,7 +148,7 @@ def assemble(
         determines the accelerations of a massless body.
     """
     fixed = held or Held()
-    info, y, start = compiled.info, np.zeros(compiled.info.ny), _Closed(compiled, fixed, strict, ask_light)
+    info, y, start = compiled.info, np.zeros(compiled.info.ny), _Closed(compiled, fixed, strict, ask_light, *instant)
     y[: info.nq] = q
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
@@ -153,6 +165,7 @@ def assemble(
         warnings=()
         if start.asked_far(q, p, w)
         else warnings_of(changes, info, float(w[abi.LENGTH]), () if moved is None else moved(q, y[: info.nq])),
+        t=instant[0],
     )
 
 
@@ -164,6 +177,8 @@ class _Closed:
     held: Held
     strict: bool = False
     ask_light: bool = False
+    t: float = 0.0
+    windings: Sequence[float] = ()
 
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make a state consistent, in place; return scratch and what is said of the start.
@@ -184,6 +199,10 @@ class _Closed:
         asked = Asked(given, targets, np.zeros(e.N_SUMMARY))
         places = tuple(held.coordinates), tuple(held.velocities), held.fixed
         assembly, now = Assembly.of(compiled, *places, self.strict, self.ask_light), Instant(y, p, w)
+        layout = assembly.layout._replace(t=self.t)
+        if self.windings:
+            layout = layout._replace(branches=np.array(self.windings, dtype=np.float64))
+        assembly = replace(assembly, layout=layout)
         if held.joints or held.rates:
             if assembly.close_joints(now, asked, held) != e.ASSEMBLED:
                 return now.w, asked.summary
@@ -191,7 +210,7 @@ class _Closed:
             # from here on it is the start of a run that describes just this
             still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
             assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light)
-            assembly = replace(assembly, layout=assembly.layout._replace(branches=branches))
+            assembly = replace(assembly, layout=assembly.layout._replace(t=self.t, branches=branches))
             asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
             assembly.close_one(now, asked)
             asked.summary[[_MOVED, _VELOCITIES]] = found[[_MOVED, _VELOCITIES]]
@@ -213,7 +232,7 @@ class _Closed:
             given[list(held.velocities)] = np.nan
             w, found = replace(self, held=less, strict=False, ask_light=False).close(y, given, p.copy())
             with np.errstate(all="ignore"):
-                return Attempt(int(found[_START]), y, joint_values(self.compiled, 0.0, y, p, w.copy()))
+                return Attempt(int(found[_START]), y, joint_values(self.compiled, self.t, y, p, w.copy()))
 
         def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
             if all_of_it.joints:
@@ -234,7 +253,7 @@ class _Closed:
         info, held, length = self.compiled.info, self.held, float(w[abi.LENGTH])
         y = np.zeros(info.ny)
         y[: info.nq] = q
-        values = joint_values(self.compiled, 0.0, y, p, w.copy()) if held.joints else y
+        values = joint_values(self.compiled, self.t, y, p, w.copy()) if held.joints else y
         asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
         asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
         limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
