@@ -12,6 +12,7 @@ import numpy as np
 from symgen import arguments
 from symgen.compiling.pipeline import choose_method, compile_model
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
@@ -25,7 +26,8 @@ from symgen.settings import SHAPES, Settings, changed
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
-    from symgen.runtime.assembly import Held, Start
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.held import Held
 
 
 def load(model: str | Path | Mechanism | Model) -> Model:
@@ -118,10 +120,23 @@ class Model:
         parameters: Mapping[str, float] | None = None,
         method_parameters: Mapping[str, float] | None = None,
         strict: bool = False,
-        held: Held | None = None,
+        held: Held | Mapping[str, float] | None = None,
         ask_light: bool = False,
     ) -> Start:
         """Return the consistent start of a run; see `symgen.run_setup.start_of`.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            From `compile`.
+        parameters, method_parameters : mapping, optional
+            Values that differ from the described ones, and from the method's defaults.
+        strict : bool
+            Refuse a start that is not consistent instead of changing it.
+        held : mapping, optional
+            Values of coordinates and velocities that are kept, by name, as the setting ``start`` has them.
+        ask_light : bool
+            Whether the start shall say if bodies are too light for the law's solver.
 
         Raises
         ------
@@ -139,7 +154,10 @@ class Model:
                 expected = f"a parameter of {compiled.law.method}"
                 raise InputError("method_parameters", expected, f"'{name}'", nearest(name, own) or "it has none")
         strict = arguments.switch("strict", strict)
-        return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)
+        if held is None or isinstance(held, Mapping):
+            asked = Settings(start=held or {}).start
+            held = holds_of(self.mechanism, "start", asked)  # type: ignore[assignment]  # of names, by index later
+        return start_of(self.mechanism, compiled, parameters, method_parameters, strict, held, ask_light)  # type: ignore[arg-type]
 
     def ready(
         self, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False

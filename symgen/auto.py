@@ -87,15 +87,37 @@ def linearised(compiled: CompiledModel, start: Start, scales: NDArray[np.float64
         for sign in (1.0, -1.0):
             y, rate = start.y.copy(), np.zeros_like(start.y)
             y[j] += sign * step
-            rhs(0.0, y, start.p, start.w.copy(), iw, rate)
+            rhs(start.t, y, start.p, start.w.copy(), iw, rate)
             sides.append(rate[:width])
         result[:, j] = (sides[0] - sides[1]) / (2.0 * step)
     return result
 
 
-def gather(mechanism: Mechanism, parameters: Mapping[str, float], shape: str = "auto") -> Facts:
-    """Return the facts of a mechanism with given parameters; `shape` is that of the code that tells them."""
-    plan = make_plan(mechanism, Settings(method="lagrange", integrator="dop853", shape=shape))
+def gather(
+    mechanism: Mechanism,
+    parameters: Mapping[str, float],
+    shape: str = "auto",
+    held: Mapping[str, float] | None = None,
+    until: float | None = None,
+) -> Facts:
+    """Return the facts of a mechanism with given parameters.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    parameters : mapping
+        Values of parameters that differ from the described ones.
+    shape : str
+        Of the code that tells them.
+    held : mapping, optional
+        Values that the start keeps, by name.
+    until : float, optional
+        End of the run [s].
+    """
+    plan = make_plan(
+        mechanism, Settings(method="lagrange", integrator="dop853", shape=shape, start=held or {}, until=until)
+    )
     compiled, start = ready(mechanism, plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
     small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
@@ -105,7 +127,7 @@ def gather(mechanism: Mechanism, parameters: Mapping[str, float], shape: str = "
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)
     iw = np.zeros(len(COUNTERS), dtype=np.int64)
-    Ready(compiled.law_module.rhs, abi.RHS)(0.0, start.y.copy(), start.p, start.w.copy(), iw, rate)
+    Ready(compiled.law_module.rhs, abi.RHS)(start.t, start.y.copy(), start.p, start.w.copy(), iw, rate)
     # speeds and accelerations of points, over the mechanism's length
     levers = 1.0 / (float(start.w[abi.LENGTH]) * np.sqrt(compiled.section(start.w, "gauge")))
     speed = float(np.abs(start.y[nq:width] * levers).max(initial=0.0))
@@ -188,7 +210,7 @@ def resolve(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
     """
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
-    facts = gather(mechanism, settings.parameters, settings.shape)
+    facts = gather(mechanism, settings.parameters, settings.shape, settings.start, settings.until)
     method, integrator, reasons = decide(facts, settings.method, settings.integrator)
     options = dict(settings.options)
     if settings.method == AUTO and method == "direct-correction" and not facts.massless:

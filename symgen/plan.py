@@ -12,6 +12,8 @@ import numpy as np
 from symgen.arguments import shown
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
+from symgen.describe.digest import digest
+from symgen.describe.holds import holds_of
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
@@ -20,8 +22,9 @@ from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Hold, Mechanism
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.last_state import LastState
 
 #: Adaptive runs without asked output times report this many equidistant ones.
 DEFAULT_OUTPUTS = 1001
@@ -42,6 +45,8 @@ class Plan:
     warnings: tuple[str, ...]
     solver_is_free: bool = False  # the solver was not asked for and may be chosen by the start
     shape_reason: str = ""
+    holds: tuple[Hold, ...] = ()
+    last: LastState | None = None  # what the run goes on from
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
@@ -68,15 +73,21 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
             "these do: " + ", ".join(fits),
         )
     choice, method_parameters, integrator_options = split_options(s, tableau)
+    last = None if isinstance(s.start, Mapping) else s.start.last_state
+    begin = 0.0 if last is None else last.t
+    if last is not None:
+        _check_same(mechanism, last)
     adaptive = tableau.adaptive and integrator_options.get("adaptive", "true") == "true"
     defaults = mechanism.defaults
     until = defaults.until if s.until is None else s.until
     step = s.step if adaptive or s.step is not None else defaults.step
+    if not until > begin:
+        raise InputError("until", f"an end after t = {begin:g} s, where the run goes on", f"{until:g}")
     if s.step is not None and s.step > until:  # the mechanism's own is meant for longer runs
         raise InputError("step", f"at most until = {until:g}", f"{s.step:g}")
-    if not adaptive and step is not None and until / step > (s.max_steps or 2e9):
+    if not adaptive and step is not None and (until - begin) / step > (s.max_steps or 2e9):
         expected = "at most 2e9 steps" if s.max_steps is None else f"at most max_steps = {s.max_steps:g} steps"
-        raise InputError("step", expected, f"{until / step:.3g}")
+        raise InputError("step", expected, f"{(until - begin) / step:.3g}")
     warnings = list[str]()
     limit = method.largest_step(
         {p.name: method_parameters.get(p.name, p.default) for p in method.parameters}, tableau.real_boundary
@@ -89,7 +100,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         until=until,
         step=step,
         adaptive=adaptive,
-        times=_output_times(s, mechanism, until, step, adaptive),
+        times=_output_times(s, mechanism, (begin, until), step, adaptive),
         rtol=RTOL if s.rtol is None else s.rtol,
         atol=ATOL if s.atol is None else s.atol,
         relative=s.atol is None,
@@ -99,6 +110,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=math.sqrt(s.max_violation) if method.velocities_follow else None,
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
+        # not the end of this run: where it is gone on with, it has to be the same
+        duration=None if adaptive else defaults.until,
         integrator_parameters={
             q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
         },
@@ -110,9 +123,30 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
-    shape = choose_shape(mechanism, choice, s.shape, expected_evaluations(tableau, until, step, adaptive))
+    shape = choose_shape(
+        mechanism, choice, _shape(s, last), expected_evaluations(tableau, until - begin, step, adaptive)
+    )
     choice = replace(choice, shape=shape.shape)
-    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason)
+    holds = () if last is not None else holds_of(mechanism, "start", s.start)
+    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason, holds, last)
+
+
+def _check_same(mechanism: Mechanism, last: LastState) -> None:
+    """Refuse to go on from a run of another mechanism."""
+    names = [f"{b.name}.{n}" for b in mechanism.bodies for n in b.coordinates]
+    speeds = [f"{b.name}.{n}" for b in mechanism.bodies for n in b.speeds]
+    other = last.digest not in ("", digest(mechanism)) or {*names} != {*last.q} or {*speeds} != {*last.v}
+    if other or last.mechanism not in ("", mechanism.name):
+        got = f"one of {last.mechanism}" if last.mechanism not in ("", mechanism.name) else "one of others"
+        raise InputError("start", f"the result of a run of {mechanism.name} with the same equations", got)
+    if not all(math.isfinite(x) for x in (last.t, *last.q.values(), *last.v.values())):
+        raise InputError("start", "a last state that is finite", "one that is not")
+
+
+def _shape(s: Settings, last: LastState | None) -> str:
+    """Return the shape asked for; a run that goes on from another keeps that one's unless asked otherwise."""
+    kept = {} if last is None or last.made is None else last.made
+    return str(kept.get("shape", s.shape)) if s.shape == "auto" else s.shape
 
 
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:
@@ -170,8 +204,10 @@ def _integrator_option(key: str, name: str, value: str | float, integrator: Inte
     )
 
 
-def _output_times(s: Settings, mechanism: Mechanism, until: float, step: float | None, adaptive: bool) -> Array:
-    size = output_size(mechanism)
+def _output_times(
+    s: Settings, mechanism: Mechanism, span: tuple[float, float], step: float | None, adaptive: bool
+) -> Array:
+    size, (begin, until) = output_size(mechanism), span
     if s.times is not None:
         try:
             given = np.asarray(s.times, dtype=np.float64)
@@ -179,18 +215,19 @@ def _output_times(s: Settings, mechanism: Mechanism, until: float, step: float |
             raise InputError("times", "finite, increasing output times", shown(s.times)) from None
         if given.ndim != 1 or not np.all(np.isfinite(given)) or np.any(np.diff(given) <= 0.0):
             raise InputError("times", "finite, increasing output times", "others")
-        if len(given) and (given[0] < 0.0 or given[-1] > until * (1.0 + 1e-12)):
-            raise InputError("times", f"output times from 0 to {until:g}", f"{given[0]:g} to {given[-1]:g}")
+        if len(given) and (given[0] < begin * (1.0 - 1e-12) or given[-1] > until * (1.0 + 1e-12)):
+            raise InputError("times", f"output times from {begin:g} to {until:g}", f"{given[0]:g} to {given[-1]:g}")
         require("times", f"{len(given):.3g} outputs of {mechanism.name}", size * len(given))
-        return np.minimum(given, until)  # a multiple of a step may exceed the end by rounding
+        return np.clip(given, begin, until)  # a multiple of a step may exceed the end by rounding
     every = s.output_step if s.output_step is not None else mechanism.defaults.output_step
     if every is None:
         if adaptive:
             require("model", f"{DEFAULT_OUTPUTS} outputs of {mechanism.name}", size * DEFAULT_OUTPUTS)
-            return np.linspace(0.0, until, DEFAULT_OUTPUTS)
+            return np.linspace(begin, until, DEFAULT_OUTPUTS)
         assert step is not None, "a constant step is given"
         every = step
-    return multiples(every, until, size)
+    found = multiples(every, until, size)
+    return found if begin == 0.0 else np.concatenate([[begin], found[found > begin + 1e-9 * every]])
 
 
 def output_size(mechanism: Mechanism, saved: bool = False) -> float:

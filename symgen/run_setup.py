@@ -4,19 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen import __version__
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.holds import ORIENTATION, holds_of
+from symgen.describe.moved import moved
 from symgen.describe.start import described_start
-from symgen.runtime.assembly import Held, Start, assemble
+from symgen.ir.program import FORMAT
+from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.held import Held
+from symgen.runtime.model_arrays import velocity_of
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
+    from collections.abc import Sequence
+
+    from symgen.describe.mechanism import Hold, Mechanism
+    from symgen.describe.numbers import Scalars
     from symgen.plan import Plan
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.last_state import LastState
 
 
 def start_of(
@@ -25,7 +36,7 @@ def start_of(
     parameters: Mapping[str, float] | None = None,
     method_parameters: Mapping[str, float] | None = None,
     strict: bool = False,
-    held: Held | None = None,
+    held: Held | Sequence[Hold] | None = None,
     ask_light: bool = False,
 ) -> Start:
     """Return the consistent start of a run.
@@ -38,8 +49,10 @@ def start_of(
         Its compiled form for a method.
     parameters, method_parameters : mapping, optional
         Values of parameters that differ from the described ones, and from the method's defaults.
-    strict, held, ask_light
+    strict, ask_light
         See `symgen.runtime.assembly.assemble`.
+    held : Held or sequence of Hold, optional
+        What is kept while everything else moves; what the description holds unless given.
 
     Raises
     ------
@@ -49,9 +62,50 @@ def start_of(
         If the start is refused; see `symgen.runtime.assembly.assemble`.
     """
     values = parameter_values(mechanism, parameters)
-    q, v = described_start(mechanism, scalars(values))
+    numbers = scalars(values)
+    q, v = described_start(mechanism, numbers)
+    if not isinstance(held, Held):
+        held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
-    return assemble(compiled, np.array(q), v, p, strict, held, ask_light)
+    told = partial(moved, mechanism, numbers)
+    return assemble(compiled, np.array(q), v, p, strict, held, ask_light, told)
+
+
+def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:
+    """Return what is held by index.
+
+    Parameters
+    ----------
+    info : ModelInfo
+        The model.
+    holds : sequence of Hold
+        From `symgen.describe.holds.holds_of`.
+    numbers : Scalars
+        What formulas stand for.
+    v : sequence of float or None
+        Given velocities.
+    """
+    coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
+    velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
+    joints = {quantity.name: k for k, quantity in enumerate(info.joint_coordinates)}
+    spins = {f"{info.coordinates[first].name.partition('.')[0]}.{ORIENTATION}": at for first, at in info.spins}
+    values, speeds, places, rates = dict[int, float](), dict[int, float](), dict[int, float](), dict[int, float]()
+    fixed = list[int]()
+    for hold in holds:
+        name, value = hold.name, None if hold.value is None else numbers.value(hold.value, f"start '{hold.name}'")
+        if name in coordinates and value is None:
+            fixed.append(velocity_of(coordinates[name], info))
+        elif name in coordinates:
+            values[coordinates[name]] = float(value or 0.0)
+        elif name in velocities:
+            given = v[velocities[name]] if value is None else value
+            speeds[velocities[name]] = float(given or 0.0)
+        elif name in spins:
+            fixed += range(spins[name], spins[name] + 3)
+        else:
+            of, rate = name.removesuffix(".rate"), name.endswith(".rate")
+            (rates if rate else places)[joints[of]] = float(value or 0.0)
+    return Held(values, speeds, tuple(fixed), places, rates)
 
 
 def ready(
@@ -62,12 +116,78 @@ def ready(
     Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
     M + W D^T D instead, and a note says so.
     """
+    if plan.last is not None:
+        return _going_on(mechanism, plan, plan.last, parameters, strict)
     compiled = compile_model(mechanism, plan.choice)
-    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, ask_light=plan.solver_is_free)
+    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds, plan.solver_is_free)
     if not start.light:
         return compiled, start
     choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
     compiled = compile_model(mechanism, choice)
-    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict)
+    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
+
+
+def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
+    """Return what shapes a run, as JSON has it: two runs of the same making can take up each other's arrays.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    plan : Plan
+        How it is run.
+    parameters : mapping
+        Values of all parameters.
+    """
+    law, spec = compiled.law, plan.spec
+    own = {name: float(plan.method_parameters.get(name, default)) for name, default in law.parameters}
+    return {
+        "method": law.method,
+        "options": {key: str(value) for key, value in law.options.items()},
+        "method parameters": own,
+        "integrator": plan.tableau.name,
+        "integrator parameters": {key: float(value) for key, value in spec.integrator_parameters.items()},
+        "adaptive": spec.adaptive,
+        "step": spec.step,
+        "rtol": spec.rtol if spec.adaptive else None,
+        "atol": spec.atol if spec.adaptive else None,
+        "parameters": {key: float(value) for key, value in parameters.items()},
+        "shape": compiled.shape,
+        "symgen": f"{__version__}, format {FORMAT}",
+    }
+
+
+def _going_on(
+    mechanism: Mechanism, plan: Plan, last: LastState, parameters: Mapping[str, float] | None, strict: bool
+) -> tuple[CompiledModel, Start]:
+    """Return the compiled model and the start of a run that goes on from the last state of another.
+
+    All that the other run kept is taken up where this one is of the same making; else its time, coordinates,
+    velocities and work are the start of another one.
+    """
+    values, choice = parameter_values(mechanism, parameters), plan.choice
+    if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
+        choice = replace(choice, options={**choice.options, "solver": "augmented"})
+    compiled = compile_model(mechanism, choice)
+    info, whence = compiled.info, f"goes on from t = {last.t:.6g} s of another run"
+    other = last.other_than(made_of(compiled, plan, values))
+    if not other and last.arrays is not None:
+        y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
+        redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
+        kept = (y[: info.ny].copy(), p.copy(), w.copy())
+        return compiled, Start(
+            *kept, last.rank, redundant, (whence,), t=last.t, work=last.work_before, saved=last.arrays
+        )
+    q = np.array([last.q[c.name] for c in info.coordinates])
+    v = [last.v[c.name] for c in info.velocities]
+    p = compiled.parameter_array(values, plan.method_parameters)
+    windings = last.windings if len(last.windings) == info.windings else ()
+    start = assemble(compiled, q, v, p, strict, None, plan.solver_is_free, None, (last.t, windings))
+    if start.light:
+        compiled = compile_model(mechanism, replace(choice, options={**choice.options, "solver": "augmented"}))
+        p = compiled.parameter_array(values, plan.method_parameters)
+        start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
+    note = f"{whence} with its coordinates and velocities alone: {'; '.join(other)}"
+    return compiled, replace(start, notes=(note, *start.notes), work=last.work)

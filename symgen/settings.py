@@ -65,6 +65,14 @@ def _values(where: str, value: object) -> dict[str, float]:
     return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
 
 
+def _start(where: str, value: object) -> Mapping[str, float]:
+    # what another run ended with is checked by who takes it up
+    if value is not None and not isinstance(value, Mapping) and hasattr(value, "last_state"):
+        return value  # type: ignore[return-value]  # a result
+    found = arguments.mapping(where, value, "values by the names of coordinates and velocities, or a result")
+    return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
+
+
 def _repeat(where: str, value: object) -> int:
     return arguments.whole(where, value, 1, 1000)
 
@@ -131,6 +139,13 @@ class Settings:
     parameters: Mapping[str, float] = _setting(
         {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
     )
+    start: Mapping[str, float] = _setting(
+        {},
+        "Value of a coordinate or velocity at the start, such as crank.theta=0.5, which is kept.",
+        dict,
+        _start,
+        metavar="NAME=VALUE",
+    )
     options: Mapping[str, str | float] = _setting(
         {}, "Option, such as method.alpha=5.", dict, _options, flag="--option", metavar="KEY=VALUE"
     )
@@ -160,7 +175,7 @@ class Settings:
     def __post_init__(self) -> None:
         for f in fields(self):
             value = getattr(self, f.name)
-            if value is not None or f.name in ("parameters", "options") or f.default is not None:
+            if value is not None or f.name in ("parameters", "start", "options") or f.default is not None:
                 object.__setattr__(self, f.name, about(f.name).check(f.name, value))
 
 

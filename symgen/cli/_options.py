@@ -63,7 +63,7 @@ def _checked(name: str, value: Any) -> Any:
     known, where = about(name), flag(name)
     if value is None:
         return None
-    if name == "parameters":
+    if name in ("parameters", "start"):
         return assignments(where, value)
     if name == "options":
         return option_pairs(value)

@@ -12,11 +12,11 @@ from symgen.cli._options import json_option, setting_options
 
 @click.command("check", short_help="Validate and assemble a mechanism; say its degrees of freedom.")
 @click.argument("model")
-@setting_options("parameters", "strict")
+@setting_options("parameters", "start", "strict")
 @json_option
-def command(model: str, parameters: dict[str, float], strict: bool, as_json: bool) -> int:
+def command(model: str, parameters: dict[str, float], start: dict[str, float], strict: bool, as_json: bool) -> int:
     """Validate MODEL, assemble it, and say its degrees of freedom, rank and redundant rows."""
-    facts = examine(model, parameters, strict)
+    facts = examine(model, parameters, start, strict)
     if as_json:
         write_json(facts)
         return OK
@@ -30,16 +30,18 @@ def command(model: str, parameters: dict[str, float], strict: bool, as_json: boo
             click.echo(f"  rows {label}: {', '.join(rows)}")
     for note in facts["notes"]:
         click.echo(f"  note: {note}")
+    for warning in facts["warnings"]:
+        click.echo(f"  warning: {warning}")
     return OK
 
 
-def examine(model: str, parameters: dict[str, float], strict: bool) -> dict[str, Any]:
+def examine(model: str, parameters: dict[str, float], held: dict[str, float], strict: bool) -> dict[str, Any]:
     """Return what assembling a mechanism shows: sizes, rank, degrees of freedom, redundant rows and notes."""
     from symgen.api import load
 
     loaded = load(model)
     compiled = loaded.compile()
-    start = loaded.assemble(compiled, parameters, strict=strict)
+    start = loaded.assemble(compiled, parameters, strict=strict, held=held)
     info, mechanism = compiled.info, loaded.mechanism
     return {
         "mechanism": loaded.name,
@@ -58,4 +60,9 @@ def examine(model: str, parameters: dict[str, float], strict: bool) -> dict[str,
         "redundant_rows": list(start.redundant_rows),
         "dropped_rows": list(info.dropped_rows),
         "notes": list(start.notes),
+        "warnings": list(start.warnings),
+        "start": {
+            "q": {q.name: float(x) for q, x in zip(info.coordinates, start.y[: info.nq], strict=True)},
+            "v": {v.name: float(x) for v, x in zip(info.velocities, start.y[info.nq : info.work], strict=True)},
+        },
     }

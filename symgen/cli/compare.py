@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 @click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own unless given.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
 @setting_options(
-    *("until", "output_step", "parameters", "options", "max_violation", "max_energy_error", "max_steps", "repeat"),
-    "shape",
+    *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_steps"),
+    *("repeat", "shape"),
     text={
         "output_step": "Time between the outputs that are compared [s].",
         "options": "Option, such as baumgarte.alpha=10.",

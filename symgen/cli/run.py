@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
 from symgen.cli._options import json_option, output_file, setting_options
+from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -17,8 +20,14 @@ if TYPE_CHECKING:
 @click.command("run", short_help="Simulate a mechanism.")
 @click.argument("model")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "options", "strict"),
-    *("verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "start", "options"),
+    *("strict", "verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
+)
+@click.option(
+    "--from",
+    "whence",
+    metavar="FILE",
+    help="Go on from the last state of a saved result: .nc, or .parquet or .csv for its coordinates and velocities.",
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
 @click.option(
@@ -30,15 +39,24 @@ if TYPE_CHECKING:
 @click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")
 @json_option
 def command(
-    model: str, save: str | None, quantities: tuple[str, ...], plot: str | None, as_json: bool, **asked: Any
+    model: str,
+    whence: str | None,
+    save: str | None,
+    quantities: tuple[str, ...],
+    plot: str | None,
+    as_json: bool,
+    **asked: Any,
 ) -> int:
     """Simulate MODEL and say how it went.
 
     Outputs are every step with a constant step and 1001 equidistant times with an adaptive integrator, unless the
-    mechanism or --output-step says otherwise.
+    mechanism or --output-step says otherwise. With --from, times go on where the saved run ended; --until is the end
+    in the same time.
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**asked)
+    if whence is not None and settings.start:
+        raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
     plot_path = output_file("--plot", plot, "plot")
 
@@ -47,6 +65,10 @@ def command(
     from symgen.result.select import extremes
 
     loaded = load(model)
+    if whence is not None:
+        from symgen.result.resume import read_last_state
+
+        settings = replace(settings, start=read_last_state("--from", Path(whence)))  # type: ignore[arg-type]  # one of two
     if save_path is not None:
         from symgen.plan import check_saving
 

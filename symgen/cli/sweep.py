@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 )
 @click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "options"),
-    *("strict", "max_violation", "max_energy_error", "max_steps"),
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "start"),
+    *("options", "strict", "max_violation", "max_energy_error", "max_steps"),
     text={
         "parameters": "Value of a parameter that does not vary.",
         "strict": "Let runs fail whose start is not consistent.",

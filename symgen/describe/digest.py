@@ -1,7 +1,7 @@
 """A model's digest: equal for two descriptions exactly when they lead to the same generated code.
 
-The start (positions, angles, velocities), title, source, run defaults and the values and notes of parameters stay
-outside: they can change without compiling again. A number written in place of a parameter is inside.
+The start (positions, angles, velocities, what is held), title, source, run defaults and the values and notes of
+parameters stay outside: they can change without compiling again. A number written in place of a parameter is inside.
 """
 
 from __future__ import annotations

@@ -79,6 +79,13 @@ Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
 ]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
+#: The words are looked at where they are resolved, which says the nearest one.
+Held = Annotated[
+    bool | str | tuple[str, ...], Meta(description="true, or which of 'position', 'angle' and 'velocity' are kept")
+]
+JointStart = Annotated[
+    dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
+]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 T = TypeVar("T")

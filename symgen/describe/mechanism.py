@@ -158,6 +158,17 @@ class Output(msgspec.Struct, frozen=True):
     unit: str = ""
 
 
+class Hold(msgspec.Struct, frozen=True):
+    """What a start keeps while assembly moves everything else.
+
+    `name` is a coordinate or velocity of a body (``crank.theta``, ``rod.vx``), the orientation of a body in space
+    (``rod.orientation``), or a joint coordinate or its rate (``motor.angle``, ``motor.angle.rate``).
+    """
+
+    name: str
+    value: Expr | None = None  # None: as the body is described
+
+
 class Defaults(msgspec.Struct, frozen=True):
     """What a run uses where nothing else is asked for."""
 
@@ -186,6 +197,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     defaults: Defaults = Defaults()
     outputs: tuple[Output, ...] = ()
     seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
+    holds: tuple[Hold, ...] = ()
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

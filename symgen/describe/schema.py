@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.fields import JointStart
 from symgen.describe.sections import (
     BodySection,
     MechanismSection,
@@ -39,7 +40,7 @@ def schema() -> dict[str, Any]:
             "parameters": _named(parameter),
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
-            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases)}),
+            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
         },
@@ -50,14 +51,13 @@ def _named(entry: dict[str, Any]) -> dict[str, Any]:
     return {"type": "object", "additionalProperties": entry, "propertyNames": {"pattern": _NAME}}
 
 
-def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str]) -> list[dict[str, Any]]:
-    """Return one alternative for each kind, told apart by its type."""
-    result = []
+def _kinds(kinds: Iterable[tuple[str, Any]], aliases: dict[str, str], **common: Any) -> list[dict[str, Any]]:
+    """Return one alternative for each kind, told apart by its type; `common` are the types of keys that all have."""
+    result, shared = [], {key: msgspec.json.schema(kind) for key, kind in common.items()}
     for name, kind in kinds:
         table = _table(kind)
-        table["properties"] = {"type": {"enum": [name, *(a for a, t in aliases.items() if t == name)]}} | table[
-            "properties"
-        ]
+        own = {"type": {"enum": [name, *(a for a, t in aliases.items() if t == name)]}}
+        table["properties"] = own | table["properties"] | shared
         table["required"] = ["type", *table.get("required", [])]
         result.append(table)
     return result

@@ -7,6 +7,7 @@ from typing import Literal
 import msgspec
 
 from symgen.describe.fields import (
+    Held,
     Numbers,
     OutputFunction,
     PlainScalar,
@@ -126,6 +127,9 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
         Of the centre of mass at the start [m/s]; completed by assembly unless given.
     angular_velocity : scalar
         At the start [rad/s]; completed by assembly unless given.
+    hold : bool, str or list of str
+        Which of the described ``"position"`` (of the centre of mass), ``"angle"`` and ``"velocity"`` (both of them)
+        assembly keeps while it moves everything else; all that are given where it is true.
     """
 
     type: Literal["rigid", "point"] = "rigid"
@@ -137,6 +141,7 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     angle: Scalar | None = None
     velocity: Vector | None = None
     angular_velocity: Scalar | None = None
+    hold: Held = False
 
 
 class OrientationSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -196,6 +201,9 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
         Of the centre of mass at the start, in ground axes [m/s]; completed by assembly unless given.
     angular_velocity : vector
         At the start, in body axes [rad/s]; completed by assembly unless given.
+    hold : bool, str or list of str
+        Which of the described ``"position"`` (of the centre of mass), ``"angle"`` (the orientation) and ``"velocity"``
+        (both of them) assembly keeps while it moves everything else; all that are given where it is true.
     """
 
     type: Literal["rigid", "point"] = "rigid"
@@ -209,6 +217,7 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     orientation: OrientationSection | None = None
     velocity: Vector | None = None
     angular_velocity: Vector | None = None
+    hold: Held = False
 
 
 #: Sections whose entries are named tables -> what one entry is called.

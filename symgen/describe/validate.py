@@ -11,8 +11,9 @@ import msgspec
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import OutputFunction, PlainScalar, found, read, read_value
-from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Output, Parameter, Table
+from symgen.describe.fields import JointStart, OutputFunction, PlainScalar, found, read, read_value
+from symgen.describe.holds import body_holds, holds_of, joint_holds
+from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
 from symgen.describe.scope import Model, Scope
@@ -57,6 +58,7 @@ class _Validator:
         self._joints: dict[str, Joint | None] = {}
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
+        self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
 
     def where(self, path: str) -> str:
         return f"{self.source}: {path}"
@@ -92,7 +94,11 @@ class _Validator:
         joints = tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints"))
         forces = tuple(self.force(name, value) for name, value in self.entries("forces"))
         self.model = msgspec.structs.replace(self.model, forces={force.name: force for force in forces})
-        return Mechanism(
+        kept = [
+            body_holds(Scope(self.model, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name], body)
+            for body in bodies
+        ]
+        mechanism = Mechanism(
             name=head.name,
             title=line(head.title),
             space=head.space,
@@ -105,7 +111,12 @@ class _Validator:
             defaults=self.defaults(line(head.source)),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
+            holds=tuple(
+                hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
+            ),
         )
+        holds_of(mechanism, self.source)  # says what is held twice
+        return mechanism
 
     # Names ---------------------------------------------------------------------------------------------------------
 
@@ -181,8 +192,8 @@ class _Validator:
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 
-    def split(self, path: str, raw: object, what: str) -> tuple[str, dict[str, Any]]:
-        """Return the type of a joint or force and its other keys."""
+    def split(self, path: str, raw: object, what: str, *common: str) -> tuple[str, dict[str, Any]]:
+        """Return the type of a joint or force and the keys of its kind: those but the type and `common` ones."""
         where = self.where(path)
         if not isinstance(raw, Mapping):
             raise InputError(where, "a table", found(raw))
@@ -190,7 +201,7 @@ class _Validator:
         if not isinstance(kind, str):
             got = "no such key" if kind is None else found(kind)
             raise InputError(f"{where}.type", f"a {what}", got)
-        return kind, {key: value for key, value in raw.items() if key != "type"}
+        return kind, {key: value for key, value in raw.items() if key not in ("type", *common)}
 
     def joint(self, name: str, where: str) -> Joint:
         """Return the joint `name`, resolved now if another one asks for it first."""
@@ -209,16 +220,19 @@ class _Validator:
         if self._open > DEEPEST:
             raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type")
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read(struct, table, self.where(path), ("type",))
+        section = read(struct, table, self.where(path), ("type", "start"))
         joint = section.build(scope)
         at = getattr(section, "at", None)
         if at is not None:
             point = at[0] if hasattr(section, "between") else at
             self._seats[name] = scope.marker("at", joint.bodies[0], point)
+        if "start" in self.raw["joints"][name]:
+            given = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
+            self._starts[name] = joint_holds(scope, given, joint)
         self._joints[name] = joint
         self._open -= 1
         return joint

@@ -15,7 +15,7 @@ from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembly import Assembly
+from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.integrator import Integrator, Setup
 from symgen.runtime.run import RunSpec
@@ -205,6 +205,8 @@ class Kernel:
             assembly=Assembly.of(
                 compiled,
                 held=[coordinate for coordinate, _ in recipe.held],
+                kept=recipe.kept,
+                fixed=recipe.fixed,
                 strict=recipe.strict,
                 ask_light=recipe.spare is not None,
             ),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
 from symgen.compiling.pipeline import compile_model
+from symgen.describe.holds import ORIENTATION
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
@@ -22,11 +23,14 @@ from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan
+from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.describe.mechanism import Hold
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.vocabulary.expressions import Expr
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
@@ -52,11 +56,13 @@ class Ensemble:
     grid : Grid
         What varies.
     held, given : mapping of str to int
-        Coordinates and velocities that vary, with their index in q and v.
+        Coordinates and velocities that vary or have values of their own at the start, with their index in q and v.
     recipe : Recipe
         What a run is apart from its row.
     notes : tuple of str
         What was chosen, and why.
+    constant : mapping of str to Expr
+        Values of those that do not vary.
     """
 
     model: Model
@@ -68,6 +74,7 @@ class Ensemble:
     given: Mapping[str, int]
     recipe: Recipe
     notes: tuple[str, ...] = ()
+    constant: Mapping[str, Expr] = field(default_factory=dict)
 
     def __len__(self) -> int:
         return len(self.grid)
@@ -106,7 +113,7 @@ class Ensemble:
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
         varied = self.grid.values(first, last)
-        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given)
+        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given, self.constant)
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -119,6 +126,7 @@ class Ensemble:
             "mechanism": hashlib.sha256(repr(self.model.mechanism).encode()).hexdigest(),
             "varied": found.hexdigest(),
             "parameters": self.parameters,
+            "start": {name: repr(value) for name, value in self.constant.items()},
             "recipe": self.recipe.digest,
             "runs": len(self),
             "chunk": self.chunk,
@@ -155,6 +163,8 @@ def make_ensemble(
     """
     from symgen.auto import resolve
 
+    if not isinstance(settings.start, Mapping):
+        raise InputError("start", "values by the names of coordinates and velocities", "the last state of another run")
     if settings.verify:
         raise InputError("verify", "single runs", "an ensemble", "run doubtful ones again by themselves")
     if settings.repeat != 1:
@@ -178,10 +188,13 @@ def make_ensemble(
     for name in (*vary, *runs):
         _check_name(name, model.name, parameters, coordinates, velocities)
     grid = make_grid(vary, runs, (*coordinates, *velocities))
+    holds = tuple(hold for hold in plan.holds if hold.name not in grid.names)
+    places = _held(model, holds, coordinates, velocities)
     compiled = compile_model(model.mechanism, plan.choice)
     integrator_of_rows(plan.tableau.name, plan.spec)
-    held = {name: coordinates.index(name) for name in grid.names if name in coordinates}
-    given = {name: velocities.index(name) for name in grid.names if name in velocities}
+    constant = {hold.name: hold.value for hold in holds if hold.value is not None}
+    held = {name: coordinates.index(name) for name in (*grid.names, *constant) if name in coordinates}
+    given = {name: velocities.index(name) for name in (*grid.names, *constant) if name in velocities}
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
     spare = spare_other = other = None
@@ -199,7 +212,9 @@ def make_ensemble(
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),
         quantities=choose_quantities(compiled.info, quantities),
-        held=tuple((index, _velocity(index, compiled.info)) for index in held.values()),
+        held=tuple((index, velocity_of(index, compiled.info)) for index in held.values()),
+        kept=tuple(velocities.index(hold.name) for hold in holds if hold.name in velocities),
+        fixed=tuple(sorted({j for hold in places for j in _columns(hold, compiled.info)})),
         strict=chosen.strict,
         code=code_identity(),
         target=target,
@@ -208,7 +223,7 @@ def make_ensemble(
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first
-    return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes)
+    return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes, constant)
 
 
 def _names(model: Model) -> tuple[list[str], list[str]]:
@@ -234,6 +249,30 @@ def _check_name(
         )
 
 
-def _velocity(coordinate: int, info: ModelInfo) -> int:
-    """Return the velocity that changes a coordinate which is none of the Euler parameters."""
-    return coordinate - sum(1 for first, _ in info.spins if first < coordinate)
+def _held(
+    model: Model, holds: Sequence[Hold], coordinates: Sequence[str], velocities: Sequence[str]
+) -> tuple[str, ...]:
+    """Return the names of positions that stay as they are described.
+
+    Raises
+    ------
+    InputError
+        If a joint coordinate is held that is no coordinate of a body: starts of many runs have no rows for it.
+    """
+    found = []
+    for hold in holds:
+        if hold.name.endswith(f".{ORIENTATION}") or (hold.name in coordinates and hold.value is None):
+            found.append(hold.name)
+        elif hold.name not in coordinates and hold.name not in velocities:
+            expected = "coordinates and velocities of bodies, in starts of many runs"
+            raise InputError("start", expected, f"joint coordinate '{hold.name}' of {model.name}")
+    return tuple(found)
+
+
+def _columns(name: str, info: ModelInfo) -> tuple[int, ...]:
+    """Return the velocities that change a coordinate, or the orientation of a body in space."""
+    body, _, what = name.partition(".")
+    if what == ORIENTATION:
+        at = next(at for first, at in info.spins if info.coordinates[first].name == f"{body}.e0")
+        return at, at + 1, at + 2
+    return (velocity_of([q.name for q in info.coordinates].index(name), info),)

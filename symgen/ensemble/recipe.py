@@ -93,6 +93,8 @@ class Recipe:
         What is kept.
     held : tuple of (int, int)
         Coordinate and velocity indices of the coordinates that rows hold.
+    kept, fixed : tuple of int
+        Velocities that are not projected, and velocities whose coordinates stay as they are described.
     strict : bool
         Whether a start that has to be changed is refused.
     code : str
@@ -110,6 +112,8 @@ class Recipe:
     method_parameters: Mapping[str, float]
     quantities: tuple[Quantity, ...]
     held: tuple[tuple[int, int], ...]
+    kept: tuple[int, ...]
+    fixed: tuple[int, ...]
     strict: bool
     code: str
     target: str = "cpu"
@@ -147,7 +151,8 @@ class Recipe:
         text = json.dumps(
             [
                 *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
-                *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.strict, self.code),
+                *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
+                *(self.strict, self.code),
             ],
             sort_keys=True,
         )

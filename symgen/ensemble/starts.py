@@ -113,6 +113,7 @@ def make_rows(
     varied: Mapping[str, Array],
     held: Mapping[str, int],
     given: Mapping[str, int],
+    constant: Mapping[str, Expr] | None = None,
 ) -> Rows:
     """Return the rows of a chunk.
 
@@ -126,6 +127,8 @@ def make_rows(
         Values of all names that vary.
     held, given : mapping of str to int
         Coordinates that vary, in the order of `Rows.targets`, and velocities that vary, each with its index.
+    constant : mapping of str to Expr, optional
+        Values of those among them that do not vary, as formulas of parameters.
     """
     k = len(next(iter(varied.values())))
     values: dict[str, Any] = {**base, **{name: x for name, x in varied.items() if name in base}}
@@ -136,7 +139,9 @@ def make_rows(
             array[:, i] = np.nan if column is None else column
     undefined = [i for i, speed in enumerate(speeds) if speed is not None]
     q[~np.isfinite(v[:, undefined]).all(axis=1)] = np.nan
+    numbers = Columns(values)
+    chosen = {**varied, **{name: np.full(k, numbers.value(e)) for name, e in (constant or {}).items()}}
     for name, index in given.items():
-        v[:, index] = varied[name]
-    targets = np.column_stack([varied[name] for name in held]) if held else np.zeros((k, 0))
+        v[:, index] = chosen[name]
+    targets = np.column_stack([chosen[name] for name in held]) if held else np.zeros((k, 0))
     return Rows(parameters, q, v, np.ascontiguousarray(targets))

@@ -143,7 +143,8 @@ def run_again(compiled: CompiledModel, plan: Plan, outcome: Outcome, points: Poi
         assert spec.step is not None, "a constant step is given"
         spec = replace(spec, step=spec.step * HALF)
     other = replace(plan, spec=spec)
-    second, nq = integrate(compiled, plan.tableau, outcome.start, spec), compiled.info.nq
+    start = replace(outcome.start, saved=None)  # another grid of steps begins there
+    second, nq = integrate(compiled, plan.tableau, start, spec), compiled.info.nq
     found = None
     if second.code == abi.DONE:
         found = agreement(points, outcome.states[:, :nq], second.states[:, :nq])

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.run_setup import made_of
 from symgen.runtime import abi
+from symgen.runtime.last_state import LastState
+from symgen.runtime.simulation import SHOWN
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
@@ -81,7 +89,7 @@ def build_result(
         v=labelled(states[:, info.nq : info.nq + info.nv], info.velocities),
         kinetic=kinetic,
         potential=potential,
-        work=work,
+        work=work + start.work if start.work else work,
         energy_error=kinetic + potential - outcome.energy_start - work,
         smallest_pivot=status[:, abi.PIVOT],
         rank=Rank(info.m, start.rank, len(info.dropped_rows), start.redundant_rows),
@@ -105,6 +113,32 @@ def build_result(
         outcome=outcome,
         forces=forces,
         measured=measured,
+        last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
+    )
+
+
+def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome, made: Mapping[str, Any]) -> LastState:
+    """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
+    info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
+    y, w = arrays["y"], arrays["w"]
+    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
+    if len(outcome.times) and outcome.times[-1] == outcome.end:
+        shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
+    arrays |= dict(zip(SHOWN, shown, strict=True))
+    whole = outcome.code in (abi.DONE, abi.STOPPED)
+    return LastState(
+        mechanism=mechanism.name,
+        digest=digest(mechanism),
+        t=outcome.end,
+        q={q.name: float(x) for q, x in zip(info.coordinates, y, strict=False)},
+        v={v.name: float(x) for v, x in zip(info.velocities, y[info.nq :], strict=False)},
+        work=float(y[info.work] + start.work),
+        work_before=start.work,
+        windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
+        rank=start.rank,
+        made=made,
+        failed="" if whole else outcome.reason,
+        arrays=arrays,
     )
 
 

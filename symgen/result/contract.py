@@ -51,12 +51,13 @@ def contract(result: Result) -> dict[str, Any]:
                 for e in result.rank_events
             ],
             "rank_event_count": result.rank_event_count,
+            "start": result.start,
             "final": {
                 "t": float(result.t[last]) if last >= 0 else None,
                 "q": result.q.row(),
                 "v": result.v.row(),
                 "lam": result._final_multipliers,
-                **({"outputs": result.outputs.row()} if result.measured.columns("outputs") else {}),
+                **({"outputs": result.outputs.row()} if result.columns("outputs") else {}),
             },
         }
     )

@@ -189,10 +189,12 @@ def save(result: Result, path: Path, quantities: Sequence[str] = ()) -> Path:
         frame = chosen_frame(result, quantities, units=ending == ".csv")
     else:
         columns = len(result.q) + 2 * len(result.v) + 3 * result.rank.rows + 16
-        columns += sum(len(result.measured.columns(table)) for table in SIDE)
+        columns += sum(len(result.columns(table)) for table in SIDE)
         require("save", f"{len(result.t)} outputs of {result.mechanism}", 40.0 * len(result.t) * columns)
         if ending == ".nc":
-            return write_whole(path, netcdf(to_xarray(result)))
+            from symgen.result.resume import with_last_state
+
+            return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
         frame = to_dataframe(result)
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))

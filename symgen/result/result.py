@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from symgen.result.measured import Measured
     from symgen.result.reactions import Forces
+    from symgen.runtime.last_state import LastState
     from symgen.runtime.run import Outcome, RankEvent
 
 #: What a run can end as.
@@ -42,7 +43,7 @@ INTERRUPTED = "interrupted"
 _OF_THE_RUN = ("outcome", "forces", "measured")
 _DERIVED = (
     *("a", "joint_coordinates", "violations", "lam", "reactions", "body_reactions", "magnitudes"),
-    *("points", "elements", "outputs", "non_unique_reactions", "shape"),
+    *("points", "elements", "outputs", "non_unique_reactions", "shape", "start"),
     "_final_multipliers",
 )
 
@@ -104,6 +105,8 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
+    last_state : LastState
+        Where the run ended, with all that it kept: what another one goes on from.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -149,6 +152,7 @@ class Result:
     outcome: Outcome
     forces: Forces
     measured: Measured
+    last_state: LastState
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -268,6 +272,13 @@ class Result:
         """Return all tables by name; see `TABLES`."""
         return {name: getattr(self, name) for name in TABLES}
 
+    def columns(self, table: str) -> tuple[str, ...]:
+        """Return the names of a table's columns; code of a table's own is not generated for that."""
+        if table in SIDE and table not in self.__dict__:
+            return tuple(column.name for column in self.measured.columns(table))
+        found: Labelled = getattr(self, table)
+        return found.names
+
     def __getitem__(self, name: str) -> Array:
         """Return a column of whatever table has it: ``result["crank.x"]``, ``result["crank.omega"]``, ``result["t"]``.
 
@@ -281,16 +292,24 @@ class Result:
         known: list[str] = []
         # cheap ones first: a table behind the one that has the name is never computed
         for table in ("q", "v", "joint_coordinates", "a", "lam", "reactions", "outputs", "elements", "points"):
-            if table in SIDE and name not in (names := [c.name for c in self.measured.columns(table)]):
-                known += names  # nothing is generated to find out that a name is not among its columns
-                continue
-            found: Labelled = getattr(self, table)
-            if name in found:
-                return found[name]
-            known += found.names
+            names = self.columns(table)
+            if name in names:
+                found: Array = getattr(self, table)[name]
+                return found
+            known += names
         raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def start(self) -> dict[str, Any]:
+        """State that the run began with: ``t``, and by name ``q`` and ``v``."""
+        y, nq = self.outcome.start.y, len(self.q.names)
+        return {
+            "t": self.outcome.start.t,
+            "q": dict(zip(self.q.names, y[:nq].tolist(), strict=True)),
+            "v": dict(zip(self.v.names, y[nq : nq + len(self.v.names)].tolist(), strict=True)),
+        }
 
     @cached_property
     def shape(self) -> str:

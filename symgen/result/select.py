@@ -13,7 +13,7 @@ from symgen.errors import InputError, nearest
 from symgen.result.contract import finite
 from symgen.result.export import PREFIX
 from symgen.result.labelled import Labelled
-from symgen.result.result import SIDE, TABLES
+from symgen.result.result import TABLES
 
 if TYPE_CHECKING:
     from symgen.result.result import Result
@@ -66,8 +66,7 @@ def _columns(result: Result) -> dict[str, str]:
     """Return the names of all columns with their tables; nothing is generated for it."""
     found: dict[str, str] = {}
     for table in TABLES:
-        names = [c.name for c in result.measured.columns(table)] if table in SIDE else getattr(result, table).names
-        found |= {PREFIX[table] + name: table for name in names}
+        found |= {PREFIX[table] + name: table for name in result.columns(table)}
     return found
 
 

@@ -1,14 +1,14 @@
-"""Consistent starts: positions closed by shortest changes, velocities completed by least squares.
+"""The consistent start of a single run: positions closed by shortest changes, velocities completed by least squares.
 
-`Assembly` says what the one start (`symgen.runtime.starting`) has to know of a compiled model; `assemble` makes the
-start of a single run, `Assembly.close` those of the rows of a sweep.
+`symgen.runtime.assembler` calls the one start that sweeps have too; here stands what single runs make of it, and what
+is said where things that are held contradict each other.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,40 +17,21 @@ from numpy.typing import NDArray
 from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.exact import compiled_form, plain_form
-from symgen.runtime.least_norm import dense_change, sparse_change
-from symgen.runtime.manifold import stay
-from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
-from symgen.runtime.probe import Ready
-from symgen.runtime.start_records import Asked, Instant, Layout, new_work
+from symgen.runtime.assembler import Assembly
+from symgen.runtime.held import Attempt, Held, contradiction
+from symgen.runtime.joint_starts import joint_values
+from symgen.runtime.model_arrays import lengths_of, velocity_of
+from symgen.runtime.start_records import Asked, Instant
 from symgen.runtime.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
-from symgen.runtime.starting import close_row, close_rows, follow_nothing, prepare_rows
-from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
+    from symgen.errors import AssemblyError
     from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
 
 _START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_WHERE, _SIZE, _LIGHT = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size"), e.SUMMARY.index("light")
-
-
-@dataclass(frozen=True)
-class Held:
-    """What a start keeps at values of its own while everything else gives way.
-
-    Attributes
-    ----------
-    coordinates : mapping of int to float
-        Values by index in q, Euler parameters excepted. They are reached in small steps from the described start.
-    velocities : mapping of int to float
-        Values by index in v. They are not projected where they contradict other given ones.
-    """
-
-    coordinates: Mapping[int, float] = field(default_factory=dict)
-    velocities: Mapping[int, float] = field(default_factory=dict)
+_LIGHT = e.SUMMARY.index("light")
 
 
 @dataclass(frozen=True)
@@ -75,6 +56,12 @@ class Start:
         Whether a pivot of S is suspiciously small although D D^T finds no row dependent; False where nobody asked.
     warnings : tuple of str
         What was changed by so much that another motion may have been meant.
+    t : float
+        Time at which the run begins [s].
+    work : float
+        Work done before [J], which is not in `y`.
+    saved : mapping of str to Array, optional
+        What another run kept that this one goes on with.
     """
 
     y: Array
@@ -86,144 +73,9 @@ class Start:
     changes: tuple[Change, ...] = ()
     light: bool = False
     warnings: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Assembly:
-    """The one start of a compiled model.
-
-    Attributes
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    layout : Layout
-        See `symgen.runtime.start_records`.
-    strict : bool
-        Whether a start that has to be changed is refused.
-    """
-
-    compiled: CompiledModel
-    layout: Layout
-    strict: bool
-
-    @classmethod
-    def of(
-        cls,
-        compiled: CompiledModel,
-        held: Sequence[int] = (),
-        kept: Sequence[int] = (),
-        strict: bool = False,
-        ask_light: bool = False,
-    ) -> Assembly:
-        """Return the start of a model.
-
-        Parameters
-        ----------
-        compiled : CompiledModel
-            Model and method.
-        held, kept : sequence of int
-            Coordinates and velocities that are held.
-        strict, ask_light : bool
-            Whether a start that has to be changed is refused; whether it shall be said if bodies are too light for the
-            law's solver.
-        """
-        info, joints = compiled.info, joints_of(compiled.info)
-        sparse = compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE
-        numbers = (
-            *(0.0, info.nq, info.nv, info.m, info.windings),
-            *(int(sparse), int(ask_light and hasattr(compiled.law_module, "confirm"))),
-            *(info.sections[name][0] for name in Layout._fields[7:16]),
-        )
-        arrays = (
-            *entries_of(info),
-            np.isin(np.arange(info.nv), info.massless).astype(np.int64),
-            np.isin(np.arange(info.nv), kept).astype(np.int64),
-            np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
-            np.array([(joints.index(row.joint), row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
-            np.array(spins_of(info), dtype=np.int64),
-            lengths_of(info),
-        )
-        layout = Layout._make((*numbers, *arrays))
-        return cls(compiled, layout, strict)
-
-    def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
-        """Make the selected rows consistent, in compiled code.
-
-        Parameters
-        ----------
-        now, asked : Instant, Asked
-            Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
-        selected, control : Array of int
-            Rows to work on; what the watching thread shares.
-
-        Returns
-        -------
-        int
-            Rows that were worked on.
-        """
-        (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
-        scratch = self.compiled.scratch()
-        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
-        geometry, measure, move, _, *others = self._functions
-        flat = Asked(*(array.ravel() for array in asked))
-        work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
-        functions = (compiled_form(f) for f in (geometry, measure, move, *others))
-        described = now.y.copy() if self.strict else now.y
-        done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
-        self._judge(now.w, asked.summary, described)
-        return done
-
-    def close_one(self, now: Instant, asked: Asked) -> int:
-        """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        model, law, functions = self.compiled.model, self.compiled.law_module, self._functions
-        described = now.y.copy()
-        with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
-            try:
-                for module in (model, law):
-                    Ready(module.prepare, e.PREPARE)(now.p)
-                Ready(model.masses, abi.MOVE)(now.p, now.w)
-            except (ArithmeticError, ValueError):  # and errors where nothing is compiled
-                now.p[:] = np.nan
-            m, n, form = self.layout.m, self.layout.nv, compiled_form
-            if not self.layout.sparse and m * n * min(m, n) <= decisions.LARGEST_INTERPRETED:
-                geometry, measure, move, spread, solve, turns, rhs = (plain_form(f) for f in functions)
-                measures = Ready(geometry, abi.MEASURE), Ready(measure, abi.MEASURE)
-                functions = (*measures, Ready(move, abi.MOVE), spread, solve, turns, Ready(rhs, abi.RHS))
-                form = plain_form
-            work = new_work(self.layout, len(now.w))
-            try:
-                form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
-            except (ArithmeticError, ValueError):
-                asked.summary[_START] = e.UNDEFINED
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
-        return int(asked.summary[_START])
-
-    def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
-        """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
-        info = self.compiled.info
-        for r in np.flatnonzero(summaries[:, _START] == e.OPEN):
-            joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
-            squares = np.bincount([joints.index(row.joint) for row in info.rows], residual**2)
-            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(squares), np.sqrt(squares.max())
-        if self.strict:
-            good = summaries[:, _START] == e.ASSEMBLED
-            moved = good & (summaries[:, _MOVED] > 0.0) & (not len(self.layout.held))
-            summaries[good & (summaries[:, _VELOCITIES] == 1.0), _START] = e.PROJECTED
-            summaries[moved, _START] = e.MOVED
-
-    @property
-    def _functions(self) -> tuple[Any, ...]:
-        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs."""
-        model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
-        return (
-            model.geometry,
-            model.measure if layout.windings else follow_nothing,
-            model.move if layout.nq != layout.nv else stay,
-            model.spread if layout.sparse else stay,
-            sparse_change if layout.sparse else dense_change,
-            choose_turns if layout.windings else choose_no_turns,
-            law.rhs,
-        )
+    t: float = 0.0
+    work: float = 0.0
+    saved: Mapping[str, NDArray[Any]] | None = None
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
@@ -257,6 +109,8 @@ def assemble(
     strict: bool = False,
     held: Held | None = None,
     ask_light: bool = False,
+    moved: Callable[[Array, Array], Iterable[tuple[str, float, str]]] | None = None,
+    instant: tuple[float, Sequence[float]] = (0.0, ()),
 ) -> Start:
     """Return the consistent start of a single run.
 
@@ -280,6 +134,10 @@ def assemble(
         Coordinates and velocities that have values of their own.
     ask_light : bool
         Whether the start shall say if bodies are too light for the law's solver.
+    moved : callable, optional
+        What is told of the coordinates as described and as closed beside these: names, by how much, and units.
+    instant : tuple of float and sequence of float, optional
+        Time of the start [s], and the angles that count turns where their branches are known.
 
     Raises
     ------
@@ -289,23 +147,114 @@ def assemble(
         If `strict` and the start had to be changed; if a mass is not positive, a formula is not finite, or nothing
         determines the accelerations of a massless body.
     """
-    info, fixed = compiled.info, held or Held()
-    assembly = Assembly.of(compiled, tuple(fixed.coordinates), tuple(fixed.velocities), strict, ask_light)
-    described = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
-    described[list(fixed.velocities)] = list(fixed.velocities.values())
-    y, w = np.zeros(info.ny), compiled.scratch()
+    fixed = held or Held()
+    info, y, start = compiled.info, np.zeros(compiled.info.ny), _Closed(compiled, fixed, strict, ask_light, *instant)
     y[: info.nq] = q
-    targets = np.array(list(fixed.coordinates.values()), dtype=np.float64)
-    asked = Asked(described, targets, np.zeros(e.N_SUMMARY))
-    if assembly.close_one(Instant(y, p, w), asked) != e.ASSEMBLED:
-        raise without_derivative(compiled, q, p) or refusal(asked.summary, info)
-    changes = changes_of(info, np.concatenate([q, described]), y, state_scales(compiled, w, math.inf))
-    moved = None if fixed.coordinates else asked.summary[_MOVED]
+    given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
+    w, summary = start.close(y, given, p)
+    if summary[_START] != e.ASSEMBLED:
+        raise without_derivative(compiled, q, p) or start.contradiction(q, given, p, summary) or refusal(summary, info)
+    given[list(fixed.velocities)] = list(fixed.velocities.values())
+    changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
     return Start(
         *(y, p, w, int(np.sum(compiled.section(w, "pivot") >= SKIP))),
         redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
-        notes=notes_of(moved, asked.summary, changes, info),
+        notes=notes_of(fixed, summary, changes, info),
         changes=changes,
-        light=bool(asked.summary[_LIGHT]),
-        warnings=() if moved is None else warnings_of(changes, info, float(w[abi.LENGTH])),
+        light=bool(summary[_LIGHT]),
+        warnings=()
+        if start.asked_far(q, p, w)
+        else warnings_of(changes, info, float(w[abi.LENGTH]), () if moved is None else moved(q, y[: info.nq])),
+        t=instant[0],
     )
+
+
+@dataclass(frozen=True)
+class _Closed:
+    """The start of a single run with what it holds, and attempts with less."""
+
+    compiled: CompiledModel
+    held: Held
+    strict: bool = False
+    ask_light: bool = False
+    t: float = 0.0
+    windings: Sequence[float] = ()
+
+    def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
+        """Make a state consistent, in place; return scratch and what is said of the start.
+
+        Parameters
+        ----------
+        y : Array, shape (ny,)
+            Described coordinates.
+        v : Array, shape (nv,)
+            Given velocities, nan where there is none.
+        p : Array
+            Parameters.
+        """
+        compiled, held, info = self.compiled, self.held, self.compiled.info
+        given, w = v.copy(), compiled.scratch()
+        given[list(held.velocities)] = list(held.velocities.values())
+        targets = np.array(list(held.coordinates.values()), dtype=np.float64)
+        asked = Asked(given, targets, np.zeros(e.N_SUMMARY))
+        places = tuple(held.coordinates), tuple(held.velocities), held.fixed
+        assembly, now = Assembly.of(compiled, *places, self.strict, self.ask_light), Instant(y, p, w)
+        layout = assembly.layout._replace(t=self.t)
+        if self.windings:
+            layout = layout._replace(branches=np.array(self.windings, dtype=np.float64))
+        assembly = replace(assembly, layout=layout)
+        if held.joints or held.rates:
+            if assembly.close_joints(now, asked, held) != e.ASSEMBLED:
+                return now.w, asked.summary
+            found, branches = asked.summary.copy(), w[abi.WINDING : abi.WINDING + info.windings].copy()
+            # from here on it is the start of a run that describes just this
+            still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
+            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light)
+            assembly = replace(assembly, layout=assembly.layout._replace(t=self.t, branches=branches))
+            asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
+            assembly.close_one(now, asked)
+            asked.summary[[_MOVED, _VELOCITIES]] = found[[_MOVED, _VELOCITIES]]
+        else:
+            assembly.close_one(now, asked)
+        return now.w, asked.summary
+
+    def contradiction(self, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:
+        """Return which of the things held cannot be, None where that is not why there is no start."""
+        code, info, held = int(summary[_START]), self.compiled.info, self.held
+        if code not in (e.OPEN, e.CONTRADICTION):
+            return None
+
+        def attempt(less: Held) -> Attempt:
+            y, given = np.zeros(info.ny), v.copy()
+            y[: info.nq] = q
+            if code == e.OPEN:
+                given[:] = np.nan
+            given[list(held.velocities)] = np.nan
+            w, found = replace(self, held=less, strict=False, ask_light=False).close(y, given, p.copy())
+            with np.errstate(all="ignore"):
+                return Attempt(int(found[_START]), y, joint_values(self.compiled, self.t, y, p, w.copy()))
+
+        def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
+            if all_of_it.joints:
+                return []
+            y, given = np.zeros(info.ny), np.full(info.nv, np.nan)
+            y[: info.nq] = q
+            y[list(all_of_it.coordinates)] = list(all_of_it.coordinates.values())
+            still = (*all_of_it.fixed, *(velocity_of(i, info) for i in all_of_it.coordinates))
+            w, _ = replace(self, held=Held(fixed=still), strict=False, ask_light=False).close(y, given, p.copy())
+            residual = np.abs(self.compiled.section(w, "residual"))
+            order = [i for i in np.argsort(-residual) if residual[i] > decisions.MOVED * float(w[abi.LENGTH])]
+            return [(info.rows[i].name, info.rows[i].unit, float(residual[i])) for i in order]
+
+        return contradiction(info, held, q, attempt, open_rows, code)
+
+    def asked_far(self, q: Array, p: Array, w: Array) -> bool:
+        """Whether positions were asked for that are far from the described ones, so that others have to follow."""
+        info, held, length = self.compiled.info, self.held, float(w[abi.LENGTH])
+        y = np.zeros(info.ny)
+        y[: info.nq] = q
+        values = joint_values(self.compiled, self.t, y, p, w.copy()) if held.joints else y
+        asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
+        asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
+        limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
+        return any(not abs(change) <= limits[unit] for unit, change in asked)

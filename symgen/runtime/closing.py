@@ -86,9 +86,9 @@ def complete_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: An
     _velocity_violation(layout, now, work)
     size = _correct_velocities(spread, solve, layout, now, work)
     if size <= decisions.VELOCITIES_FIT * speed:
-        # what is left is rounding: take it out without touching the given values noticeably
+        # what is left is rounding: take it out without touching the given values noticeably, and those kept not at all
         for j in range(n):
-            scale[j] = free_scale(layout, w, j)
+            scale[j] = 0.0 if layout.kept[j] != 0 else free_scale(layout, w, j)
         _correct_velocities(spread, solve, layout, now, work)
         return int(e.ASSEMBLED)
     heaviest = 0.0

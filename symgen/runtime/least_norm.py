@@ -42,22 +42,30 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
 
 @exact(_SIGNATURE)
 def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
-    """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the gauge, else by iteration.
-
-    Conjugate gradients on the normal equations (CGLS) begin at 0 and so never leave the row space.
-    """
+    """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the gauge, else by iteration."""
     m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
     free = True
     for j in range(n):
-        x[j] = 0.0
         free = free and scale[j] == free_scale(layout, w, j)
-    if free:
-        for i in range(m):
-            w[layout.residual + i] = -right[i]
-        spread(now.p, w)
-        for j in range(n):
-            x[j] = w[layout.change + j]
-        return 0
+    if not free:
+        return int(iterated_change(spread, layout, now, work))
+    for i in range(m):
+        w[layout.residual + i] = -right[i]
+    spread(now.p, w)
+    for j in range(n):
+        x[j] = w[layout.change + j]
+    return 0
+
+
+@exact(_SIGNATURE)
+def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
+    """Set `work.x` by conjugate gradients on the normal equations (CGLS). `spread` is not used.
+
+    They begin at 0 and so never leave the row space.
+    """
+    m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
+    for j in range(n):
+        x[j] = 0.0
     gradient, direction = part(work.numbers, 0, n), part(work.numbers, n, n)
     product = part(work.numbers, 2 * n, m)
     size = first = 0.0

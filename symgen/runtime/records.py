@@ -59,7 +59,7 @@ class Span(NamedTuple):
     largest : float
         Bound of adaptive steps [s].
     until, duration : float
-        End of what is to be done now, and of the whole run [s].
+        End of what is to be done now, and the time by which a motion at rest is judged [s].
     rtol, atol : float
         Tolerances of an adaptive run.
     relative : float

@@ -37,7 +37,7 @@ class RunSpec:
     Parameters
     ----------
     until : float
-        End time [s]; the start is at 0.
+        End time [s].
     step : float or None
         Constant step, or first step of an adaptive run [s]; None lets an adaptive run choose.
     adaptive : bool
@@ -62,6 +62,8 @@ class RunSpec:
         The run is stopped some time after it took more right-hand sides than this.
     max_steps : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
+    duration : float or None
+        In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` unless given.
     """
 
     until: float
@@ -78,6 +80,12 @@ class RunSpec:
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
     max_evaluations: int | None = None
     max_steps: float = MAX_STEPS
+    duration: float | None = None
+
+    @property
+    def scale_time(self) -> float:
+        """Time by which the speed of a motion at rest is judged [s]."""
+        return self.until if self.duration is None else self.duration
 
     @property
     def velocity_limit(self) -> float:
@@ -129,6 +137,7 @@ class Outcome:
     start: Start = field(repr=False)
     p: Array = field(repr=False)
     w: Array = field(repr=False)
+    simulation: Simulation = field(repr=False)
 
     @property
     def accelerations(self) -> Array:
@@ -236,6 +245,8 @@ def integrate(
     before = cache_stats()
     simulation = Simulation(compiled, integrator, start, spec)
     outputs = simulation.outputs(spec.times)
+    if start.saved is not None:
+        simulation.store_first(outputs)
     simulation.warm(outputs)
     code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
 
@@ -243,7 +254,9 @@ def integrate(
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
     end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
-    after = cache_stats()
+    after, before_it = cache_stats(), simulation.before
+    counters = {name: int(state.iw[i]) for i, name in enumerate(COUNTERS)}
+    counters["iterations"] -= simulation.iterations_before
     n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
     table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
@@ -261,10 +274,10 @@ def integrate(
         times=outputs.times[:k],
         states=outputs.states[:k],
         status_columns=outputs.status[:k],
-        steps=int(control[abi.STEPS]),
-        rejected=int(control[abi.REJECTED]),
-        evaluations=int(control[abi.EVALUATIONS]),
-        counters={name: int(state.iw[i]) for i, name in enumerate(COUNTERS)},
+        steps=int(control[abi.STEPS] - before_it[abi.STEPS]),
+        rejected=int(control[abi.REJECTED] - before_it[abi.REJECTED]),
+        evaluations=int(control[abi.EVALUATIONS] - before_it[abi.EVALUATIONS]),
+        counters=counters,
         position_violation_max=float(gauges[abi.MAX_PHI]),
         velocity_violation_max=float(gauges[abi.MAX_DRIFT]),
         energy_start=float(gauges[abi.ENERGY_START]),
@@ -284,6 +297,7 @@ def integrate(
         start=start,
         p=state.p,
         w=w,
+        simulation=simulation,
     )
 
 

@@ -133,7 +133,7 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
 
     `run.metric` makes lengths and speeds of coordinates and velocities (0 for angles, and for all behind the
     velocities); `run.scales` makes numbers of order 1 of them. A motion that begins at rest counts as one that crosses
-    the mechanism in the time of the run.
+    the mechanism in the time `span.duration`.
     """
     w, nq = run.w, sizes.nq
     for j in range(sizes.nv):

@@ -25,6 +25,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+#: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
+#: differ in the last bit from the state that a multistep scheme goes on with.
+SHOWN = ("shown_state", "shown_status")
+
+
 class Simulation:
     """A run that can be left after any accepted step, saved, restored, and gone on with.
 
@@ -43,6 +48,8 @@ class Simulation:
     ----------
     state : State
         All that the run keeps, as arrays.
+    before : Array of int
+        What it had counted where it was taken up: zeros for one that begins.
 
     Notes
     -----
@@ -61,6 +68,11 @@ class Simulation:
         gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
         gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
         gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+        self.state.clock[[abi.TIME, abi.ORIGIN]] = gauges[abi.LAST_TIME] = start.t
+        self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
+        self.iterations_before = 0
+        if start.saved is not None:
+            self._take_up(start.saved)
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -69,6 +81,25 @@ class Simulation:
         k, given = len(times), np.ascontiguousarray(times, dtype=np.float64)
         kept = abi.N_STATUS + self.compiled.info.windings
         return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
+
+    def _take_up(self, saved: Mapping[str, NDArray[Any]]) -> None:
+        """Go on from what another run has kept, with the limits and outputs of this one."""
+        state, limits = self.state, [abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY]
+        own = state.gauges[limits].copy()
+        self.restore({name: array for name, array in saved.items() if name not in SHOWN})
+        self._shown = tuple(saved[name] for name in SHOWN)
+        state.gauges[limits] = own
+        state.control[[abi.STOP, abi.OUTPUTS]] = 0
+        self.before, self.iterations_before = state.control.copy(), int(state.iw[abi.ITERATIONS])
+
+    def store_first(self, outputs: Outputs) -> None:
+        """Write the outputs up to where a run stands that was taken up: the loop writes those behind it."""
+        tiny = 0.0 if self.spec.adaptive else 1e-9 * self.setup.step
+        control, out = self.state.control, 0
+        while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
+            outputs.states[out], outputs.status[out] = self._shown
+            out += 1
+        control[abi.OUTPUTS] = out
 
     def enter(self, outputs: Outputs, until: float | None = None, pause: float = np.inf) -> int:
         """Go on; return how the loop ended, see `symgen.runtime.abi`.
@@ -147,7 +178,7 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
     from symgen.runtime.records import Span
 
     end = spec.until if until is None else until
-    numbers = setup.step, spec.largest_step, end, spec.until, spec.rtol, spec.atol, spec.relative
+    numbers = setup.step, spec.largest_step, end, spec.scale_time, spec.rtol, spec.atol, spec.relative
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, pause)))
 
 

@@ -28,8 +28,9 @@ class Layout(NamedTuple):
         (row, column, slot or -1) of D's structural entries.
     constants : Array, shape (k,)
         Their values where they have no slot.
-    massless, kept : Array of int, shape (nv,)
-        1 where a mass of 0 is described; where a given velocity may not be changed.
+    massless, kept, fixed : Array of int, shape (nv,)
+        1 where a mass of 0 is described; where a given velocity may not be changed; where the coordinate that it
+        changes stays as described.
     held : Array of int, shape (2 h,)
         (coordinate, velocity) of each coordinate that is held.
     rows : Array of int, shape (2 m,)
@@ -38,6 +39,8 @@ class Layout(NamedTuple):
         The body's first angular velocity for an angular velocity, -1 for others.
     lengths : Array, shape (nq,)
         1 for coordinates that are lengths, else 0.
+    branches : Array, shape (windings,)
+        Angles whose turns are counted as they are known to be; nan where turns are chosen.
     """
 
     t: float
@@ -60,10 +63,12 @@ class Layout(NamedTuple):
     constants: Any
     massless: Any
     kept: Any
+    fixed: Any
     held: Any
     rows: Any
     spin: Any
     lengths: Any
+    branches: Any
 
 
 class Instant(NamedTuple):
@@ -132,7 +137,7 @@ def new_work(layout: Layout, nw: int) -> Work:
 
 
 _A, _I = types.float64[::1], types.int64[::1]
-LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 15, _I, _A, *(_I,) * 5, _A), Layout)
+LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 15, _I, _A, *(_I,) * 6, _A, _A), Layout)
 INSTANT = types.NamedUniTuple(_A, 3, Instant)
 ASKED = types.NamedUniTuple(_A, 3, Asked)
 WORK = types.NamedTuple((*(_A,) * 8, _I, _I), Work)

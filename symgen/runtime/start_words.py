@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.held import Held
 
 Array = NDArray[np.float64]
 
@@ -54,22 +55,45 @@ def changes_of(info: ModelInfo, described: Array, y: Array, scales: Array) -> tu
     )
 
 
-def warnings_of(changes: Sequence[Change], info: ModelInfo, length: float) -> tuple[str, ...]:
-    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far."""
+def warnings_of(
+    changes: Sequence[Change], info: ModelInfo, length: float, moved: Iterable[tuple[str, float, str]] = ()
+) -> tuple[str, ...]:
+    """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far.
+
+    Parameters
+    ----------
+    changes : sequence of Change
+        Of the coordinates.
+    info : ModelInfo
+        The model.
+    length : float
+        The mechanism's [m].
+    moved : iterable of (str, float, str)
+        Further points and angles of bodies: name, by how much, and its unit.
+    """
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
     far = [c for c in changes if c.name in names and abs(c.after - c.before) > limits[c.unit]]
-    if not far:
+    told, bodies = ([_told(far)] if far else []), {c.name.partition(".")[0] for c in far}
+    for name, size, unit in moved:  # of each body the coordinates, or else the first of its points
+        if size > limits[unit] and name.partition(".")[0] not in bodies:
+            bodies.add(name.partition(".")[0])
+            told.append(f"{name} by {size:.6g} {unit}")
+    if not told:
         return ()
-    return (f"closing the initial positions moved bodies far from where they are described: {_told(far)}",)
+    return (f"closing the initial positions moved bodies far from where they are described: {'; '.join(told)}",)
 
 
-def notes_of(moved: float | None, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
-    """Return what was changed, one sentence each."""
+def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelInfo) -> tuple[str, ...]:
+    """Return what was changed, one sentence each; what is held at values of its own is told beside."""
     notes = list[str]()
     names = {quantity.name for quantity in info.coordinates}
     positions = [change for change in changes if change.name in names]
-    if moved is not None and positions:
+    if held.coordinates or held.joints:
+        own = {info.coordinates[i].name for i in held.coordinates}
+        follow = _told([change for change in positions if change.name not in own])
+        notes.append(f"the start holds {held.told(info)}" + (f"; {follow}" if follow else ""))
+    elif positions:
         notes.append(f"initial positions were closed by the shortest changes: {_told(positions)}")
     if summary[_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)

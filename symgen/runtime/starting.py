@@ -46,8 +46,9 @@ def close_row(
 ) -> int:
     """Make the start of a run consistent.
 
-    Positions are closed by shortest changes from those described; then the coordinates that are held go to their
-    values in small steps, each closed by moving the others, so that the mechanism keeps the branch it was described in.
+    Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
+    coordinates that are held go to their values in small steps, each closed by moving the others, so that the mechanism
+    keeps the branch it was described in.
 
     Parameters
     ----------
@@ -65,11 +66,14 @@ def close_row(
         `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
     """
     y, w, summary = now.y, now.w, asked.summary
-    code = _check(layout, now, summary)
+    code = check_numbers(layout, now, summary)
     if code == e.ASSEMBLED:
         measure_lengths(geometry, layout, now, work)
     if code == e.ASSEMBLED and layout.windings > 0:
         turns(geometry, measure, layout, now, work)
+        for i in range(layout.windings):
+            if math.isfinite(layout.branches[i]):
+                w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
         code = _reach(geometry, measure, move, spread, solve, layout, now, asked, work)
     if code == e.ASSEMBLED:
@@ -94,7 +98,7 @@ def close_row(
 
 
 @exact()
-def _check(layout: Any, now: Any, summary: Any) -> int:
+def check_numbers(layout: Any, now: Any, summary: Any) -> int:
     """Return whether numbers are finite and masses positive, those excepted that are described as 0."""
     y, p, w, massless, finite = now.y, now.p, now.w, layout.massless, True
     for i in range(layout.nq):
@@ -116,7 +120,7 @@ def _reach(
     y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, asked.targets
     strides = 0
     for j in range(layout.nv):
-        scale[j] = free_scale(layout, now.w, j)
+        scale[j] = 0.0 if layout.fixed[j] != 0 else free_scale(layout, now.w, j)
     for i in range(layout.nq):
         first[i] = y[i]
     for k in range(decisions.MOST_STRIDES + 1):

@@ -150,7 +150,8 @@ class _Rewriting:
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
         )
-        key = kind.encode() + msgspec.json.encode(abstract)
+        said = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name != "holds"}
+        key = kind.encode() + msgspec.json.encode(said)  # what is held at the start changes no equation
         return Instance(kind, name, label, abstract, key, tuple(self.frames), tuple(self.constants))
 
     def frame(self, body: Any, alias: str) -> Any:

@@ -86,6 +86,7 @@ def compare(
     max_violation: float = default("max_violation"),
     max_energy_error: float = default("max_energy_error"),
     max_steps: float | None = None,
+    start: Mapping[str, float] | None = None,
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -106,8 +107,8 @@ def compare(
         Timed runs a row, after a warm-up; the shortest counts. Short runs are repeated more often; 1 runs once.
     output_step : float, optional
         Time between the outputs that are compared [s].
-    parameters, options : mapping
-        As for `symgen.Settings`.
+    parameters, options, start : mapping
+        As for `symgen.Settings`; `start` holds values by name alone.
     progress : callable, optional
         Called with what is being done, how far it is, and how much there is in all.
     jobs : int
@@ -135,7 +136,7 @@ def compare(
         If a name or number is wrong; nothing has been run then.
     """
     asked = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
-    further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps)
+    further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps, start)
     return compare_all([model], *asked, *further)[0]
 
 
@@ -196,6 +197,7 @@ def compare_all(
     max_violation: float = default("max_violation"),
     max_energy_error: float = default("max_energy_error"),
     max_steps: float | None = None,
+    start: Mapping[str, float] | None = None,
 ) -> list[Study]:
     """Compare on several models; arguments and errors as for `compare`.
 
@@ -208,6 +210,7 @@ def compare_all(
         until=until,
         output_step=output_step,
         parameters=parameters or {},
+        start=arguments.mapping("start", start, "values by the names of coordinates and velocities"),
         options=options or {},
         max_violation=max_violation,
         max_energy_error=max_energy_error,

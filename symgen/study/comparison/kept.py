@@ -42,6 +42,7 @@ class Kept:
     def _key(self, settings: Settings, what: str) -> str:
         times = [] if settings.times is None else list(settings.times)
         shared = {"until": settings.until, "times": times, "parameters": dict(settings.parameters)}
+        shared["start"] = dict(settings.start)
         if what == "reference":
             return cell_key(what=what, **self._base, **shared)
         own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in (*shared, "shape")}

@@ -1,0 +1,146 @@
+"""What a start keeps: keys of bodies and joints in a file, and names with values of whoever runs it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from symgen.describe.mechanism import AnyBody, Hold, Joint, Mechanism, SpatialBody
+from symgen.errors import InputError, nearest, quoted
+from symgen.vocabulary.expressions import Number
+from symgen.vocabulary.measures import GROUND, Angle
+
+if TYPE_CHECKING:
+    from symgen.describe.scope import Scope
+
+#: Word of the key ``hold`` -> the keys it is about, in the plane and in space.
+_WORDS = {
+    "position": ("position",),
+    "angle": ("angle", "orientation"),
+    "velocity": ("velocity", "angular_velocity"),
+}
+#: What stands for the orientation of a body in space, which is none of its coordinates.
+ORIENTATION = "orientation"
+_EULER = ("e0", "e1", "e2", "e3")
+
+
+def body_holds(scope: Scope, raw: Mapping[str, Any], body: AnyBody) -> tuple[Hold, ...]:
+    """Return what the key ``hold`` of a body's table keeps.
+
+    Raises
+    ------
+    InputError
+        If a word is none, or stands for something that the table does not describe.
+    """
+    asked = raw.get("hold", False)
+    described = [word for word, keys in _WORDS.items() if any(key in raw for key in keys)]
+    words = [asked] if isinstance(asked, str) else described if asked is True else list(asked or ())
+    for word in words:
+        if word not in _WORDS:
+            raise scope.error("hold", "true, or 'position', 'angle', 'velocity'", quoted(word), nearest(word, _WORDS))
+        if word not in described:
+            keys = " or ".join(key for key in _WORDS[word] if key != ("angle" if scope.spatial else ORIENTATION))
+            raise scope.error("hold", f"something that the body describes ({keys})", f"'{word}' without such a key")
+    if asked is True and not words:
+        raise scope.error("hold", "a position, angle or velocity to keep", "a body that describes none")
+    dimension, names = scope.dimension, list[str]()
+    if "position" in words:
+        names += body.coordinates[:dimension]
+    if "angle" in words:
+        names.append(ORIENTATION if isinstance(body, SpatialBody) else "theta")
+    if "velocity" in words:
+        names += [
+            name for key, part in zip(_WORDS["velocity"], _speeds(body), strict=True) if key in raw for name in part
+        ]
+    return tuple(Hold(f"{body.name}.{name}") for name in names)
+
+
+def _speeds(body: AnyBody) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of the velocities of the centre of mass, and of the angular ones."""
+    turning = sum(name[0] in "ow" for name in body.speeds)
+    moving = len(body.speeds) - turning
+    return body.speeds[:moving], body.speeds[moving:]
+
+
+def joint_holds(scope: Scope, given: Mapping[str, float | str], joint: Joint) -> tuple[Hold, ...]:
+    """Return what the key ``start`` of a joint's table prescribes: coordinates and their rates, which are kept.
+
+    Raises
+    ------
+    InputError
+        If a key is no coordinate of the joint.
+    """
+    known = {name.partition(".")[2]: whole for name, whole in _of_joint(joint).items()}
+    if not known:
+        raise scope.error("start", "a joint that has coordinates", f"a {joint.kind} joint, which has none")
+    for key in given:
+        if key not in known:
+            raise scope.error(
+                "start", f"coordinates of the joint ({', '.join(known)})", quoted(key), nearest(key, known)
+            )
+    return tuple(Hold(known[key], scope.constant(f"start.{key}", value)) for key, value in given.items())
+
+
+def _of_joint(joint: Joint) -> dict[str, str]:
+    """Return the names of a joint's coordinates and rates, each with the whole one that it is short for."""
+    names = [f"{joint.name}.{label}" for label, _ in joint.coordinates]
+    found = {whole: whole for name in names for whole in (name, f"{name}.rate")}
+    return found | ({f"{joint.name}.rate": f"{names[0]}.rate"} if len(names) == 1 else {})
+
+
+def _as_body(joint: Joint) -> dict[str, str]:
+    """Return those joint coordinates and rates that are coordinates and velocities of bodies."""
+    same = dict[str, str]()
+    for label, measure in joint.coordinates:
+        if isinstance(measure, Angle) and measure.a == GROUND:
+            name = f"{joint.name}.{label}"
+            same |= {name: f"{measure.b}.theta", f"{name}.rate": f"{measure.b}.omega"}
+    return same
+
+
+def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
+    """Return all that a start keeps, each thing by one name.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run; what its file holds is kept unless it is asked for otherwise.
+    where : str
+        Who asks, for messages.
+    asked : mapping of str to float, optional
+        Values by names of coordinates and velocities of bodies and joints [m, rad, m/s, rad/s].
+
+    Raises
+    ------
+    InputError
+        If a name is none (says the nearest one), or two of them mean one thing.
+    """
+    bodies = {f"{b.name}.{n}": f"{b.name}.{n}" for b in mechanism.bodies for n in (*b.coordinates, *b.speeds)}
+    joints, same = dict[str, str](), dict[str, str]()
+    for joint in mechanism.joints:
+        joints |= _of_joint(joint)
+        same |= _as_body(joint)
+    known = bodies | joints
+
+    def gathered(pairs: Iterable[tuple[str, Hold]]) -> dict[str, Hold]:
+        found: dict[str, tuple[str, Hold]] = {}
+        for name, hold in pairs:
+            one = same.get(hold.name, hold.name)
+            if one in found:
+                raise InputError(where, "each thing held once", f"{found[one][0]} and {name}, which are the same")
+            found[one] = name, Hold(one, hold.value)
+        return {one: hold for one, (_, hold) in found.items()}
+
+    for name in asked or {}:
+        if name not in known:
+            expected = f"a coordinate or velocity of a body or joint of {mechanism.name}"
+            raise InputError(f"{where} '{name}'", expected, "none of that name", nearest(name, known))
+        if name in bodies and name.rpartition(".")[2] in _EULER:
+            raise InputError(
+                f"{where} '{name}'",
+                "a coordinate that can change by itself",
+                "an Euler parameter",
+                "give the coordinate of a joint, or hold the orientation that the file describes",
+            )
+    own = gathered((hold.name, hold) for hold in mechanism.holds)
+    return tuple((own | gathered((n, Hold(known[n], Number(float(x)))) for n, x in (asked or {}).items())).values())

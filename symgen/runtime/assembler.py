@@ -1,0 +1,196 @@
+"""What the one start (`symgen.runtime.starting`) has to know of a compiled model, and how it is called."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import abi, decisions
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.exact import compiled_form, plain_form
+from symgen.runtime.joint_starts import reach
+from symgen.runtime.least_norm import dense_change, sparse_change
+from symgen.runtime.manifold import stay
+from symgen.runtime.model_arrays import entries_of, joints_of, lengths_of, spins_of, velocity_of
+from symgen.runtime.probe import Ready
+from symgen.runtime.start_records import Asked, Instant, Layout, new_work
+from symgen.runtime.starting import check_numbers, close_row, close_rows, follow_nothing, prepare_rows
+from symgen.runtime.turning import choose_no_turns, choose_turns
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.held import Held
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
+_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """The one start of a compiled model.
+
+    Attributes
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    layout : Layout
+        See `symgen.runtime.start_records`.
+    strict : bool
+        Whether a start that has to be changed is refused.
+    """
+
+    compiled: CompiledModel
+    layout: Layout
+    strict: bool
+
+    @classmethod
+    def of(
+        cls,
+        compiled: CompiledModel,
+        held: Sequence[int] = (),
+        kept: Sequence[int] = (),
+        fixed: Sequence[int] = (),
+        strict: bool = False,
+        ask_light: bool = False,
+    ) -> Assembly:
+        """Return the start of a model.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        held, kept, fixed : sequence of int
+            Coordinates and velocities that are held, and velocities whose coordinates stay as described.
+        strict, ask_light : bool
+            Whether a start that has to be changed is refused; whether it shall be said if bodies are too light for the
+            law's solver.
+        """
+        info, joints = compiled.info, joints_of(compiled.info)
+        sparse = compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE
+        numbers = (
+            *(0.0, info.nq, info.nv, info.m, info.windings),
+            *(int(sparse), int(ask_light and hasattr(compiled.law_module, "confirm"))),
+            *(info.sections[name][0] for name in Layout._fields[7:16]),
+        )
+        arrays = (
+            *entries_of(info),
+            np.isin(np.arange(info.nv), info.massless).astype(np.int64),
+            *(np.isin(np.arange(info.nv), those).astype(np.int64) for those in (kept, fixed)),
+            np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
+            np.array([(joints.index(row.joint), row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
+            np.array(spins_of(info), dtype=np.int64),
+            lengths_of(info),
+            np.full(info.windings, np.nan),
+        )
+        layout = Layout._make((*numbers, *arrays))
+        return cls(compiled, layout, strict)
+
+    def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
+        """Make the selected rows consistent, in compiled code.
+
+        Parameters
+        ----------
+        now, asked : Instant, Asked
+            Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
+        selected, control : Array of int
+            Rows to work on; what the watching thread shares.
+
+        Returns
+        -------
+        int
+            Rows that were worked on.
+        """
+        (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
+        scratch = self.compiled.scratch()
+        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
+        geometry, measure, move, _, *others = self._functions
+        flat = Asked(*(array.ravel() for array in asked))
+        work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
+        functions = (compiled_form(f) for f in (geometry, measure, move, *others))
+        described = now.y.copy() if self.strict else now.y
+        done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
+        self._judge(now.w, asked.summary, described)
+        return done
+
+    def close_one(self, now: Instant, asked: Asked) -> int:
+        """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
+        functions, described = self._functions, now.y.copy()
+        with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
+            self._prepare(now)
+            m, n, form = self.layout.m, self.layout.nv, compiled_form
+            if not self.layout.sparse and m * n * min(m, n) <= decisions.LARGEST_INTERPRETED:
+                geometry, measure, move, spread, solve, turns, rhs = (plain_form(f) for f in functions)
+                measures = Ready(geometry, abi.MEASURE), Ready(measure, abi.MEASURE)
+                functions = (*measures, Ready(move, abi.MOVE), spread, solve, turns, Ready(rhs, abi.RHS))
+                form = plain_form
+            work = new_work(self.layout, len(now.w))
+            try:
+                form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
+            except (ArithmeticError, ValueError):
+                asked.summary[_START] = e.UNDEFINED
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
+        return int(asked.summary[_START])
+
+    def close_joints(self, now: Instant, asked: Asked, held: Held) -> int:
+        """Find a start in which joint coordinates are held, for `close_one` to make the start of; return how it ended.
+
+        What is found stands in `now`, its velocities in `asked` as given ones.
+        """
+        _, measure, move, _, _, turns, _ = self._functions
+        functions = {"measure": measure, "move": move, "turns": turns}
+        with np.errstate(all="ignore"):
+            self._prepare(now)
+            try:
+                code = plain_form(check_numbers)(self.layout, now, asked.summary)
+                if code == e.ASSEMBLED:
+                    code = reach(self.compiled, self.layout, functions, held, now, asked)
+            except (ArithmeticError, ValueError):
+                code = e.UNDEFINED
+        asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]
+        asked.summary[_START] = code
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], now.y[np.newaxis])
+        return int(asked.summary[_START])
+
+    def _prepare(self, now: Instant) -> None:
+        """Fill parameters and masses of one start; nan where they are not defined."""
+        model, law = self.compiled.model, self.compiled.law_module
+        try:
+            for module in (model, law):
+                Ready(module.prepare, e.PREPARE)(now.p)
+            Ready(model.masses, abi.MOVE)(now.p, now.w)
+        except (ArithmeticError, ValueError):  # errors where nothing is compiled
+            now.p[:] = np.nan
+
+    def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
+        """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
+        info = self.compiled.info
+        for r in np.flatnonzero(summaries[:, _START] == e.OPEN):
+            joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
+            squares = np.bincount([joints.index(row.joint) for row in info.rows], residual**2)
+            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(squares), np.sqrt(squares.max())
+        if self.strict:
+            good = summaries[:, _START] == e.ASSEMBLED
+            moved = good & (summaries[:, _MOVED] > 0.0) & (not len(self.layout.held))
+            summaries[good & (summaries[:, _VELOCITIES] == 1.0), _START] = e.PROJECTED
+            summaries[moved, _START] = e.MOVED
+
+    @property
+    def _functions(self) -> tuple[Any, ...]:
+        """What `close_row` takes: geometry, measure, move, spread, solve, turns, rhs."""
+        model, law, layout = self.compiled.model, self.compiled.law_module, self.layout
+        return (
+            model.geometry,
+            model.measure if layout.windings else follow_nothing,
+            model.move if layout.nq != layout.nv else stay,
+            model.spread if layout.sparse else stay,
+            sparse_change if layout.sparse else dense_change,
+            choose_turns if layout.windings else choose_no_turns,
+            law.rhs,
+        )

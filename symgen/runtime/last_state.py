@@ -1,0 +1,119 @@
+"""Where a run ended, with all that it kept: what another run goes on from."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LastState:
+    """The last state of a run.
+
+    Attributes
+    ----------
+    mechanism, digest : str
+        What was run; the digest of its equations is empty where it is not known.
+    t : float
+        Time [s].
+    q, v : mapping of str to float
+        Coordinates and velocities by name.
+    work : float
+        Work since the motion began [J].
+    work_before : float
+        The part of it that is not in the arrays: from before the run that they belong to.
+    windings : tuple of float
+        Angles that count turns; empty where they are not known.
+    rank : int
+        Of D at the start of the run.
+    made : mapping
+        What shaped the run, as JSON has it: only a run of the same making takes up the arrays.
+    failed : str
+        Why the run failed, if it did: nothing but t, q, v and the work is taken up then.
+    arrays : mapping of str to Array
+        What `symgen.runtime.simulation.Simulation` saves; empty where nothing was kept.
+    """
+
+    mechanism: str
+    digest: str
+    t: float
+    q: Mapping[str, float]
+    v: Mapping[str, float]
+    work: float = 0.0
+    work_before: float = 0.0
+    windings: tuple[float, ...] = ()
+    rank: int = 0
+    made: Mapping[str, Any] | None = None
+    failed: str = ""
+    arrays: Mapping[str, NDArray[Any]] | None = None
+
+    @property
+    def last_state(self) -> LastState:
+        """Itself: a result has one, and either may be gone on from."""
+        return self
+
+    def other_than(self, made: Mapping[str, Any]) -> list[str]:
+        """Return in words what a run of the making `made` does otherwise; empty where it can take up the arrays."""
+        if self.failed:
+            return [f"that run failed ({self.failed})"]
+        if self.made is None or not self.arrays:
+            return ["nothing else was kept"]
+        found = []
+        for key, value in made.items():
+            before = self.made.get(key)
+            if before == value:
+                continue
+            if isinstance(value, Mapping) and isinstance(before, Mapping):
+                names = [n for n in (*before, *(n for n in value if n not in before)) if before.get(n) != value.get(n)]
+                found += [f"{n} {_said(value.get(n))} instead of {_said(before.get(n))}" for n in names]
+            else:
+                found.append(f"{key} {_said(value)} instead of {_said(before)}")
+        return found
+
+    def header(self) -> dict[str, Any]:
+        """Return everything but the arrays as what JSON can express, with a digest of all of it."""
+        names = ("mechanism", "digest", "t", "work", "work_before", "rank", "failed")
+        said: dict[str, Any] = {name: getattr(self, name) for name in names}
+        said |= {"q": dict(self.q), "v": dict(self.v), "windings": list(self.windings), "made": self.made}
+        said["sizes"] = {name: [str(a.dtype), len(a)] for name, a in (self.arrays or {}).items()}
+        return said | {"sha256": _digest(said, self.arrays or {})}
+
+    @classmethod
+    def of_header(cls, said: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> LastState | None:
+        """Return what `header` and the arrays that have elements stand for, None where they are not what was written.
+
+        Parameters
+        ----------
+        said : mapping
+            From `header`.
+        arrays : mapping of str to Array
+            By name.
+        """
+        given = {key: value for key, value in said.items() if key != "sha256"}
+        whole = {
+            name: np.ascontiguousarray(arrays.get(name, np.zeros(0)), dtype=np.dtype(kind))
+            for name, (kind, _) in given["sizes"].items()
+        }
+        if _digest(given, whole) != said.get("sha256"):
+            return None
+        fields = {key: value for key, value in given.items() if key not in ("sizes", "windings")}
+        return cls(**fields, windings=tuple(given["windings"]), arrays=whole)
+
+
+def _said(value: Any) -> str:
+    return "none" if value is None else f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _digest(said: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> str:
+    found = hashlib.sha256(json.dumps(said, sort_keys=True).encode())
+    for name in sorted(arrays):
+        found.update(name.encode() + b"\0" + np.ascontiguousarray(arrays[name]).tobytes())
+    return found.hexdigest()
