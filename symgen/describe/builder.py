@@ -46,7 +46,7 @@ class MechanismBuilder:
         return self
 
     def parameter(self, name: str, value: float | str, unit: str = "", note: str = "") -> Self:
-        """Add a number that stays adjustable at run time."""
+        """Add a number that stays adjustable at run time, or a formula of other parameters that follows them."""
         keys = {"value": value, "unit": unit, "note": note}
         return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
 

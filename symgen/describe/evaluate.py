@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping
 
 from symgen import arguments
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism, Table
 from symgen.describe.numbers import Scalars
 from symgen.describe.printer import to_text
@@ -66,7 +67,7 @@ def scalars(values: Mapping[str, float]) -> Scalars:
 
 
 def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
-    """Return all parameter values of a mechanism, `changed` ones replaced.
+    """Return all parameter values of a mechanism, `changed` ones replaced, those that follow from them worked out.
 
     Raises
     ------
@@ -79,6 +80,9 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
             expected = f"a parameter of {mechanism.name}"
             raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, values))
         values[name] = arguments.number(f"parameter '{name}'", value)
+    if changed:
+        for name, formula in derived(mechanism.parameters, changed):
+            values[name] = evaluate(formula, values, f"parameter '{name}'")
     return values
 
 

@@ -16,7 +16,6 @@ from msgspec import Meta
 from symgen.errors import InputError, nearest, quoted
 
 Text = Annotated[str, Meta(description="a text")]
-PlainScalar = Annotated[float | str, Meta(description="a number or an expression of numbers")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
 TimeFunction = Annotated[float | str, Meta(description="a number or an expression of t and parameters")]
 StateFunction = Annotated[

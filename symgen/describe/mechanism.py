@@ -14,13 +14,19 @@ from symgen.vocabulary.measures import Effort, Measure, Row
 Vec = tuple[Expr, ...]
 
 
-class Parameter(msgspec.Struct, frozen=True):
-    """A named number that stays adjustable at run time (``p`` of the emitted functions)."""
+class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A named number that stays adjustable at run time (``p`` of the emitted functions).
+
+    One with a `formula` follows the parameters that this names, unless it is given a number itself; `value` is what it
+    is with their defaults.
+    """
 
     name: str
     value: float
-    unit: str = ""
-    note: str = ""
+    # kernels are known by the text of their elements: it stays what it was where there is nothing but a number
+    unit: str = msgspec.field(default_factory=str)  # written even where it is empty
+    note: str = msgspec.field(default_factory=str)
+    formula: Expr | None = None
 
 
 class Table(msgspec.Struct, frozen=True):

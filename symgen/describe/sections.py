@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from symgen.describe.fields import Numbers, PlainScalar, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
+from symgen.describe.fields import Numbers, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
 
 
 class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -54,12 +54,12 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     Parameters
     ----------
     value : float or str
-        The default; a formula may use numbers only (``"pi/3"``).
+        The default; a formula of other parameters is worked out anew where these are changed.
     unit, note : str
         For people.
     """
 
-    value: PlainScalar
+    value: Scalar
     unit: Text = ""
     note: Text = ""
 

@@ -53,6 +53,7 @@ step = 1e-3
 rod_mass = { value = 1.5, unit = "kg" }
 rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
+# rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
 
 # [tables.profile]                        # a function by linear interpolation, called as profile(t)
 # x = [0.0, 1.0, 2.0]
@@ -109,6 +110,7 @@ step = 1e-3
 rod_mass = { value = 1.5, unit = "kg" }
 rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
+# rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
 
 # [tables.profile]                        # a function by linear interpolation, called as profile(t)
 # x = [0.0, 1.0, 2.0]

@@ -10,8 +10,9 @@ import msgspec
 
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
+from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import PlainScalar, found, read, read_value
+from symgen.describe.fields import Scalar, found, read, read_value
 from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
@@ -25,6 +26,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 from symgen.errors import InputError, nearest, quoted
+from symgen.vocabulary.expressions import names
 
 Raw = Mapping[str, Any]
 
@@ -68,7 +70,7 @@ class _Validator:
         head = read(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
         check_mechanism_name(head.name, self.where("mechanism.name"))
         self.unique()
-        parameters = tuple(self.parameter(name, value) for name, value in self.entries("parameters"))
+        parameters = self.parameters()
         tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
         self.model = Model(
             self.source,
@@ -132,18 +134,38 @@ class _Validator:
             raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(run.step))
         return Defaults(run.until, run.step, run.output_step, run.predictable_until, source)
 
-    def parameter(self, name: str, raw: object) -> Parameter:
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Return the parameters in the order of the file, formulas worked out with the defaults of the others."""
+        entries = dict(self.entries("parameters"))
+        elsewhere = frozenset(("t", *(name for name, _ in self.entries("tables"))))
+        known = Names("a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere)
+        found = {name: self.parameter(name, value, known) for name, value in entries.items()}
+        values = dict[str, float]()
+        for name in in_order({name: p.formula for name, p in found.items()}, self.where("parameters")):
+            formula = found[name].formula
+            if formula is not None:
+                value = evaluate(formula, values, self.where(f"parameters.{name}"))
+                found[name] = msgspec.structs.replace(found[name], value=value)
+            values[name] = found[name].value
+        return tuple(found.values())
+
+    def parameter(self, name: str, raw: object, known: Names) -> Parameter:
+        """Return a parameter; one with a formula of others has no value yet."""
         where = self.where(f"parameters.{name}")
         if isinstance(raw, Mapping):
             section = read(ParameterSection, raw, where)
         else:
-            section = ParameterSection(value=read_value(PlainScalar, raw, where))
-        value = section.value
+            section = ParameterSection(value=read_value(Scalar, raw, where))
+        value, formula = section.value, None
         if isinstance(value, str):
-            value = evaluate(parse(value, Names("a number or an expression of numbers"), where), {}, where)
+            expression = parse(value, known, where)
+            if any(names(expression)):
+                value, formula = 0.0, expression
+            else:
+                value = evaluate(expression, {}, where)
         if not math.isfinite(value):
             raise InputError(where, "a finite number", str(value))
-        return Parameter(name, float(value), check_unit(section.unit, f"{where}.unit"), line(section.note))
+        return Parameter(name, float(value), check_unit(section.unit, f"{where}.unit"), line(section.note), formula)
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")

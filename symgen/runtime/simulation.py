@@ -107,8 +107,8 @@ class Simulation:
     def set_parameters(self, values: Mapping[str, float]) -> None:
         """Give parameters other values from where the run stands; what depends on them alone is prepared again.
 
-        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. The state is corrected
-        for the new values, and the change of its energy is in no balance.
+        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. The state is
+        corrected for the new values, and the change of its energy is in no balance.
 
         Parameters
         ----------
