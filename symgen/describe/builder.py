@@ -50,9 +50,9 @@ class MechanismBuilder:
         keys = {"value": value, "unit": unit, "note": note}
         return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
 
-    def table(self, name: str, x: Any, y: Any) -> Self:
-        """Add a function of one argument by linear interpolation."""
-        return self._add("tables", name, {"x": x, "y": y})
+    def table(self, name: str, x: Any, y: Any, **keys: Any) -> Self:
+        """Add a function of one argument by interpolation: ``interpolation``, ``periodic`` as in a file."""
+        return self._add("tables", name, {"x": x, "y": y} | keys)
 
     def body(self, name: str, **keys: Any) -> Self:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""

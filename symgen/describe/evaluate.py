@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
 import math
 from collections.abc import Mapping
 
@@ -12,7 +11,7 @@ from symgen.describe.mechanism import Mechanism, Table
 from symgen.describe.numbers import Scalars
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, table_of
 
 
 def evaluate(
@@ -86,20 +85,10 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     return values
 
 
-def interpolate(table: Table, x: float) -> float:
-    """Return the table's value at `x`: linear between its points, constant beyond its ends."""
-    if x <= table.x[0]:
-        return table.y[0]
-    if x >= table.x[-1]:
-        return table.y[-1]
-    i = bisect.bisect_right(table.x, x)
-    x0, x1, y0, y1 = table.x[i - 1], table.x[i], table.y[i - 1], table.y[i]
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-
-
 def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
-    if expression.function.startswith("table:"):
-        return interpolate(tables[expression.function.removeprefix("table:")], operands[0])
+    table = table_of(expression.function)
+    if table is not None:
+        return tables[table].interpolated.value(operands[0])
     return FUNCTIONS[expression.function][1](*operands)
 
 

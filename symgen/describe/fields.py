@@ -73,6 +73,7 @@ SixBySix = Annotated[
 Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
 ]
+Flag = Annotated[bool, Meta(description="true or false")]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 

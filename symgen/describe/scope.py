@@ -12,7 +12,7 @@ import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import AnyBody, Joint, Vec
+from symgen.describe.mechanism import AnyBody, Joint, Table, Vec
 from symgen.describe.parser import Names, parse
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest, quoted
@@ -31,7 +31,7 @@ class Model(msgspec.Struct, frozen=True, dict=True):
 
     source: str
     values: Mapping[str, float]  # parameters with their defaults
-    tables: tuple[str, ...]
+    tables: Mapping[str, Table]
     bodies: Mapping[str, AnyBody]
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
     space: str = "planar"
@@ -57,7 +57,16 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     def times(self) -> Names:
         """Names of a formula of t and parameters."""
         plain = {name: name for name in (*self.values, "t")}
-        return Names("a number or an expression of t and parameters", plain, elsewhere=frozenset(self.tables))
+        smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
+        others = frozenset(self.tables) - frozenset(smooth)
+        hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
+        what = "a number or an expression of t and parameters"
+        return Names(what, plain, tables=smooth, elsewhere=others, hints=hints)
+
+    @cached_property
+    def functions(self) -> dict[str, str]:
+        """Tables -> functions of a tree."""
+        return {name: table.function for name, table in self.tables.items()}
 
 
 class Scope:
@@ -270,7 +279,7 @@ class Scope:
         return None if value is None else self.constant(key, value)
 
     def of_time(self, key: str, value: float | str) -> Expr:
-        """Return a number or an expression of t and parameters, without tables: it must have two derivatives."""
+        """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.model.times)
 
     def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
@@ -282,7 +291,7 @@ class Scope:
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.times.elsewhere))
+        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.functions))
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""

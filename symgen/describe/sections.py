@@ -6,7 +6,7 @@ from typing import Literal
 
 import msgspec
 
-from symgen.describe.fields import Numbers, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
+from symgen.describe.fields import Flag, Numbers, Point, Points, PositiveNumber, Scalar, Tensor, Text, Vector
 
 
 class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -65,16 +65,24 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
 
 
 class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A function of one argument by linear interpolation, constant beyond its ends; called as ``NAME(x)``.
+    """A function of one argument by interpolation; called as ``NAME(x)``.
 
     Parameters
     ----------
     x, y : list of float
         Points, `x` increasing.
+    interpolation : str
+        ``"linear"``: straight lines, constant beyond the ends. ``"cubic"``: a spline with two continuous derivatives.
+        ``"pchip"``: cubic pieces with one, which stay between the values of the points. The last two go on in straight
+        lines beyond the ends; motions of drivers may use ``"cubic"``.
+    periodic : bool
+        Whether a smooth one repeats itself, its last value being its first.
     """
 
     x: Numbers
     y: Numbers
+    interpolation: Literal["linear", "cubic", "pchip"] = "linear"
+    periodic: Flag = False
 
 
 class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):

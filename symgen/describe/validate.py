@@ -75,7 +75,7 @@ class _Validator:
         self.model = Model(
             self.source,
             {p.name: p.value for p in parameters},
-            tuple(t.name for t in tables),
+            {t.name: t for t in tables},
             {},
             self.joint,
             head.space,
@@ -181,7 +181,23 @@ class _Validator:
         for left, right in zip(section.x, section.x[1:], strict=False):
             if not left < right:
                 raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
-        return Table(name, section.x, section.y)
+        how, fewest = section.interpolation, 4 if section.interpolation == "cubic" or section.periodic else 2
+        if len(section.x) < fewest:
+            told = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
+            raise InputError(f"{where}.x", told, str(len(section.x)))
+        if section.periodic and how == "linear":
+            raise InputError(f"{where}.periodic", "true where interpolation is 'cubic' or 'pchip'", "true for 'linear'")
+        if section.periodic and section.y[0] != section.y[-1]:
+            got = f"{section.y[0]!r} and {section.y[-1]!r}"
+            raise InputError(f"{where}.y", "the same value at both ends of a period", got)
+        table = Table(name, section.x, section.y, how, section.periodic)
+        try:
+            finite = all(math.isfinite(c) for piece in table.interpolated.pieces for c in piece)
+        except (ArithmeticError, ValueError):
+            finite = False
+        if not finite:
+            raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
+        return table
 
     # Joints and forces ---------------------------------------------------------------------------------------------
 

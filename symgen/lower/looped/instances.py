@@ -17,7 +17,7 @@ import msgspec
 from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
 from symgen.describe.repeats import without_repeats
-from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, call, names
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, call, names, table_of
 from symgen.vocabulary.measures import GROUND, Bearing, Direction, Effort, Marker, Measure, Sum, Turn
 
 #: Fields of the vocabulary's structs that hold the name of a body.
@@ -244,8 +244,8 @@ class _Rewriting:
             body, dot, coordinate = e.name.partition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
         assert isinstance(e, Call), "a literal is constant"
-        if e.function.startswith("table:"):
-            name = e.function.removeprefix("table:")
+        name = table_of(e.function)
+        if name is not None:
             self.used_tables[name] = self.known.tables[name]
         if e.function == "pow" and isinstance(e.arguments[1], Number):
             return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))
