@@ -183,7 +183,7 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
         values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": DECORATORS[target]}
         if found.pieces:
             table["second"], table["period"] = table_name(found.name, "second"), found.period
-            text = render("parts/pieces.j2", values).strip("\n")
+            text = render("curves/pieces.j2", values).strip("\n")
         else:
             text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
         also = tuple(table_name(found.name, what) for what in ("slope", "second", "x", "y"))
