@@ -65,6 +65,11 @@ def _values(where: str, value: object) -> dict[str, float]:
     return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
 
 
+def _inputs(where: str, value: object) -> dict[str, Any]:
+    # what is given for each is looked at where the mechanism is known
+    return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
+
+
 def _repeat(where: str, value: object) -> int:
     return arguments.whole(where, value, 1, 1000)
 
@@ -131,6 +136,14 @@ class Settings:
     parameters: Mapping[str, float] = _setting(
         {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
     )
+    inputs: Mapping[str, Any] = _setting(
+        {},
+        "Input: a number, a formula of t, parameters and state, or FILE.csv:COLUMN[:hold|linear|cubic|pchip].",
+        dict,
+        _inputs,
+        flag="--input",
+        metavar="NAME=VALUE",
+    )
     options: Mapping[str, str | float] = _setting(
         {}, "Option, such as method.alpha=5.", dict, _options, flag="--option", metavar="KEY=VALUE"
     )
@@ -160,7 +173,7 @@ class Settings:
     def __post_init__(self) -> None:
         for f in fields(self):
             value = getattr(self, f.name)
-            if value is not None or f.name in ("parameters", "options") or f.default is not None:
+            if value is not None or f.name in ("parameters", "inputs", "options") or f.default is not None:
                 object.__setattr__(self, f.name, about(f.name).check(f.name, value))
 
 

@@ -17,7 +17,19 @@ if TYPE_CHECKING:
 @click.command("run", short_help="Simulate a mechanism.")
 @click.argument("model")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "options", "strict"),
+    *(
+        "method",
+        "integrator",
+        "step",
+        "rtol",
+        "atol",
+        "until",
+        "output_step",
+        "parameters",
+        "inputs",
+        "options",
+        "strict",
+    ),
     *("verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")

@@ -35,7 +35,7 @@ def canonical(mechanism: Mechanism) -> str:
         ["name", mechanism.name],
         ["space", mechanism.space],
         ["gravity", _text(mechanism.gravity)],
-        ["parameters", [[p.name, p.unit] for p in mechanism.parameters]],
+        ["parameters", [[p.name, p.unit, *(["input"] if p.input else [])] for p in mechanism.parameters]],
         ["tables", sorted(_table(table) for table in mechanism.tables)],
         ["bodies", bodies],
         ["joints", [_text(joint) for joint in mechanism.joints]],

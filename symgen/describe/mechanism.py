@@ -21,7 +21,8 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     """A named number that stays adjustable at run time (``p`` of the emitted functions).
 
     One with a `formula` follows the parameters that this names, unless it is given a number itself; `value` is what it
-    is with their defaults.
+    is with their defaults. An `input` is a number that comes from outside: it may change during a run, so it stands in
+    functions of state alone.
     """
 
     name: str
@@ -30,6 +31,7 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     unit: str = msgspec.field(default_factory=str)  # written even where it is empty
     note: str = msgspec.field(default_factory=str)
     formula: Expr | None = None
+    input: bool = False
 
 
 class Table(msgspec.Struct, frozen=True, omit_defaults=True):
@@ -202,6 +204,11 @@ class Mechanism(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the inputs, which stand behind the other parameters."""
+        return tuple(p.name for p in self.parameters if p.input)
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

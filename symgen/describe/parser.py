@@ -72,6 +72,10 @@ class Names(msgspec.Struct, frozen=True):
     elsewhere: frozenset[str] = frozenset()
     hints: Mapping[str, str] = {}
 
+    def beside(self, what: str, plain: Mapping[str, str]) -> Names:
+        """Return other plain names where the same ones exist elsewhere."""
+        return Names(what, plain, elsewhere=self.elsewhere, hints=self.hints)
+
 
 def parse(text: str, names: Names, where: str) -> Expr:
     """Return the tree of the formula `text`, or raise `InputError` with one sentence about what is wrong.
@@ -207,7 +211,7 @@ class _Reader:
         if name in self.names.plain:
             return Name(self.names.plain[name])
         if name in self.names.elsewhere:
-            raise self.fail(f"'{name}', which has no meaning here")
+            raise self.fail(f"'{name}', which has no meaning here", self.names.hints.get(name, ""))
         if name in CALLABLE or name in self.names.tables:
             raise self.fail(f"the function '{name}' without its argument", f"write {name}(...)")
         if name in self.names.coordinates:

@@ -35,6 +35,7 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     bodies: Mapping[str, AnyBody]
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
     space: str = "planar"
+    inputs: tuple[str, ...] = ()
 
     @cached_property
     def coordinates(self) -> dict[str, tuple[str, ...]]:
@@ -50,8 +51,8 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     def constants(self) -> Names:
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
-        elsewhere = frozenset({"t", *self.tables})
-        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere)
+        elsewhere = frozenset({"t", *self.tables, *self.inputs})
+        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs)
 
     @cached_property
     def times(self) -> Names:
@@ -61,7 +62,18 @@ class Model(msgspec.Struct, frozen=True, dict=True):
         others = frozenset(self.tables) - frozenset(smooth)
         hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
         what = "a number or an expression of t and parameters"
-        return Names(what, plain, tables=smooth, elsewhere=others, hints=hints)
+        elsewhere = others | frozenset(self.inputs)
+        return Names(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+
+    @cached_property
+    def states(self) -> dict[str, str]:
+        """Names of a formula of t, parameters, inputs and state, coordinates apart."""
+        return {name: name for name in (*self.values, *self.inputs, "t")}
+
+    @property
+    def _of_inputs(self) -> dict[str, str]:
+        """What is said of inputs where they may not stand."""
+        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
 
     @cached_property
     def functions(self) -> dict[str, str]:
@@ -290,7 +302,7 @@ class Scope:
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"
-        plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
+        plain = ChainMap(own, self.model.states)
         return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.functions))
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
@@ -298,7 +310,7 @@ class Scope:
         own = self._own(key, value, words)
         what = f"an expression of parameters and {', '.join(own)}"
         plain = ChainMap(own, self.model.constants.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, Names(what, plain, elsewhere=self.model.constants.elsewhere))
+        return self._expression(key, value, self.model.constants.beside(what, plain))
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""
@@ -308,9 +320,10 @@ class Scope:
         """Return the element's own words, refusing a formula in which one of them could also mean a parameter."""
         own = dict(words or {})
         for word in own:
-            if word in self.model.values and isinstance(value, str) and _mentions(value, word):
-                got = f"'{word}', which is a parameter too"
-                raise self.error(key, f"'{word}' to mean the element's own", got, "rename the parameter")
+            if word in self.model.states and isinstance(value, str) and _mentions(value, word):
+                what = "input" if word in self.model.inputs else "parameter"
+                got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
+                raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own
 
     def _expression(self, key: str, value: float | str, names: Names) -> Expr:

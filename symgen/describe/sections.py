@@ -64,6 +64,22 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     note: Text = ""
 
 
+class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A number from outside, such as a motor's torque, given as ``name = 0.0`` or with its unit as a table.
+
+    Parameters
+    ----------
+    default : float or str
+        What it is where a run is given nothing else; a formula may use parameters.
+    unit, note : str
+        For people.
+    """
+
+    default: Scalar
+    unit: Text = ""
+    note: Text = ""
+
+
 class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A function of one argument by interpolation; called as ``NAME(x)``.
 
@@ -194,6 +210,9 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
 
 
 #: Sections whose entries are named tables -> what one entry is called.
-NAMED = {"parameters": "parameter", "tables": "table", "bodies": "body", "joints": "joint", "forces": "force"}
+NAMED = {
+    **{"parameters": "parameter", "inputs": "input", "tables": "table", "bodies": "body", "joints": "joint"},
+    **{"forces": "force"},
+}
 #: All sections of a file.
 SECTIONS = ("mechanism", "run", *NAMED)

@@ -20,6 +20,7 @@ from symgen.describe.scope import Model, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
+    InputSection,
     MechanismSection,
     ParameterSection,
     RunSection,
@@ -74,11 +75,12 @@ class _Validator:
         tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
         self.model = Model(
             self.source,
-            {p.name: p.value for p in parameters},
+            {p.name: p.value for p in parameters if not p.input},
             {t.name: t for t in tables},
             {},
             self.joint,
             head.space,
+            tuple(p.name for p in parameters if p.input),
         )
         scope = Scope(self.model, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
@@ -112,7 +114,7 @@ class _Validator:
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "tables")):
+        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
             seen: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -135,28 +137,34 @@ class _Validator:
         return Defaults(run.until, run.step, run.output_step, run.predictable_until, source)
 
     def parameters(self) -> tuple[Parameter, ...]:
-        """Return the parameters in the order of the file, formulas worked out with the defaults of the others."""
-        entries = dict(self.entries("parameters"))
-        elsewhere = frozenset(("t", *(name for name, _ in self.entries("tables"))))
+        """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
+        entries, inputs = dict(self.entries("parameters")), dict(self.entries("inputs"))
+        elsewhere = frozenset(("t", *inputs, *(name for name, _ in self.entries("tables"))))
         known = Names("a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere)
-        found = {name: self.parameter(name, value, known) for name, value in entries.items()}
+        found = {name: self.parameter("parameters", name, value, known) for name, value in entries.items()}
+        found |= {name: self.parameter("inputs", name, value, known) for name, value in inputs.items()}
         values = dict[str, float]()
         for name in in_order({name: p.formula for name, p in found.items()}, self.where("parameters")):
             formula = found[name].formula
             if formula is not None:
-                value = evaluate(formula, values, self.where(f"parameters.{name}"))
+                value = evaluate(formula, values, self.where(f"{'inputs' if name in inputs else 'parameters'}.{name}"))
                 found[name] = msgspec.structs.replace(found[name], value=value)
             values[name] = found[name].value
         return tuple(found.values())
 
-    def parameter(self, name: str, raw: object, known: Names) -> Parameter:
-        """Return a parameter; one with a formula of others has no value yet."""
-        where = self.where(f"parameters.{name}")
-        if isinstance(raw, Mapping):
-            section = read(ParameterSection, raw, where)
+    def parameter(self, section: str, name: str, raw: object, known: Names) -> Parameter:
+        """Return a parameter or an input; one with a formula of others has no value yet."""
+        where, unit, note = self.where(f"{section}.{name}"), "", ""
+        value: float | str
+        if not isinstance(raw, Mapping):
+            value = read_value(Scalar, raw, where)
+        elif section == "inputs":
+            given = read(InputSection, raw, where)
+            value, unit, note = given.default, given.unit, given.note
         else:
-            section = ParameterSection(value=read_value(Scalar, raw, where))
-        value, formula = section.value, None
+            table = read(ParameterSection, raw, where)
+            value, unit, note = table.value, table.unit, table.note
+        formula = None
         if isinstance(value, str):
             expression = parse(value, known, where)
             if any(names(expression)):
@@ -165,7 +173,8 @@ class _Validator:
                 value = evaluate(expression, {}, where)
         if not math.isfinite(value):
             raise InputError(where, "a finite number", str(value))
-        return Parameter(name, float(value), check_unit(section.unit, f"{where}.unit"), line(section.note), formula)
+        unit, note = check_unit(unit, f"{where}.unit"), line(note)
+        return Parameter(name, float(value), unit, note, formula, section == "inputs")
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")

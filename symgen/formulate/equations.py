@@ -92,6 +92,8 @@ class Equations:
         Angles whose turns are counted: each on the branch nearest to what the section ``winding`` remembers.
     spins : tuple of (int, int)
         For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
+    inputs : tuple of str
+        Parameters that may change during a run.
     """
 
     name: str
@@ -112,6 +114,7 @@ class Equations:
     dropped_rows: tuple[str, ...]
     windings: tuple[int, ...] = ()
     spins: tuple[tuple[int, int], ...] = ()
+    inputs: tuple[str, ...] = ()
 
     @property
     def nq(self) -> int:

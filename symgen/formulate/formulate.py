@@ -57,6 +57,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         name=mechanism.name,
         graph=model.graph,
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        inputs=mechanism.inputs,
         coordinates=coordinates,
         velocities=velocities,
         q_rates=model.q_rates(),

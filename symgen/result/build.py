@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,7 @@ def build_result(
     outcome: Outcome,
     run_spread: float = 0.0,
     second: Settled | None = None,
+    inputs: Mapping[str, str | float] | None = None,
 ) -> Result:
     """Label and judge the outcome of a run.
 
@@ -46,6 +48,8 @@ def build_result(
         Longest minus shortest run time of repeated runs [s].
     second : Settled, optional
         What a run with finer steps said of this one.
+    inputs : mapping, optional
+        What inputs were, in words or numbers.
 
     Returns
     -------
@@ -54,7 +58,8 @@ def build_result(
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
     forces = Forces(outcome, {joint.name: joint.bodies[0] for joint in mechanism.joints})
-    parameters = parameter_values(mechanism, settings.parameters)
+    values = parameter_values(mechanism, settings.parameters)
+    parameters = {name: value for name, value in values.items() if name not in mechanism.inputs}
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes))
@@ -102,6 +107,7 @@ def build_result(
         error_estimate=None if second is None or verdict.status == FAILED else second.error,
         outcome=outcome,
         forces=forces,
+        inputs=dict(inputs or {}),
     )
 
 

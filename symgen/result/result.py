@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -88,6 +88,8 @@ class Result:
         Sentences: what to be careful with, and what was done or settled on the way.
     parameters : mapping
         Values of the mechanism's parameters.
+    inputs : mapping
+        What its inputs were: numbers, or formulas and data in words.
     t : Array, shape (k,)
         Output times [s].
     q, v : Labelled
@@ -148,6 +150,7 @@ class Result:
     error_estimate: float | None
     outcome: Outcome
     forces: Forces
+    inputs: Mapping[str, str | float] = field(default_factory=dict)
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -295,6 +298,7 @@ class Result:
                 "warnings": list(self.warnings),
                 "notes": list(self.notes),
                 "parameters": dict(self.parameters),
+                "inputs": dict(self.inputs),
                 "steps": self.steps,
                 "rejected": self.rejected,
                 "evaluations": self.evaluations,

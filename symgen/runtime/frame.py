@@ -35,7 +35,7 @@ from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, wa
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
 _BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
-_KNOWN, _KINETIC, _POTENTIAL = abi.KNOWN, abi.KINETIC, abi.POTENTIAL
+_ALTERED, _KNOWN, _KINETIC, _POTENTIAL = abi.ALTERED, abi.KNOWN, abi.KINETIC, abi.POTENTIAL
 _ENERGY_START, _POTENTIAL_START = abi.ENERGY_START, abi.POTENTIAL_START
 _TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
 _MARK, _MARKED, _NO_PROGRESS = abi.MARK, abi.MARKED, abi.NO_PROGRESS
@@ -125,10 +125,15 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
 
 @called
 def begin_anew(system: Any, run: Any) -> int:
-    """Correct the state for parameters that were changed and go on from its energies; return whether that failed.
+    """Have a scheme forget the steps before; return whether the state could not be corrected for other parameters.
 
-    The work of who changed them is in no balance.
+    Where others than inputs were changed, its energies are what the balance goes on from: the work of who changed them
+    is in none.
     """
+    run.clock[_ALLOWED] = 0.0
+    run.control[_REFUSED] = run.control[_BARRED] = run.control[_KNOWN] = 0
+    if run.control[_BEGUN] != _ALTERED:
+        return 0
     kinetic, potential = run.w[_KINETIC], run.w[_POTENTIAL]
     copied(system.sizes.width, run.y, run.trial)
     failed = correct(system, run, run.clock[_TIME], run.trial, False) & 1
@@ -136,8 +141,6 @@ def begin_anew(system: Any, run: Any) -> int:
     potential = run.w[_POTENTIAL] - potential
     run.gauges[_ENERGY_START] += run.w[_KINETIC] - kinetic + potential
     run.gauges[_POTENTIAL_START] += potential
-    run.clock[_ALLOWED] = 0.0
-    run.control[_REFUSED] = run.control[_BARRED] = run.control[_KNOWN] = 0
     return failed
 
 

@@ -22,6 +22,7 @@ from symgen.store.stats import cache_stats
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Observed, Outputs, Sizes
 
 Array = NDArray[np.float64]
@@ -62,6 +63,8 @@ class RunSpec:
         The run is stopped some time after it took more right-hand sides than this.
     max_steps : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
+    pieces : tuple of Piece
+        Where inputs jump, and what they are from there on; the first one is what the start has.
     """
 
     until: float
@@ -78,6 +81,7 @@ class RunSpec:
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
     max_evaluations: int | None = None
     max_steps: float = MAX_STEPS
+    pieces: tuple[Piece, ...] = ()
 
     @property
     def velocity_limit(self) -> float:
@@ -100,7 +104,8 @@ class Outcome:
     """What a run gave; arrays have one row an output.
 
     `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
-    evaluations at the outputs is computed when it is first asked for.
+    evaluations at the outputs is computed when it is first asked for. `held` are the parameters of earlier pieces, each
+    with the time of its last output; an output where an input jumps shows what held before.
     """
 
     code: int
@@ -129,6 +134,7 @@ class Outcome:
     start: Start = field(repr=False)
     p: Array = field(repr=False)
     w: Array = field(repr=False)
+    held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
 
     @property
     def accelerations(self) -> Array:
@@ -168,16 +174,26 @@ class Outcome:
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
         functions, iw = (rates, getattr(law, "confirm", rates), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
-        if not self.start.redundant_rows:
-            observe_rates(*functions, sizes, outputs, len(self.times), self.p, w, iw, observed, room)
-            return observed
-        choose = row_chooser(self.compiled)
-        for k in range(len(self.times)):  # the rows that stand for all follow the position
-            here, seen = (type(x)(*(array[k : k + 1] for array in x)) for x in (outputs, observed))
-            observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
-            if choose(w):
-                observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
+        choose = row_chooser(self.compiled) if self.start.redundant_rows else None
+        for first, last, p in self.parameters:
+            # the rows that stand for all follow the position
+            for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
+                here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
+                observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                if choose is not None and choose(w):
+                    observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
         return observed
+
+    @property
+    def parameters(self) -> list[tuple[int, int, Array]]:
+        """First and last output (exclusive) of each piece, and its parameters."""
+        found, first = list[tuple[int, int, Array]](), 0
+        for until, p in (*self.held, (np.inf, self.p)):
+            last = int(np.searchsorted(self.times, until, side="right"))
+            if last > first:
+                found.append((first, last, p))
+            first = last
+        return found
 
     @cached_property
     def _rows(self) -> Array:
@@ -185,9 +201,17 @@ class Outcome:
 
         (sizes, outputs, _), observed = self._seen, self._rates
         room = np.zeros(2 * sizes.ny + observed.rows.shape[1])
-        arrays = self.p, self.w.copy(), observed, room
-        observe_rows(self.compiled.model.observe, sizes, outputs, len(self.times), *arrays)
+        w = self.w.copy()
+        for first, last, p in self.parameters:
+            seen = _rows_of(observed, first, last)
+            here = _rows_of(outputs, first, last)
+            observe_rows(self.compiled.model.observe, sizes, here, last - first, p, w, seen, room)
         return np.asarray(observed.rows)
+
+
+def _rows_of(arrays: Any, first: int, last: int) -> Any:
+    """Return a record of arrays with some of their rows."""
+    return type(arrays)(*(array[first:last] for array in arrays))
 
 
 def integrate(
@@ -221,9 +245,15 @@ def integrate(
     simulation = Simulation(compiled, integrator, start, spec)
     outputs = simulation.outputs(spec.times)
     simulation.warm(outputs)
-    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
-
+    held = list[tuple[float, Array]]()
     state = simulation.state
+
+    def follow() -> None:
+        count = int(state.control[abi.OUTPUTS])
+        if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
+            held.append((float(outputs.times[count - 1]), state.p.copy()))
+
+    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations, follow)
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
     end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
@@ -268,6 +298,7 @@ def integrate(
         start=start,
         p=state.p,
         w=w,
+        held=tuple(held),
     )
 
 
@@ -282,7 +313,11 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 
 def _in_thread(
-    simulation: Simulation, outputs: Outputs, progress: Callable[[float], None] | None, budget: int | None
+    simulation: Simulation,
+    outputs: Outputs,
+    progress: Callable[[float], None] | None,
+    budget: int | None,
+    follow: Callable[[], None],
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
@@ -297,7 +332,7 @@ def _in_thread(
     def work() -> None:
         began = time.perf_counter()
         try:
-            code = simulation.enter(outputs)
+            code = simulation.run(outputs, follow)
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)

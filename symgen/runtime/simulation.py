@@ -97,6 +97,27 @@ class Simulation:
             else:
                 return code
 
+    def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
+        """Go through all pieces of the run, from where it stands; return how the loop ended.
+
+        Parameters
+        ----------
+        outputs : Outputs
+            From `outputs`.
+        follow : callable, optional
+            Called at the end of each piece but the last, before the numbers of the next one are set.
+        """
+        for piece in self.spec.pieces[1:]:
+            if piece.begin <= self.state.clock[abi.TIME]:
+                continue
+            code = self.enter(outputs, until=piece.begin)
+            if code != abi.DONE:
+                return code
+            if follow is not None:
+                follow()
+            self.set_parameters(piece.values)
+        return self.enter(outputs)
+
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
         kept = self.save()
@@ -107,8 +128,8 @@ class Simulation:
     def set_parameters(self, values: Mapping[str, float]) -> None:
         """Give parameters other values from where the run stands; what depends on them alone is prepared again.
 
-        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. The state is
-        corrected for the new values, and the change of its energy is in no balance.
+        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. Where others than
+        inputs are changed, the state is corrected for the new values, and the change of its energy is in no balance.
 
         Parameters
         ----------
@@ -132,8 +153,9 @@ class Simulation:
             return
         self._prepare(p, w)
         self.state.p[:], self.state.w[:] = p, w
-        if self.state.control[abi.BEGUN] == 1:
-            self.state.control[abi.BEGUN] = abi.ALTERED
+        if self.state.control[abi.BEGUN] != 0:
+            asked = abi.AFRESH if all(name in self.compiled.info.inputs for name in values) else abi.ALTERED
+            self.state.control[abi.BEGUN] = max(asked, self.state.control[abi.BEGUN])
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""

@@ -43,6 +43,9 @@ def test_a_cam_is_the_polynomial_that_its_points_lie_on(shape, method, integrato
         np.testing.assert_allclose(a, b, rtol=0.0, atol=1e-9)
 
 
+PUSH = "f(1.2*sin(block.x)) - 9*block.x - 0.1*f(sin(block.vx)) + 0.2*f(t)"
+
+
 def forced(interpolation, periodic):
     """A block in a guide that a force of a table of its place and rate, and of time, moves."""
     x = np.linspace(-1.0, 1.0, 9)
@@ -52,7 +55,12 @@ def forced(interpolation, periodic):
         .table("f", x, 40.0 * y, interpolation=interpolation, periodic=periodic)
         .body("block", mass=1.0, inertia=0.1, position=(0.9, 0.0), velocity=(1.5, 0.0))
         .joint("guide", "translational", between=("ground", "block"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
-        .force("push", "force", body="block", force=("f(1.2*sin(block.x)) - 9*block.x - 0.1*f(sin(block.vx)) + 0.2*f(t)", 0.0))
+        .force(
+            "push",
+            "force",
+            body="block",
+            force=("f(1.2*sin(block.x)) - 9*block.x - 0.1*f(sin(block.vx)) + 0.2*f(t)", 0.0),
+        )
         .build()
     )
 
