@@ -18,7 +18,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import ready, start_of
+from symgen.run_setup import give_inputs, ready, start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed
@@ -179,6 +179,8 @@ class Model:
         **changes
             Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run),
             ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
+            ``inputs`` (by name a number, a formula of t, parameters and state, a pair of times and values, or a mapping
+            with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``),
             ``options`` (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_steps`` (attempts at steps after which it has),
@@ -197,20 +199,22 @@ class Model:
         from symgen.store import ahead
         from symgen.store.stats import seconds_in_cache
 
-        asked = changed(settings, changes)
+        given = give_inputs(self.mechanism, changed(settings, changes))
+        mechanism, asked = given.mechanism, given.settings
         arguments.function("progress", progress)
-        chosen, reasons = resolve(self.mechanism, asked)
-        plan = make_plan(self.mechanism, chosen)
+        chosen, reasons = resolve(mechanism, asked)
+        plan = make_plan(mechanism, chosen)
+        plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         before = seconds_in_cache()
         ahead.start(plan.tableau.loop(plan.spec.adaptive))
-        compiled, start = self.ready(plan, chosen.parameters, chosen.strict)
+        compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
         start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         second = None
         if reasons or asked.verify:  # something was chosen automatically, or the error is asked for
             free = bool(reasons) and asked.rtol is None and asked.atol is None
-            second = settle(self.mechanism, chosen.parameters, plan, compiled, outcome, free)
+            second = settle(mechanism, chosen.parameters, plan, compiled, outcome, free)
             plan, outcome = second.plan, second.outcome
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(self.mechanism, chosen, plan, compiled, outcome, spread, second)
+        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told)

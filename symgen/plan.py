@@ -62,6 +62,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     InputError
         If a name, option or number is wrong.
     """
+    if s.inputs:  # single runs have put them into the mechanism
+        raise InputError("inputs", "a single run; here an input is a number, as parameters are", "one of a run")
     method = METHODS.get(s.method, "--method")
     tableau = INTEGRATORS.get(s.integrator or method.default_integrator, "--integrator")
     if not set(method.forms) & set(tableau.forms):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,12 +13,14 @@ from symgen import __version__
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
+from symgen.describe.inputs import driven
 from symgen.describe.moved import moved
 from symgen.describe.start import described_start
 from symgen.ir.program import FORMAT
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
+from symgen.runtime.pieces import Piece, pieces_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,6 +30,49 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.last_state import LastState
+    from symgen.settings import Settings
+
+
+@dataclass(frozen=True)
+class Given:
+    """A mechanism and settings with what a run gives inputs in them.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With formulas and data in the place of inputs.
+    settings : Settings
+        Its parameters hold what inputs are at the start.
+    pieces : tuple of Piece
+        Of the run, none where nothing jumps.
+    told : mapping of str to str or float
+        Every input in words, or its number.
+    """
+
+    mechanism: Mechanism
+    settings: Settings
+    pieces: tuple[Piece, ...]
+    told: Mapping[str, str | float]
+
+
+def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
+    """Return a mechanism and settings with inputs put in their places.
+
+    Raises
+    ------
+    InputError
+        If what is given makes no sense, see `symgen.describe.inputs.driven`.
+    """
+    set_by_name = {name: settings.parameters[name] for name in mechanism.inputs if name in settings.parameters}
+    if not settings.inputs:
+        values = parameter_values(mechanism, settings.parameters) if mechanism.inputs else {}
+        return Given(mechanism, settings, (), {name: values[name] for name in mechanism.inputs})
+    found = driven(mechanism, {**set_by_name, **settings.inputs})
+    parameters = {**settings.parameters, **found.numbers}
+    until = mechanism.defaults.until if settings.until is None else settings.until
+    pieces = pieces_of(found, parameter_values(found.mechanism, parameters), until)
+    parameters |= pieces[0].values if pieces else {}
+    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, found.told)
 
 
 def start_of(

@@ -73,6 +73,11 @@ def _start(where: str, value: object) -> Mapping[str, float]:
     return {name: arguments.number(f"{where} '{name}'", item) for name, item in found.items()}
 
 
+def _inputs(where: str, value: object) -> dict[str, Any]:
+    # what is given for each is looked at where the mechanism is known
+    return arguments.mapping(where, value, "numbers, formulas or data by the names of inputs")
+
+
 def _repeat(where: str, value: object) -> int:
     return arguments.whole(where, value, 1, 1000)
 
@@ -139,6 +144,14 @@ class Settings:
     parameters: Mapping[str, float] = _setting(
         {}, "Value of a parameter of the mechanism.", dict, _values, flag="--set", metavar="NAME=VALUE"
     )
+    inputs: Mapping[str, Any] = _setting(
+        {},
+        "Input: a number, a formula of t, parameters and state, or FILE.csv:COLUMN[:hold|linear|cubic|pchip].",
+        dict,
+        _inputs,
+        flag="--input",
+        metavar="NAME=VALUE",
+    )
     start: Mapping[str, float] = _setting(
         {},
         "Value of a coordinate or velocity at the start, such as crank.theta=0.5, which is kept.",
@@ -175,7 +188,7 @@ class Settings:
     def __post_init__(self) -> None:
         for f in fields(self):
             value = getattr(self, f.name)
-            if value is not None or f.name in ("parameters", "start", "options") or f.default is not None:
+            if value is not None or f.name in ("parameters", "inputs", "start", "options") or f.default is not None:
                 object.__setattr__(self, f.name, about(f.name).check(f.name, value))
 
 

@@ -38,6 +38,8 @@ class Document:
         self.raw = raw
         self.spatial = raw["mechanism"].get("space", "planar") == "spatial"
         self.dimension = 3 if self.spatial else 2
+        if any(table.get("interpolation", "linear") != "linear" for table in raw.get("tables", {}).values()):
+            raise NotImplementedError("tables of smooth pieces")
         self.tables = {
             name: Lines(tuple(float(x) for x in table["x"]), tuple(float(y) for y in table["y"]))
             for name, table in raw.get("tables", {}).items()

@@ -67,6 +67,8 @@ def _checked(name: str, value: Any) -> Any:
         return assignments(where, value)
     if name == "options":
         return option_pairs(value)
+    if name == "inputs":
+        return dict(_pair(where, word) for word in value)
     return known.check(where, number_list(where, value) if known.kind is tuple else value)
 
 

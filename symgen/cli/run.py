@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 @click.command("run", short_help="Simulate a mechanism.")
 @click.argument("model")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "start", "options"),
-    *("strict", "verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
+    *("options", "strict", "verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
 )
 @click.option(
     "--from",

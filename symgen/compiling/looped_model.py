@@ -157,4 +157,5 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         windings=shape.windings,
         spins=tuple(shape.spins),
         operations=operations,
+        inputs=mechanism.inputs,
     )

@@ -83,7 +83,7 @@ def generator_digest() -> str:
     for folder in ("vocabulary", "formulate", "ir", "lower", "emit", "methods"):
         for path in sorted((package / folder).rglob("*.py")):
             digest.update(path.name.encode() + b"\0" + path.read_bytes())
-    for path in sorted(path for folder in ("looped", "parts") for path in (templates / folder).glob("*.j2")):
+    for path in sorted(path for folder in ("looped", "parts", "curves") for path in (templates / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 

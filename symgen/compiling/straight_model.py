@@ -105,6 +105,7 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         windings=len(equations.windings),
         spins=equations.spins,
         operations={b.name: b.operations for b in program.blocks},
+        inputs=equations.inputs,
     )
 
 

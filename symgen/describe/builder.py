@@ -46,13 +46,18 @@ class MechanismBuilder:
         return self
 
     def parameter(self, name: str, value: float | str, unit: str = "", note: str = "") -> Self:
-        """Add a number that stays adjustable at run time."""
+        """Add a number that stays adjustable at run time, or a formula of other parameters that follows them."""
         keys = {"value": value, "unit": unit, "note": note}
         return self._add("parameters", name, {key: item for key, item in keys.items() if item != ""})
 
-    def table(self, name: str, x: Any, y: Any) -> Self:
-        """Add a function of one argument by linear interpolation."""
-        return self._add("tables", name, {"x": x, "y": y})
+    def input(self, name: str, default: float | str, unit: str = "", note: str = "") -> Self:
+        """Add a number from outside, which may change during a run."""
+        keys = {"default": default, "unit": unit, "note": note}
+        return self._add("inputs", name, {key: item for key, item in keys.items() if item != ""})
+
+    def table(self, name: str, x: Any, y: Any, **keys: Any) -> Self:
+        """Add a function of one argument by interpolation: ``interpolation``, ``periodic`` as in a file."""
+        return self._add("tables", name, {"x": x, "y": y} | keys)
 
     def body(self, name: str, **keys: Any) -> Self:
         """Add a body: ``mass``, ``inertia``, ``points``, ``position``, ``angle``, ... as in a file."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import msgspec
 
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import Mechanism, Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
@@ -35,8 +35,8 @@ def canonical(mechanism: Mechanism) -> str:
         ["name", mechanism.name],
         ["space", mechanism.space],
         ["gravity", _text(mechanism.gravity)],
-        ["parameters", [[p.name, p.unit] for p in mechanism.parameters]],
-        ["tables", sorted([table.name, _text(table.x), _text(table.y)] for table in mechanism.tables)],
+        ["parameters", [[p.name, p.unit, *(["input"] if p.input else [])] for p in mechanism.parameters]],
+        ["tables", sorted(_table(table) for table in mechanism.tables)],
         ["bodies", bodies],
         ["joints", [_text(joint) for joint in mechanism.joints]],
         ["forces", [_text(force) for force in mechanism.forces]],
@@ -49,6 +49,12 @@ def digest(mechanism: Mechanism) -> str:
     import hashlib
 
     return hashlib.sha256(canonical(mechanism).encode()).hexdigest()
+
+
+def _table(table: Table) -> list[str]:
+    """Return what a table is; one of straight lines is what it was when there were no others."""
+    how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]
+    return [table.name, _text(table.x), _text(table.y), *how]
 
 
 def _text(value: object) -> str:

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import bisect
 import math
 from collections.abc import Mapping
 
 from symgen import arguments
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism, Table
 from symgen.describe.numbers import Scalars
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading, table_of
 
 
 def evaluate(
@@ -66,7 +66,7 @@ def scalars(values: Mapping[str, float]) -> Scalars:
 
 
 def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None = None) -> dict[str, float]:
-    """Return all parameter values of a mechanism, `changed` ones replaced.
+    """Return all parameter values of a mechanism, `changed` ones replaced, those that follow from them worked out.
 
     Raises
     ------
@@ -79,23 +79,16 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
             expected = f"a parameter of {mechanism.name}"
             raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, values))
         values[name] = arguments.number(f"parameter '{name}'", value)
+    if changed:
+        for name, formula in derived(mechanism.parameters, changed):
+            values[name] = evaluate(formula, values, f"parameter '{name}'")
     return values
 
 
-def interpolate(table: Table, x: float) -> float:
-    """Return the table's value at `x`: linear between its points, constant beyond its ends."""
-    if x <= table.x[0]:
-        return table.y[0]
-    if x >= table.x[-1]:
-        return table.y[-1]
-    i = bisect.bisect_right(table.x, x)
-    x0, x1, y0, y1 = table.x[i - 1], table.x[i], table.y[i - 1], table.y[i]
-    return y0 + (y1 - y0) * (x - x0) / (x1 - x0)
-
-
 def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
-    if expression.function.startswith("table:"):
-        return interpolate(tables[expression.function.removeprefix("table:")], operands[0])
+    table = table_of(expression.function)
+    if table is not None:
+        return tables[table].interpolated.value(operands[0])
     return FUNCTIONS[expression.function][1](*operands)
 
 

@@ -16,7 +16,6 @@ from msgspec import Meta
 from symgen.errors import InputError, nearest, quoted
 
 Text = Annotated[str, Meta(description="a text")]
-PlainScalar = Annotated[float | str, Meta(description="a number or an expression of numbers")]
 Scalar = Annotated[float | str, Meta(description="a number or an expression of parameters")]
 TimeFunction = Annotated[float | str, Meta(description="a number or an expression of t and parameters")]
 StateFunction = Annotated[
@@ -78,6 +77,7 @@ SixBySix = Annotated[
 Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
 ]
+Flag = Annotated[bool, Meta(description="true or false")]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
 #: The words are looked at where they are resolved, which says the nearest one.
 Held = Annotated[

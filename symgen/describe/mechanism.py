@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import msgspec
 
 from symgen.arguments import shown
 from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import ZERO, Expr
+from symgen.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
+from symgen.vocabulary.expressions import SMOOTH, ZERO, Expr
 from symgen.vocabulary.measures import Effort, Marker, Measure, Row
 
 #: Velocity -> what its rate is called.
@@ -25,21 +28,57 @@ ACCELERATIONS = {
 Vec = tuple[Expr, ...]
 
 
-class Parameter(msgspec.Struct, frozen=True):
-    """A named number that stays adjustable at run time (``p`` of the emitted functions)."""
+class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A named number that stays adjustable at run time (``p`` of the emitted functions).
+
+    One with a `formula` follows the parameters that this names, unless it is given a number itself; `value` is what it
+    is with their defaults. An `input` is a number that comes from outside: it may change during a run, so it stands in
+    functions of state alone.
+    """
 
     name: str
     value: float
-    unit: str = ""
-    note: str = ""
+    # kernels are known by the text of their elements: it stays what it was where there is nothing but a number
+    unit: str = msgspec.field(default_factory=str)  # written even where it is empty
+    note: str = msgspec.field(default_factory=str)
+    formula: Expr | None = None
+    input: bool = False
 
 
-class Table(msgspec.Struct, frozen=True):
-    """A function of one argument by interpolation, linear (constant beyond its ends); used as ``NAME(x)``."""
+class Table(msgspec.Struct, frozen=True, omit_defaults=True):
+    """A function of one argument by interpolation; used as ``NAME(x)``.
+
+    ``linear`` is constant beyond its ends. ``cubic`` (two continuous derivatives) and ``pchip`` (one, and no value
+    beyond those of the points) go on in straight lines there, unless they are `periodic`.
+    """
 
     name: str
     x: tuple[float, ...]
     y: tuple[float, ...]
+    interpolation: str = "linear"
+    periodic: bool = False
+
+    @property
+    def function(self) -> str:
+        """What calls of it are in an expression, see `symgen.vocabulary.expressions.Call`."""
+        return f"table:{'' if self.interpolation == 'linear' else SMOOTH}{self.name}"
+
+    @property
+    def interpolated(self) -> Interpolation:
+        """What it is made of."""
+        return _interpolated(self)
+
+
+@lru_cache(maxsize=64)
+def _interpolated(table: Table) -> Interpolation:
+    x, y = table.x, table.y
+    if table.interpolation == "linear":
+        return Interpolation(table.name, x, y)
+    if table.interpolation == "pchip":
+        slopes = pchip_slopes(x, y, table.periodic)
+    else:
+        slopes = periodic_slopes(x, y) if table.periodic else cubic_slopes(x, y)
+    return Interpolation(table.name, x, y, cubic_pieces(x, y, slopes), x[-1] - x[0] if table.periodic else 0.0)
 
 
 class Body(msgspec.Struct, frozen=True):
@@ -198,6 +237,11 @@ class Mechanism(msgspec.Struct, frozen=True):
     outputs: tuple[Output, ...] = ()
     seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
     holds: tuple[Hold, ...] = ()
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """Names of the inputs, which stand behind the other parameters."""
+        return tuple(p.name for p in self.parameters if p.input)
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

@@ -10,7 +10,7 @@ import ast
 import keyword
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import msgspec
@@ -61,20 +61,27 @@ class Names(msgspec.Struct, frozen=True):
         Name as written -> name in the tree (they differ for an element's own words, ``length`` -> ``s``).
     coordinates : mapping of str to tuple of str
         Body -> its coordinates and velocities that may be written ``body.coordinate``.
-    tables : collection of str
-        Tables that may be called.
+    tables : mapping of str to str
+        Tables that may be called -> functions of the tree.
     elsewhere : frozenset of str
         Names that exist, though not in this formula; only the message differs.
     readings : Readings, optional
         What else may be written with dots: points of bodies, coordinates of joints.
+    hints : mapping of str to str
+        What to say of some of them.
     """
 
     what: str
     plain: Mapping[str, str] = {}
     coordinates: Mapping[str, tuple[str, ...]] = {}
-    tables: Collection[str] = ()
+    tables: Mapping[str, str] = {}
     elsewhere: frozenset[str] = frozenset()
     readings: Readings | None = None
+    hints: Mapping[str, str] = {}
+
+    def beside(self, what: str, plain: Mapping[str, str]) -> Names:
+        """Return other plain names where the same ones exist elsewhere."""
+        return Names(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
 
 def parse(text: str, names: Names, where: str) -> Expr:
@@ -211,7 +218,7 @@ class _Reader:
         if name in self.names.plain:
             return Name(self.names.plain[name])
         if name in self.names.elsewhere:
-            raise self.fail(f"'{name}', which has no meaning here")
+            raise self.fail(f"'{name}', which has no meaning here", self.names.hints.get(name, ""))
         if name in CALLABLE or name in self.names.tables:
             raise self.fail(f"the function '{name}' without its argument", f"write {name}(...)")
         if name in self.names.coordinates:
@@ -263,10 +270,11 @@ class _Reader:
     def function(self, function: str, nodes: list[ast.expr], depth: int) -> Expr:
         if function in self.names.tables:
             self.count(function, nodes, 1)
-            return Call(f"table:{function}", (self.quantity(nodes[0], depth),))
+            return Call(self.names.tables[function], (self.quantity(nodes[0], depth),))
         if function not in CALLABLE:
             if function in self.names.elsewhere:
-                raise self.fail(f"the table '{function}', which has no meaning here")
+                hint = self.names.hints.get(function, "")
+                raise self.fail(f"the table '{function}', which has no meaning here", hint)
             raise self.fail(
                 f"the unknown function {quoted(function)}", nearest(function, [*CALLABLE, *self.names.tables])
             )

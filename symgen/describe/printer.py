@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.vocabulary.expressions import Expr, Name, Number, Reading
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading, table_of
 
 _INFIX: Mapping[str, tuple[str, int]] = {
     "or": (" or ", 1),
@@ -53,7 +53,7 @@ def _print(expression: Expr) -> tuple[str, int]:
         condition, yes, no = arguments
         return f"{_bracketed(yes, 1)} if {_bracketed(condition, 1)} else {_bracketed(no, _CHOICE)}", _CHOICE
     listed = ", ".join(to_text(argument) for argument in arguments)
-    return f"{function.removeprefix('table:')}({listed})", _ATOM
+    return f"{table_of(function) or function}({listed})", _ATOM
 
 
 def _right(strength: int) -> int:

@@ -11,6 +11,7 @@ import msgspec
 from symgen.describe.fields import JointStart
 from symgen.describe.sections import (
     BodySection,
+    InputSection,
     MechanismSection,
     OutputSection,
     ParameterSection,
@@ -38,6 +39,7 @@ def schema() -> dict[str, Any]:
             "mechanism": _table(MechanismSection),
             "run": _table(RunSection),
             "parameters": _named(parameter),
+            "inputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(InputSection)]}),
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart)}),

@@ -12,7 +12,7 @@ import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Vec
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Table, Vec
 from symgen.describe.parser import Names, parse
 from symgen.describe.readings import OUTPUT, Readings
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
@@ -32,12 +32,29 @@ class Model(msgspec.Struct, frozen=True, dict=True):
 
     source: str
     values: Mapping[str, float]  # parameters with their defaults
-    tables: tuple[str, ...]
+    tables: Mapping[str, Table]
     bodies: Mapping[str, AnyBody]
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
     space: str = "planar"
     joint_names: frozenset[str] = frozenset()
     forces: Mapping[str, Force] = {}  # empty while forces are resolved
+    inputs: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, mechanism: Mechanism) -> Model:
+        """Return what is known of a mechanism that was read already, for formulas that come later."""
+        joints = {joint.name: joint for joint in mechanism.joints}
+        return cls(
+            mechanism.name,
+            {p.name: p.value for p in mechanism.parameters if not p.input},
+            {table.name: table for table in mechanism.tables},
+            {body.name: body for body in mechanism.bodies},
+            lambda name, where: joints[name],
+            mechanism.space,
+            frozenset(joints),
+            {force.name: force for force in mechanism.forces},
+            mechanism.inputs,
+        )
 
     @cached_property
     def coordinates(self) -> dict[str, tuple[str, ...]]:
@@ -53,14 +70,34 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     def constants(self) -> Names:
         """Names of a formula of parameters."""
         plain = {name: name for name in self.values}
-        elsewhere = frozenset({"t", *self.tables})
-        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere)
+        elsewhere = frozenset({"t", *self.tables, *self.inputs})
+        return Names("a number or an expression of parameters", plain, elsewhere=elsewhere, hints=self._of_inputs)
 
     @cached_property
     def times(self) -> Names:
         """Names of a formula of t and parameters."""
         plain = {name: name for name in (*self.values, "t")}
-        return Names("a number or an expression of t and parameters", plain, elsewhere=frozenset(self.tables))
+        smooth = {name: t.function for name, t in self.tables.items() if t.interpolation == "cubic"}
+        others = frozenset(self.tables) - frozenset(smooth)
+        hints = dict.fromkeys(others, "a motion needs two continuous derivatives, which interpolation = 'cubic' has")
+        what = "a number or an expression of t and parameters"
+        elsewhere = others | frozenset(self.inputs)
+        return Names(what, plain, tables=smooth, elsewhere=elsewhere, hints=hints | self._of_inputs)
+
+    @cached_property
+    def states(self) -> dict[str, str]:
+        """Names of a formula of t, parameters, inputs and state, coordinates apart."""
+        return {name: name for name in (*self.values, *self.inputs, "t")}
+
+    @property
+    def _of_inputs(self) -> dict[str, str]:
+        """What is said of inputs where they may not stand."""
+        return dict.fromkeys(self.inputs, "an input may stand in forces, torques and actuators")
+
+    @cached_property
+    def functions(self) -> dict[str, str]:
+        """Tables -> functions of a tree."""
+        return {name: table.function for name, table in self.tables.items()}
 
 
 class Scope:
@@ -273,7 +310,7 @@ class Scope:
         return None if value is None else self.constant(key, value)
 
     def of_time(self, key: str, value: float | str) -> Expr:
-        """Return a number or an expression of t and parameters, without tables: it must have two derivatives."""
+        """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.model.times)
 
     def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
@@ -285,10 +322,11 @@ class Scope:
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"
-        plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
-        tables = self.model.times.elsewhere
+        plain = ChainMap(own, self.model.states)
         return self._expression(
-            key, value, Names(what, plain, self.model.coordinates, tables, readings=Readings(self.model))
+            key,
+            value,
+            Names(what, plain, self.model.coordinates, self.model.functions, readings=Readings(self.model)),
         )
 
     def of_motion(self, key: str, value: float | str) -> Expr:
@@ -298,9 +336,8 @@ class Scope:
             name: (*known, *(ACCELERATIONS[speed] for speed in self.model.bodies[name].speeds))
             for name, known in self.model.coordinates.items()
         }
-        times = self.model.times
         return self._expression(
-            key, value, Names(what, times.plain, own, times.elsewhere, readings=Readings(self.model, OUTPUT))
+            key, value, Names(what, self.model.states, own, self.model.functions, readings=Readings(self.model, OUTPUT))
         )
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
@@ -308,7 +345,7 @@ class Scope:
         own = self._own(key, value, words)
         what = f"an expression of parameters and {', '.join(own)}"
         plain = ChainMap(own, self.model.constants.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, Names(what, plain, elsewhere=self.model.constants.elsewhere))
+        return self._expression(key, value, self.model.constants.beside(what, plain))
 
     def value(self, expression: Expr, key: str) -> float:
         """Return the number with the parameters' defaults."""
@@ -318,9 +355,10 @@ class Scope:
         """Return the element's own words, refusing a formula in which one of them could also mean a parameter."""
         own = dict(words or {})
         for word in own:
-            if word in self.model.values and isinstance(value, str) and _mentions(value, word):
-                got = f"'{word}', which is a parameter too"
-                raise self.error(key, f"'{word}' to mean the element's own", got, "rename the parameter")
+            if word in self.model.states and isinstance(value, str) and _mentions(value, word):
+                what = "input" if word in self.model.inputs else "parameter"
+                got = f"'{word}', which is {'an' if what == 'input' else 'a'} {what} too"
+                raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own
 
     def _expression(self, key: str, value: float | str, names: Names) -> Expr:

@@ -7,10 +7,10 @@ from typing import Literal
 import msgspec
 
 from symgen.describe.fields import (
+    Flag,
     Held,
     Numbers,
     OutputFunction,
-    PlainScalar,
     Point,
     Points,
     PositiveNumber,
@@ -66,27 +66,51 @@ class ParameterSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     Parameters
     ----------
     value : float or str
-        The default; a formula may use numbers only (``"pi/3"``).
+        The default; a formula of other parameters is worked out anew where these are changed.
     unit, note : str
         For people.
     """
 
-    value: PlainScalar
+    value: Scalar
+    unit: Text = ""
+    note: Text = ""
+
+
+class InputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A number from outside, such as a motor's torque, given as ``name = 0.0`` or with its unit as a table.
+
+    Parameters
+    ----------
+    default : float or str
+        What it is where a run is given nothing else; a formula may use parameters.
+    unit, note : str
+        For people.
+    """
+
+    default: Scalar
     unit: Text = ""
     note: Text = ""
 
 
 class TableSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A function of one argument by linear interpolation, constant beyond its ends; called as ``NAME(x)``.
+    """A function of one argument by interpolation; called as ``NAME(x)``.
 
     Parameters
     ----------
     x, y : list of float
         Points, `x` increasing.
+    interpolation : str
+        ``"linear"``: straight lines, constant beyond the ends. ``"cubic"``: a spline with two continuous derivatives.
+        ``"pchip"``: cubic pieces with one, which stay between the values of the points. The last two go on in straight
+        lines beyond the ends; motions of drivers may use ``"cubic"``.
+    periodic : bool
+        Whether a smooth one repeats itself, its last value being its first.
     """
 
     x: Numbers
     y: Numbers
+    interpolation: Literal["linear", "cubic", "pchip"] = "linear"
+    periodic: Flag = False
 
 
 class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -223,6 +247,7 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
 #: Sections whose entries are named tables -> what one entry is called.
 NAMED = {
     "parameters": "parameter",
+    "inputs": "input",
     "tables": "table",
     "bodies": "body",
     "joints": "joint",

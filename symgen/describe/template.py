@@ -53,10 +53,13 @@ step = 1e-3
 rod_mass = { value = 1.5, unit = "kg" }
 rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
+# rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
 
-# [tables.profile]                        # a function by linear interpolation, called as profile(t)
-# x = [0.0, 1.0, 2.0]
-# y = [0.0, 0.5, 0.0]
+# [tables.profile]                        # a function by interpolation, called as profile(t)
+# x = [0.0, 1.0, 2.0, 3.0]
+# y = [0.0, 0.5, 0.2, 0.0]
+# interpolation = "linear"                # or cubic, which drivers may use, or pchip
+# periodic = false                        # whether a smooth one repeats itself
 
 [bodies.rod]
 mass = "rod_mass"
@@ -109,10 +112,13 @@ step = 1e-3
 rod_mass = { value = 1.5, unit = "kg" }
 rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
+# rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
 
-# [tables.profile]                        # a function by linear interpolation, called as profile(t)
-# x = [0.0, 1.0, 2.0]
-# y = [0.0, 0.5, 0.0]
+# [tables.profile]                        # a function by interpolation, called as profile(t)
+# x = [0.0, 1.0, 2.0, 3.0]
+# y = [0.0, 0.5, 0.2, 0.0]
+# interpolation = "linear"                # or cubic, which drivers may use, or pchip
+# periodic = false                        # whether a smooth one repeats itself
 
 [bodies.arm]
 mass = 2.0

@@ -26,7 +26,7 @@ def to_toml(raw: Mapping[str, Any]) -> str:
     for section in (*SECTIONS, *(key for key in raw if key not in SECTIONS)):
         if section not in raw:
             continue
-        if section in NAMED and section not in ("parameters", "outputs"):
+        if section in NAMED and section not in ("parameters", "inputs", "outputs"):
             blocks += [_block(f"{section}.{_key(name)}", content) for name, content in raw[section].items()]
         else:
             blocks.append(_block(section, raw[section]))

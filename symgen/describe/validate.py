@@ -10,8 +10,9 @@ import msgspec
 
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
+from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
-from symgen.describe.fields import JointStart, OutputFunction, PlainScalar, found, read, read_value
+from symgen.describe.fields import JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
@@ -20,6 +21,7 @@ from symgen.describe.scope import Model, Scope
 from symgen.describe.sections import (
     NAMED,
     SECTIONS,
+    InputSection,
     MechanismSection,
     OutputSection,
     ParameterSection,
@@ -27,6 +29,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 from symgen.errors import InputError, nearest, quoted
+from symgen.vocabulary.expressions import names
 from symgen.vocabulary.measures import Marker
 
 Raw = Mapping[str, Any]
@@ -73,16 +76,17 @@ class _Validator:
         head = read(MechanismSection, self.raw["mechanism"], self.where("mechanism"))
         check_mechanism_name(head.name, self.where("mechanism.name"))
         self.unique()
-        parameters = tuple(self.parameter(name, value) for name, value in self.entries("parameters"))
+        parameters = self.parameters()
         tables = tuple(self.table(name, value) for name, value in self.entries("tables"))
         self.model = Model(
             self.source,
-            {p.name: p.value for p in parameters},
-            tuple(t.name for t in tables),
+            {p.name: p.value for p in parameters if not p.input},
+            {t.name: t for t in tables},
             {},
             self.joint,
             head.space,
             frozenset(name for name, _ in self.entries("joints")),
+            inputs=tuple(p.name for p in parameters if p.input),
         )
         scope = Scope(self.model, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)
@@ -130,7 +134,7 @@ class _Validator:
 
     def unique(self) -> None:
         """Refuse one name for two things whose results would carry the same label, or that a formula may confuse."""
-        for group in (("bodies", "joints", "forces"), ("parameters", "tables")):
+        for group in (("bodies", "joints", "forces"), ("parameters", "inputs", "tables")):
             seen: dict[str, str] = {}
             for section in group:
                 for name, _ in self.entries(section):
@@ -152,18 +156,45 @@ class _Validator:
             raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(run.step))
         return Defaults(run.until, run.step, run.output_step, run.predictable_until, source)
 
-    def parameter(self, name: str, raw: object) -> Parameter:
-        where = self.where(f"parameters.{name}")
-        if isinstance(raw, Mapping):
-            section = read(ParameterSection, raw, where)
+    def parameters(self) -> tuple[Parameter, ...]:
+        """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""
+        entries, inputs = dict(self.entries("parameters")), dict(self.entries("inputs"))
+        elsewhere = frozenset(("t", *inputs, *(name for name, _ in self.entries("tables"))))
+        known = Names("a number or an expression of parameters", {name: name for name in entries}, elsewhere=elsewhere)
+        found = {name: self.parameter("parameters", name, value, known) for name, value in entries.items()}
+        found |= {name: self.parameter("inputs", name, value, known) for name, value in inputs.items()}
+        values = dict[str, float]()
+        for name in in_order({name: p.formula for name, p in found.items()}, self.where("parameters")):
+            formula = found[name].formula
+            if formula is not None:
+                value = evaluate(formula, values, self.where(f"{'inputs' if name in inputs else 'parameters'}.{name}"))
+                found[name] = msgspec.structs.replace(found[name], value=value)
+            values[name] = found[name].value
+        return tuple(found.values())
+
+    def parameter(self, section: str, name: str, raw: object, known: Names) -> Parameter:
+        """Return a parameter or an input; one with a formula of others has no value yet."""
+        where, unit, note = self.where(f"{section}.{name}"), "", ""
+        value: float | str
+        if not isinstance(raw, Mapping):
+            value = read_value(Scalar, raw, where)
+        elif section == "inputs":
+            given = read(InputSection, raw, where)
+            value, unit, note = given.default, given.unit, given.note
         else:
-            section = ParameterSection(value=read_value(PlainScalar, raw, where))
-        value = section.value
+            table = read(ParameterSection, raw, where)
+            value, unit, note = table.value, table.unit, table.note
+        formula = None
         if isinstance(value, str):
-            value = evaluate(parse(value, Names("a number or an expression of numbers"), where), {}, where)
+            expression = parse(value, known, where)
+            if any(names(expression)):
+                value, formula = 0.0, expression
+            else:
+                value = evaluate(expression, {}, where)
         if not math.isfinite(value):
             raise InputError(where, "a finite number", str(value))
-        return Parameter(name, float(value), check_unit(section.unit, f"{where}.unit"), line(section.note))
+        unit, note = check_unit(unit, f"{where}.unit"), line(note)
+        return Parameter(name, float(value), unit, note, formula, section == "inputs")
 
     def table(self, name: str, raw: object) -> Table:
         where = self.where(f"tables.{name}")
@@ -179,7 +210,23 @@ class _Validator:
         for left, right in zip(section.x, section.x[1:], strict=False):
             if not left < right:
                 raise InputError(f"{where}.x", "increasing numbers", f"{right!r} after {left!r}")
-        return Table(name, section.x, section.y)
+        how, fewest = section.interpolation, 4 if section.interpolation == "cubic" or section.periodic else 2
+        if len(section.x) < fewest:
+            told = f"{fewest} numbers or more for interpolation = '{how}'{', periodic' if section.periodic else ''}"
+            raise InputError(f"{where}.x", told, str(len(section.x)))
+        if section.periodic and how == "linear":
+            raise InputError(f"{where}.periodic", "true where interpolation is 'cubic' or 'pchip'", "true for 'linear'")
+        if section.periodic and section.y[0] != section.y[-1]:
+            got = f"{section.y[0]!r} and {section.y[-1]!r}"
+            raise InputError(f"{where}.y", "the same value at both ends of a period", got)
+        table = Table(name, section.x, section.y, how, section.periodic)
+        try:
+            finite = all(math.isfinite(c) for piece in table.interpolated.pieces for c in piece)
+        except (ArithmeticError, ValueError):
+            finite = False
+        if not finite:
+            raise InputError(where, "points between which curves have finite coefficients", "points too close or far")
+        return table
 
     def output(self, name: str, raw: object) -> Output:
         where = self.where(f"outputs.{name}")

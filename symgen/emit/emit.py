@@ -11,8 +11,9 @@ from symgen.emit.printer import ElementAccess, print_block
 from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations, Quantity
+from symgen.ir.interpolation import Interpolation
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
+from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
 
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000
@@ -30,9 +31,10 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
         If tables are too long for the constant memory of CUDA devices.
     """
     layout = program.layout
-    numbers = sum(len(x) + len(y) for _, x, y in program.tables)
+    numbers = sum(table.numbers for table in program.tables)
     if target == "cuda" and numbers > MOST_CONSTANTS:
-        raise InputError("tables", f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)", f"{numbers // 2}")
+        room = f"at most {MOST_CONSTANTS // 2} points in all (--target cuda)"
+        raise InputError("tables", room, f"what takes the room of {numbers // 2}")
     header = [
         versions(program.digest),
         f"{layout.nq} coordinates, {layout.nv} velocities, {layout.m} constraint rows, {layout.parameters} parameters,",
@@ -95,8 +97,7 @@ def law_header(program: LawProgram, model: ModelProgram, summary: str, reference
 
 def model_names(model: ModelProgram) -> list[str]:
     """Return what the module of a model defines."""
-    tables = [table_name(name, what) for name, _, _ in model.tables for what in ("value", "slope")]
-    return [*(block.name for block in model.blocks), *tables]
+    return [*(block.name for block in model.blocks), *table_names(model.tables)]
 
 
 class LiteralLayout:
@@ -167,18 +168,27 @@ def _loops(program: LawProgram, equations: Equations, target: str) -> list[tuple
     return parts.pieces
 
 
-def table_codes(
-    found: Sequence[tuple[str, tuple[float, ...], tuple[float, ...]]], target: str = "cpu", slopes: bool = True
-) -> list[Code]:
-    """Return tables: their arrays with the functions that interpolate, and their slopes."""
+def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:
+    """Return what functions of tables are called; those of straight lines have a slope where it is asked for."""
+    return [table_name(t.name, what) for t in tables for what in DERIVATIVES[: 3 if t.pieces else 1 + slopes]]
+
+
+def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bool = True) -> list[Code]:
+    """Return tables: their arrays with the functions that interpolate, and their slopes; see `table_names`."""
     codes = []
-    for name, x, y in found:
-        table: dict[str, Any] = {"name": name, "abscissae": list(x), "ordinates": list(y)}
-        table |= {what: table_name(name, what) for what in ("value", "slope", "x", "y")}
-        values = {"table": table, "cuda": target == "cuda", "slope": slopes, "decorator": DECORATORS[target]}
-        text = render("parts/table.j2", values).strip("\n")
-        also = tuple(table_name(name, what) for what in ("slope", "x", "y"))
-        codes.append(Code(table["value"], text, libraries=frozenset(("numpy",)), also=also))
+    for found in tables:
+        x, y = (found.starts, sum(found.pieces, ())) if found.pieces else (found.x, found.y)
+        table: dict[str, Any] = {"name": found.name, "abscissae": list(x), "ordinates": list(y)}
+        table |= {what: table_name(found.name, what) for what in ("value", "slope", "x", "y")}
+        values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": DECORATORS[target]}
+        if found.pieces:
+            table["second"], table["period"] = table_name(found.name, "second"), found.period
+            text = render("curves/pieces.j2", values).strip("\n")
+        else:
+            text = render("parts/table.j2", values | {"slope": slopes}).strip("\n")
+        also = tuple(table_name(found.name, what) for what in ("slope", "second", "x", "y"))
+        libraries = frozenset(("numpy", "math") if found.period else ("numpy",))
+        codes.append(Code(table["value"], text, libraries=libraries, also=also))
     return codes
 
 

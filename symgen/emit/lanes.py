@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from symgen.emit.emit import LiteralLayout, law_header, table_codes, versions
+from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
 from symgen.emit.module import DECORATORS, Code, function, module
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import LaneAccess, print_block
-from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
@@ -96,7 +95,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}
     title = f"Method `{program.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
     header = [*law_header(program, model, summary, reference), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
-    shared = ("sine", "cosine", *(table_name(name) for name, _, _ in model.tables))
+    shared = ("sine", "cosine", *table_names(model.tables, slopes=False))
     known = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
     return module(title, header, codes, known, {"numbers": bases["numbers"], **constants}, note="places in z")
 

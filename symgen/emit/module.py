@@ -120,7 +120,10 @@ def render(template: str, values: Mapping[str, Any]) -> str:
 
 @lru_cache(maxsize=1)
 def templates_digest() -> str:
-    """Return the digest of the templates of code for one mechanism, for the emitted header."""
+    """Return the digest of the templates of code for one mechanism, for the emitted header.
+
+    Those of curves, which few mechanisms have, are not among them.
+    """
     digest = hashlib.sha256()
     for path in sorted(path for folder in ("parts",) for path in (templates_folder() / folder).glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")

@@ -23,11 +23,11 @@ def harmless(text: object) -> str:
 _SIGNS = {'"': "'", "\\": "/"}
 
 #: What precedes the name of a table in each of the names that are made of it: no other emitted name begins so.
-_OF_TABLE = {"value": "table_", "slope": "slope_", "x": "points_", "y": "values_"}
+_OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "points_", "y": "values_"}
 
 
 def table_name(name: str, what: str = "value") -> str:
-    """Return the emitted name of a table's function, of its slope's, or of the array of its points or values.
+    """Return the emitted name of a table's function, of its derivatives', or of the array of its points or values.
 
     The table's name follows unchanged, so that names differ wherever those of tables do.
 
@@ -35,7 +35,7 @@ def table_name(name: str, what: str = "value") -> str:
     ----------
     name : str
         A checked identifier.
-    what : {"value", "slope", "x", "y"}
+    what : {"value", "slope", "second", "x", "y"}
         Which one.
     """
     return _OF_TABLE[what] + name

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
 from symgen.compiling.pipeline import compile_model
+from symgen.describe.derived import derived
 from symgen.describe.holds import ORIENTATION
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
@@ -113,7 +114,8 @@ class Ensemble:
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
         varied = self.grid.values(first, last)
-        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given, self.constant)
+        settled = self.settings.parameters
+        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given, settled, self.constant)
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -122,7 +124,10 @@ class Ensemble:
         for axis in self.grid.axes:
             for name, values in axis.values.items():
                 found.update(f"{axis.dimension}\0{name}\0".encode() + values.tobytes())
+        formulas = {name for name, _ in derived(self.model.mechanism.parameters)}
+        settled = sorted(formulas & set(self.settings.parameters))  # these have numbers in place of their formulas
         return {
+            **({"settled": settled} if settled else {}),
             "mechanism": hashlib.sha256(repr(self.model.mechanism).encode()).hexdigest(),
             "varied": found.hexdigest(),
             "parameters": self.parameters,

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading
@@ -113,6 +114,7 @@ def make_rows(
     varied: Mapping[str, Array],
     held: Mapping[str, int],
     given: Mapping[str, int],
+    settled: Iterable[str] = (),
     constant: Mapping[str, Expr] | None = None,
 ) -> Rows:
     """Return the rows of a chunk.
@@ -122,16 +124,20 @@ def make_rows(
     mechanism : Mechanism
         What is run.
     base : mapping
-        Values of all parameters.
+        Values of all parameters, before any varies.
     varied : mapping of str to Array, shape (k,)
         Values of all names that vary.
     held, given : mapping of str to int
         Coordinates that vary, in the order of `Rows.targets`, and velocities that vary, each with its index.
+    settled : iterable of str
+        Parameters that have numbers in place of their formulas.
     constant : mapping of str to Expr, optional
         Values of those among them that do not vary, as formulas of parameters.
     """
     k = len(next(iter(varied.values())))
     values: dict[str, Any] = {**base, **{name: x for name, x in varied.items() if name in base}}
+    for name, formula in derived(mechanism.parameters, {*settled, *varied}):
+        values[name] = Columns(values).value(formula)
     described, speeds = described_start(mechanism, Columns(values))
     parameters, q, v = (np.empty((k, len(found))) for found in (base, described, speeds))
     for array, columns in ((parameters, [values[name] for name in base]), (q, described), (v, speeds)):

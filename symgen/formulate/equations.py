@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from symgen.ir.graph import Graph
+from symgen.ir.interpolation import Interpolation
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class Equations:
         Energies [J].
     joint_coordinates : tuple of JointCoordinate
         What results report beside q and v.
-    tables : tuple of (name, x, y)
+    tables : tuple of Interpolation
         Interpolated functions.
     omissions : tuple of Omission
         What was left out and why.
@@ -91,6 +92,8 @@ class Equations:
         Angles whose turns are counted: each on the branch nearest to what the section ``winding`` remembers.
     spins : tuple of (int, int)
         For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
+    inputs : tuple of str
+        Parameters that may change during a run.
     """
 
     name: str
@@ -106,11 +109,12 @@ class Equations:
     kinetic: int
     potential: int
     joint_coordinates: tuple[JointCoordinate, ...]
-    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    tables: tuple[Interpolation, ...]
     omissions: tuple[Omission, ...]
     dropped_rows: tuple[str, ...]
     windings: tuple[int, ...] = ()
     spins: tuple[tuple[int, int], ...] = ()
+    inputs: tuple[str, ...] = ()
 
     @property
     def nq(self) -> int:

@@ -57,6 +57,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         name=mechanism.name,
         graph=model.graph,
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
+        inputs=mechanism.inputs,
         coordinates=coordinates,
         velocities=velocities,
         q_rates=model.q_rates(),
@@ -73,7 +74,7 @@ def formulate(mechanism: Mechanism) -> Equations:
             for b in mechanism.bodies
             if isinstance(b, SpatialBody) and not b.is_point
         ),
-        tables=tuple((t.name, t.x, t.y) for t in mechanism.tables),
+        tables=tuple(t.interpolated for t in mechanism.tables),
         omissions=(
             *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
             *_omissions(mechanism),

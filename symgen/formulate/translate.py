@@ -10,7 +10,8 @@ import sympy as sp
 from symgen.errors import InputError
 from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Call, Expr, Name, Number, Reading
+from symgen.ir.program import of_table
+from symgen.vocabulary.expressions import SMOOTH, Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
 _UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign"}
@@ -81,9 +82,7 @@ class Translator:
         if isinstance(e, sp.Piecewise):
             return self._piecewise(e)
         if isinstance(e, _Table):
-            return self.functions.call(f"table:{e.table}", self.node(e.args[0]))
-        if isinstance(e, _TableSlope):
-            return self.functions.call(f"table:{e.table}'", self.node(e.args[0]))
+            return self.functions.call(f"table:{e.payload}", self.node(e.args[0]))
         if e in (sp.true, sp.false):
             return g.one if e == sp.true else g.zero
         raise TypeError(f"no graph operation for {type(e).__name__}: {e}")
@@ -113,28 +112,23 @@ class Translator:
 
 
 class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
-    """An interpolated table as a SymPy function; subclasses made by `_table` know their name."""
+    """An interpolated table or a derivative of it as a SymPy function; subclasses made by `_table` know which."""
 
-    table = ""
-
-
-class _TableSlope(sp.Function):  # type: ignore[misc]  # SymPy is untyped
-    """The slope of a table: piecewise constant, its own derivative zero."""
-
-    table = ""
-
-    def fdiff(self, argindex: int = 1) -> Any:
-        """Return 0: the slope of a linear interpolation is constant between its points."""
-        return sp.S.Zero
+    payload = ""
 
 
-def _table(name: str) -> Any:
-    slope = type(f"slope_{name}", (_TableSlope,), {"table": name})
+def _table(payload: str) -> Any:
+    """Return the function with the payload of a table's operation on the graph.
+
+    The slope of straight lines is constant between their points: its own derivative is zero.
+    """
+    name, what = of_table(payload)
+    last = not payload.startswith(SMOOTH) and what == "slope"
 
     def fdiff(self: Any, argindex: int = 1) -> Any:
-        return slope(self.args[0])
+        return sp.S.Zero if last else _table(payload + "'")(self.args[0])
 
-    return type(f"table_{name}", (_Table,), {"table": name, "fdiff": fdiff})
+    return type(f"{what.replace('value', 'table')}_{name}", (_Table,), {"payload": payload, "fdiff": fdiff})
 
 
 _TO_SYMPY: dict[str, Any] = {

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from symgen.ir.graph import Graph
+from symgen.vocabulary.expressions import SMOOTH
 from symgen.vocabulary.functions import ELEMENTARY
 
 Key = tuple[str, int]
@@ -29,8 +30,8 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
 
     Notes
     -----
-    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; a table's slope is that of
-    its piece.
+    At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; the slope of straight
+    lines is that of the one below the argument.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
@@ -95,7 +96,8 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
         square = g.add(g.mul(a, a), g.mul(b, b))
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
-        return (zero if payload.endswith("'") else g.call(f"table:{payload}'", a),)
+        straight = payload.endswith("'") and not payload.startswith(SMOOTH)
+        return (zero if straight else g.call(f"table:{payload}'", a),)
     if op == "abs":
         return (g.call("sign", a),)
     if op in ELEMENTARY:

@@ -210,7 +210,7 @@ class Graph:
         return result
 
     def call(self, function: str, *args: int) -> int:
-        """Return ``function(*args)`` for a name of `FUNCTIONS` or ``table:NAME``."""
+        """Return ``function(*args)`` for a name of `FUNCTIONS` or ``table:NAME``, with ' for each derivative."""
         if function in _FOLD and (v := self.value(args[0])) is not None:
             try:
                 return self.constant(_FOLD[function](v))

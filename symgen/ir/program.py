@@ -11,6 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from symgen.ir.graph import Graph
+from symgen.ir.interpolation import Interpolation
+from symgen.vocabulary.expressions import SMOOTH
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
@@ -96,10 +98,14 @@ class Target:
     index: int
 
 
+#: A table's function and its derivatives. Nothing takes a third one: formulas of state have one, those of time two.
+DERIVATIVES = ("value", "slope", "second")
+
+
 def of_table(payload: object) -> tuple[str, str]:
-    """Return the name in the payload of a table's operation, and whether its ``value`` or its ``slope`` is meant."""
-    name = str(payload)
-    return (name[:-1], "slope") if name.endswith("'") else (name, "value")
+    """Return the name in the payload of a table's operation, and which of `DERIVATIVES` is meant."""
+    name = str(payload).rstrip("'")
+    return name.removeprefix(SMOOTH), DERIVATIVES[len(str(payload)) - len(name)]
 
 
 @dataclass(frozen=True)
@@ -139,7 +145,7 @@ class Block:
 
     @property
     def tables(self) -> tuple[tuple[str, str], ...]:
-        """Tables that are read, by name, and whether for their ``value`` or their ``slope``."""
+        """Tables that are read, by name, and for which of `DERIVATIVES`."""
         found = (self.graph.nodes[n] for n in self.graph.needed(self.nodes))
         return tuple(dict.fromkeys(of_table(o.payload) for o in found if o.op == "table"))
 
@@ -201,7 +207,7 @@ class ModelProgram:
     hoisted: int  # numbers kept behind the parameters in p
     order: tuple[int, ...]  # elimination order of the rows
     fill: int  # entries of L that are zero in D D^T
-    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...] = ()
+    tables: tuple[Interpolation, ...] = ()
 
 
 @dataclass(frozen=True)

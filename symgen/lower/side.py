@@ -16,6 +16,7 @@ from symgen.formulate.formulate import quantities
 from symgen.formulate.measures import Model
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
+from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Layout, Target
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Measure
@@ -31,7 +32,7 @@ class SideProgram:
     parameters: tuple[Quantity, ...]
     coordinates: tuple[Quantity, ...]
     velocities: tuple[Quantity, ...]
-    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    tables: tuple[Interpolation, ...]
     formulas: tuple[str, ...]
 
 
@@ -142,6 +143,6 @@ def lower_side(
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,
         velocities=velocities,
-        tables=tuple((t.name, t.x, t.y) for t in mechanism.tables if t.name in used),
+        tables=tuple(t.interpolated for t in mechanism.tables if t.name in used),
         formulas=tuple(labels),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -38,6 +39,7 @@ def build_result(
     outcome: Outcome,
     run_spread: float = 0.0,
     second: Settled | None = None,
+    inputs: Mapping[str, str | float] | None = None,
 ) -> Result:
     """Label and judge the outcome of a run.
 
@@ -55,6 +57,8 @@ def build_result(
         Longest minus shortest run time of repeated runs [s].
     second : Settled, optional
         What a run with finer steps said of this one.
+    inputs : mapping, optional
+        What inputs were, in words or numbers.
 
     Returns
     -------
@@ -62,8 +66,9 @@ def build_result(
         With status, reason, warnings and notes settled.
     """
     info, spec, start = compiled.info, plan.spec, outcome.start
-    parameters = parameter_values(mechanism, settings.parameters)
-    forces = Forces(outcome, seats(mechanism, parameters))
+    values = parameter_values(mechanism, settings.parameters)
+    parameters = {name: value for name, value in values.items() if name not in mechanism.inputs}
+    forces = Forces(outcome, seats(mechanism, values))
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
@@ -113,6 +118,7 @@ def build_result(
         outcome=outcome,
         forces=forces,
         measured=measured,
+        inputs=dict(inputs or {}),
         last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
     )
 

@@ -27,6 +27,7 @@ def contract(result: Result) -> dict[str, Any]:
             "warnings": list(result.warnings),
             "notes": list(result.notes),
             "parameters": dict(result.parameters),
+            "inputs": dict(result.inputs),
             "steps": result.steps,
             "rejected": result.rejected,
             "evaluations": result.evaluations,

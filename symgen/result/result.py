@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -89,6 +89,8 @@ class Result:
         Sentences: what to be careful with, and what was done or settled on the way.
     parameters : mapping
         Values of the mechanism's parameters.
+    inputs : mapping
+        What its inputs were: numbers, or formulas and data in words.
     t : Array, shape (k,)
         Output times [s].
     q, v : Labelled
@@ -153,6 +155,7 @@ class Result:
     forces: Forces
     measured: Measured
     last_state: LastState
+    inputs: Mapping[str, str | float] = field(default_factory=dict)
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 

@@ -33,12 +33,13 @@ class Row(msgspec.Struct, frozen=True):
     holonomic: bool
 
 
-class ModelInfo(msgspec.Struct, frozen=True):
+class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
     or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
-    for each body with Euler parameters where these begin in q and its angular velocity in v.
+    for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
+    parameters that may change during a run.
     """
 
     name: str
@@ -56,6 +57,7 @@ class ModelInfo(msgspec.Struct, frozen=True):
     windings: int
     spins: tuple[tuple[int, int], ...]
     operations: dict[str, int]
+    inputs: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""

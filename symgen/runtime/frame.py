@@ -35,6 +35,8 @@ from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, wa
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
 _BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
+_ALTERED, _KNOWN, _KINETIC, _POTENTIAL = abi.ALTERED, abi.KNOWN, abi.KINETIC, abi.POTENTIAL
+_ENERGY_START, _POTENTIAL_START = abi.ENERGY_START, abi.POTENTIAL_START
 _TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
 _MARK, _MARKED, _NO_PROGRESS = abi.MARK, abi.MARKED, abi.NO_PROGRESS
 _FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
@@ -119,6 +121,27 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
     bits = system.accept(t, y, run.p, run.w, run.iw)
     run.iw[_PROBING] = 0
     return int(bits)
+
+
+@called
+def begin_anew(system: Any, run: Any) -> int:
+    """Have a scheme forget the steps before; return whether the state could not be corrected for other parameters.
+
+    Where others than inputs were changed, its energies are what the balance goes on from: the work of who changed them
+    is in none.
+    """
+    run.clock[_ALLOWED] = 0.0
+    run.control[_REFUSED] = run.control[_BARRED] = run.control[_KNOWN] = 0
+    if run.control[_BEGUN] != _ALTERED:
+        return 0
+    kinetic, potential = run.w[_KINETIC], run.w[_POTENTIAL]
+    copied(system.sizes.width, run.y, run.trial)
+    failed = correct(system, run, run.clock[_TIME], run.trial, False) & 1
+    copied(system.sizes.width, run.trial, run.y)
+    potential = run.w[_POTENTIAL] - potential
+    run.gauges[_ENERGY_START] += run.w[_KINETIC] - kinetic + potential
+    run.gauges[_POTENTIAL_START] += potential
+    return failed
 
 
 def note_step(run: Any, h: float) -> None:
@@ -210,6 +233,9 @@ def integrate(
             store(sizes, run.w, outputs, out, run.y)
             out += 1
         control[_OUTPUTS] = out
+    elif control[_BEGUN] != 1 and begin_anew(system, run) != 0:
+        return _CORRECTION
+    if control[_BEGUN] != 1:
         if ADAPTIVE:
             clock[_NEXT] = span.step
         prepare(system, scheme, span, run)

@@ -22,6 +22,7 @@ from symgen.store.stats import cache_stats
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Observed, Outputs, Sizes
 
 Array = NDArray[np.float64]
@@ -64,6 +65,8 @@ class RunSpec:
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
         In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` unless given.
+    pieces : tuple of Piece
+        Where inputs jump, and what they are from there on; the first one is what the start has.
     """
 
     until: float
@@ -81,6 +84,7 @@ class RunSpec:
     max_evaluations: int | None = None
     max_steps: float = MAX_STEPS
     duration: float | None = None
+    pieces: tuple[Piece, ...] = ()
 
     @property
     def scale_time(self) -> float:
@@ -108,7 +112,8 @@ class Outcome:
     """What a run gave; arrays have one row an output.
 
     `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
-    evaluations at the outputs is computed when it is first asked for.
+    evaluations at the outputs is computed when it is first asked for. `held` are the parameters of earlier pieces, each
+    with the time of its last output; an output where an input jumps shows what held before.
     """
 
     code: int
@@ -138,6 +143,7 @@ class Outcome:
     p: Array = field(repr=False)
     w: Array = field(repr=False)
     simulation: Simulation = field(repr=False)
+    held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
 
     @property
     def accelerations(self) -> Array:
@@ -176,16 +182,26 @@ class Outcome:
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
         functions, iw = (rates, getattr(law, "confirm", rates), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
-        if not self.start.redundant_rows:
-            observe_rates(*functions, sizes, outputs, len(self.times), self.p, w, iw, observed, room)
-            return observed
-        choose = row_chooser(self.compiled)
-        for k in range(len(self.times)):  # the rows that stand for all follow the position
-            here, seen = (type(x)(*(array[k : k + 1] for array in x)) for x in (outputs, observed))
-            observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
-            if choose(w):
-                observe_rates(*functions, sizes, here, 1, self.p, w, iw, seen, room)
+        choose = row_chooser(self.compiled) if self.start.redundant_rows else None
+        for first, last, p in self.parameters:
+            # the rows that stand for all follow the position
+            for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
+                here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
+                observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                if choose is not None and choose(w):
+                    observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
         return observed
+
+    @property
+    def parameters(self) -> list[tuple[int, int, Array]]:
+        """First and last output (exclusive) of each piece, and its parameters."""
+        found, first = list[tuple[int, int, Array]](), 0
+        for until, p in (*self.held, (np.inf, self.p)):
+            last = int(np.searchsorted(self.times, until, side="right"))
+            if last > first:
+                found.append((first, last, p))
+            first = last
+        return found
 
     @cached_property
     def _rows(self) -> Array:
@@ -207,12 +223,19 @@ class Outcome:
         from symgen.runtime.observe import observe_rows
 
         (sizes, outputs, _), rates = self._seen, self._rates
-        observed = rates._replace(rows=np.zeros((len(self.times), length)))
+        found = rates._replace(rows=np.zeros((len(self.times), length)))
         if multipliers is not None:
-            observed = observed._replace(multipliers=np.ascontiguousarray(multipliers))
-        room = np.zeros(2 * sizes.ny + length)
-        observe_rows(function, sizes, outputs, len(self.times), self.p, self.w.copy(), observed, room)
-        return np.asarray(observed.rows)
+            found = found._replace(multipliers=np.ascontiguousarray(multipliers))
+        room, w = np.zeros(2 * sizes.ny + length), self.w.copy()
+        for first, last, p in self.parameters:
+            here, seen = _rows_of(outputs, first, last), _rows_of(found, first, last)
+            observe_rows(function, sizes, here, last - first, p, w, seen, room)
+        return np.asarray(found.rows)
+
+
+def _rows_of(arrays: Any, first: int, last: int) -> Any:
+    """Return a record of arrays with some of their rows."""
+    return type(arrays)(*(array[first:last] for array in arrays))
 
 
 def integrate(
@@ -248,9 +271,15 @@ def integrate(
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
-    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations)
-
+    held = list[tuple[float, Array]]()
     state = simulation.state
+
+    def follow() -> None:
+        count = int(state.control[abi.OUTPUTS])
+        if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
+            held.append((float(outputs.times[count - 1]), state.p.copy()))
+
+    code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations, follow)
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
     end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
@@ -298,6 +327,7 @@ def integrate(
         p=state.p,
         w=w,
         simulation=simulation,
+        held=tuple(held),
     )
 
 
@@ -312,7 +342,11 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 
 def _in_thread(
-    simulation: Simulation, outputs: Outputs, progress: Callable[[float], None] | None, budget: int | None
+    simulation: Simulation,
+    outputs: Outputs,
+    progress: Callable[[float], None] | None,
+    budget: int | None,
+    follow: Callable[[], None],
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
@@ -327,7 +361,7 @@ def _in_thread(
     def work() -> None:
         began = time.perf_counter()
         try:
-            code = simulation.enter(outputs)
+            code = simulation.run(outputs, follow)
             result.append((code, time.perf_counter() - began))
         except BaseException as error:  # carried over to the caller's thread
             result.append(error)

@@ -9,11 +9,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen import arguments
+from symgen.errors import InputError, nearest
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.blocks import padded
+from symgen.runtime.ensemble_abi import PREPARE
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
+from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
@@ -124,12 +128,65 @@ class Simulation:
             else:
                 return code
 
+    def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
+        """Go through all pieces of the run, from where it stands; return how the loop ended.
+
+        Parameters
+        ----------
+        outputs : Outputs
+            From `outputs`.
+        follow : callable, optional
+            Called at the end of each piece but the last, before the numbers of the next one are set.
+        """
+        for piece in self.spec.pieces[1:]:
+            if piece.begin <= self.state.clock[abi.TIME]:
+                continue
+            code = self.enter(outputs, until=piece.begin)
+            if code != abi.DONE:
+                return code
+            if follow is not None:
+                follow()
+            self.set_parameters(piece.values)
+        return self.enter(outputs)
+
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
         kept = self.save()
         self.state.control[abi.STOP] = 1
         self.enter(type(outputs)(*(array[:0] for array in outputs)))
         self.restore(kept)
+
+    def set_parameters(self, values: Mapping[str, float]) -> None:
+        """Give parameters other values from where the run stands; what depends on them alone is prepared again.
+
+        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. Where others than
+        inputs are changed, the state is corrected for the new values, and the change of its energy is in no balance.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            By the names of the model's parameters; where all are what they were, nothing is done.
+
+        Raises
+        ------
+        InputError
+            If a name is no parameter, a value is not finite, or some formula is not with these values, or a mass is
+            not positive; nothing is changed then.
+        """
+        places = {q.name: i for i, q in enumerate(self.compiled.info.parameters)}
+        p, w = self.state.p.copy(), self.state.w.copy()
+        for name, value in arguments.mapping("parameters", values, "numbers by the names of parameters").items():
+            if name not in places:
+                expected = f"a parameter of {self.compiled.info.name}"
+                raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, places))
+            p[places[name]] = arguments.number(f"parameter '{name}'", value)
+        if np.array_equal(p, self.state.p):
+            return
+        self._prepare(p, w)
+        self.state.p[:], self.state.w[:] = p, w
+        if self.state.control[abi.BEGUN] != 0:
+            asked = abi.AFRESH if all(name in self.compiled.info.inputs for name in values) else abi.ALTERED
+            self.state.control[abi.BEGUN] = max(asked, self.state.control[abi.BEGUN])
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
@@ -146,6 +203,29 @@ class Simulation:
                 getattr(self.state, name)[:] = array
             else:
                 self.scheme = self.scheme._replace(**{name: array.copy()})
+
+    def _prepare(self, p: Array, w: Array) -> None:
+        """Work out what depends on parameters alone."""
+        prepare, masses = self._prepared_by
+        with np.errstate(all="ignore"):
+            try:
+                for function in prepare:
+                    function(p)
+                masses(p, w)
+            except (ArithmeticError, ValueError):  # where nothing is compiled
+                p[:] = np.nan
+        info, mass = self.compiled.info, self.compiled.section(w, "mass")
+        if not (np.all(np.isfinite(p)) and np.all(np.isfinite(mass))):
+            raise InputError("parameters", "values for which every formula is finite", "others")
+        for i in np.flatnonzero(~(mass > 0.0)):
+            if i not in info.massless:
+                body = info.velocities[i].name.split(".")[0]
+                raise InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{mass[i]:g}")
+
+    @cached_property
+    def _prepared_by(self) -> tuple[tuple[Ready, ...], Ready]:
+        modules = self.compiled.model, self.compiled.law_module
+        return tuple(Ready(m.prepare, PREPARE) for m in modules), Ready(self.compiled.model.masses, abi.MOVE)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

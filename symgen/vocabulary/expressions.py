@@ -31,7 +31,10 @@ class Name(msgspec.Struct, frozen=True, tag="name"):
 
 
 class Call(msgspec.Struct, frozen=True, tag="call"):
-    """A function or operator applied to arguments; `function` is a key of `FUNCTIONS` or ``table:NAME``."""
+    """A function or operator applied to arguments.
+
+    `function` is a key of `FUNCTIONS`, ``table:NAME`` or, where the table is smooth, ``table:~NAME``.
+    """
 
     function: str
     arguments: tuple[Expr, ...]
@@ -50,6 +53,15 @@ class Reading(msgspec.Struct, frozen=True, tag="reading"):
 
 
 Expr = Number | Name | Call | Reading
+
+
+#: What precedes the name of a table whose slope has a slope.
+SMOOTH = "~"
+
+
+def table_of(function: str) -> str | None:
+    """Return the name of the table that a function of a tree means, None where it means none."""
+    return function.removeprefix("table:").removeprefix(SMOOTH) if function.startswith("table:") else None
 
 
 def _where(condition: float, yes: float, no: float) -> float:

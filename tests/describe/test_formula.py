@@ -18,7 +18,7 @@ NAMES = Names(
     "a formula",
     {"t": "t", "a": "a", "b": "b", "length": "s"},
     {"crank": ("x", "y", "theta", "vx", "vy", "omega")},
-    ("profile",),
+    {"profile": "table:profile"},
     frozenset({"u"}),
 )
 VALUES = {"t": 0.5, "a": 2.0, "b": -3.0, "s": 7.0, "crank.x": 0.25, "crank.omega": 4.0}

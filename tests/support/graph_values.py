@@ -4,8 +4,6 @@ import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 
-import numpy as np
-
 _OPERATIONS: dict[str, Callable] = {
     "add": operator.add,
     "sub": operator.sub,
@@ -34,7 +32,7 @@ def node_values(
     graph, outputs: Sequence[int], inputs: Mapping[tuple[str, int], float], tables: Sequence[tuple] = ()
 ) -> list[float]:
     """Values of nodes for values of the inputs; `tables` as in the equations."""
-    known = {name: (x, y) for name, x, y in tables}
+    known = {f"{'~' if t.pieces else ''}{t.name}": t for t in tables}
     value: dict[int, float] = {}
     for node in graph.needed(outputs):
         op, args, payload = graph.nodes[node]
@@ -44,7 +42,7 @@ def node_values(
         elif op == "input":
             value[node] = float(inputs[payload])
         elif op == "table":
-            value[node] = float(np.interp(numbers[0], *known[payload]))
+            value[node] = known[payload.rstrip("'")].value(numbers[0], payload.count("'"))
         else:
             value[node] = (_OPERATIONS[op] if op in _OPERATIONS else getattr(math, op))(*numbers)
     return [float(value[n]) for n in outputs]

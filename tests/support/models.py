@@ -107,7 +107,11 @@ READING = EVERYTHING | {
 ROUGH = {
     "mechanism": {"name": "rough", "gravity": [0.0, -9.81]},
     "parameters": {"k1": 1.7},
-    "tables": {"curve": {"x": [-1.0, 0.0, 0.5, 2.0], "y": [0.3, -1.0, 2.0, 0.4]}},
+    "tables": {
+        "curve": {"x": [-1.0, 0.0, 0.5, 2.0], "y": [0.3, -1.0, 2.0, 0.4]},
+        "wave": {"x": [-1.0, -0.2, 0.5, 1.0, 2.0], "y": [0.3, -1.0, 2.0, 0.4, 0.3], "interpolation": "cubic"},
+        "round": {"x": [0.0, 0.3, 0.7, 1.0], "y": [1.0, 2.0, 0.5, 1.0], "interpolation": "pchip", "periodic": True},
+    },
     "bodies": {
         "a": {"mass": 1.1, "inertia": 0.3, "points": {"P": [0.3, 0.1]}},
         "b": {"mass": 0.8, "inertia": 0.2, "centre_of_mass": [0.1, 0.2]},
@@ -121,6 +125,7 @@ ROUGH = {
     },
     "forces": {
         "table": {"type": "torque", "body": "b", "torque": "curve(a.theta)*curve(5*rate)"},
+        "smooth": {"type": "torque", "body": "a", "torque": "wave(b.theta)*round(k1*rate)"},
         "guarded": {"type": "torque", "body": "c", "torque": "1.0 if c.x <= 0 else sqrt(c.x)"},
         "steps": {
             "type": "force",

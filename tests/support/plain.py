@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping
 from types import SimpleNamespace
 
-import numpy as np
+from support.curves import curve
 
 GROUND = "ground"
 #: What formulas may call: these from `ops`, and plain ones.
@@ -59,7 +59,7 @@ class Plain:
         self.known = {n: getattr(ops, n) for n in _FUNCTIONS if hasattr(ops, n)} | PLAIN_FUNCTIONS
         self.known |= {"piecewise": piecewise}
         for name, table in raw.get("tables", {}).items():
-            self.known[name] = lambda x, table=table: float(np.interp(x, table["x"], table["y"]))
+            self.known[name] = curve(**table)
         for name, entry in raw.get("parameters", {}).items():
             given = (values or {}).get(name, entry["value"] if isinstance(entry, Mapping) else entry)
             self.values[name] = self.number(given)

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from support.curves import curve
 from support.plain import PLAIN_FUNCTIONS, piecewise
 
 GROUND = "ground"
@@ -62,7 +63,7 @@ class Bodies:
         self.known = {n: getattr(np, n) for n in ("sin", "cos", "sqrt", "exp", "tanh")} | PLAIN_FUNCTIONS
         self.known |= {"piecewise": piecewise}
         for name, table in raw.get("tables", {}).items():
-            self.known[name] = lambda x, table=table: float(np.interp(x, table["x"], table["y"]))
+            self.known[name] = curve(**table)
         self.values = dict(raw.get("parameters", {})) | (values or {})
         self.first_q, self.first_v, self.nq, self.nv = {}, {}, 0, 0
         for name in self.bodies:

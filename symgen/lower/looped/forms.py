@@ -17,6 +17,7 @@ import msgspec
 
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
+from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Target
 from symgen.lower.record import EQUATIONS, record_form
 from symgen.lower.scalar import Scalars
@@ -55,7 +56,7 @@ class FormProgram:
     label: str
     info: FormInfo
     blocks: tuple[Block, ...]
-    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    tables: tuple[Interpolation, ...]
 
 
 def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") -> str:

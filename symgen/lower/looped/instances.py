@@ -18,7 +18,7 @@ from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
 from symgen.describe.repeats import without_repeats
 from symgen.lower.windings import measures_of, turns
-from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names, table_of
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Sum
 
 #: Fields of the vocabulary's structs that hold the name of a body.
@@ -231,8 +231,8 @@ class _Rewriting:
         if isinstance(e, Reading):
             return Reading("", self.walk(e.source), e.order)
         assert isinstance(e, Call), "a literal is constant"
-        if e.function.startswith("table:"):
-            name = e.function.removeprefix("table:")
+        name = table_of(e.function)
+        if name is not None:
             self.used_tables[name] = self.known.tables[name]
         if e.function == "pow" and isinstance(e.arguments[1], Number):
             return Call("pow", (self.formula(e.arguments[0]), e.arguments[1]))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from symgen.ir.graph import Graph
+from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.manifold import manifold_blocks
@@ -98,7 +99,7 @@ class KernelProgram:
     label: str
     info: KernelInfo
     blocks: tuple[Block, ...]
-    tables: tuple[tuple[str, tuple[float, ...], tuple[float, ...]], ...]
+    tables: tuple[Interpolation, ...]
 
 
 def kernel_stem(instance: Instance) -> str:

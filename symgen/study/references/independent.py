@@ -8,16 +8,16 @@ from `sympy.lambdify`, accelerations from a dense least-squares solution in whic
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import evaluate, interpolate
-from symgen.describe.mechanism import Body, Mechanism, Table
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import Body, Mechanism
 from symgen.formulate.translate import to_sympy
+from symgen.study.references.curves import curves
 from symgen.vocabulary.expressions import ZERO, Expr, Reading, names, readings
 from symgen.vocabulary.measures import (
     GROUND,
@@ -129,8 +129,7 @@ class IndependentEquations:
     def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
-            tables[f"table_{table.name}"] = partial(interpolate, table)
-            tables[f"slope_{table.name}"] = partial(slope, table)
+            tables |= curves(table)
         function: Callable[..., Any] = sp.lambdify(
             [self.t, self.q, self.v], outputs, modules=[tables, "math"], cse=True
         )
@@ -255,11 +254,3 @@ class IndependentEquations:
             s = sp.Symbol("s", real=True)
             total -= sp.diff(self._expression(effort.potential, s=s), s).subs(s, value)
         return {i: e * total for i, e in gradient.items()}
-
-
-def slope(table: Table, x: float) -> float:
-    """Return the slope of a table: 0 beyond its ends."""
-    if x <= table.x[0] or x >= table.x[-1]:
-        return 0.0
-    i = int(np.searchsorted(table.x, x, side="right"))
-    return float((table.y[i] - table.y[i - 1]) / (table.x[i] - table.x[i - 1]))

@@ -12,17 +12,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from functools import partial
 from typing import Any
 
 import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from symgen.describe.evaluate import evaluate, interpolate
+from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.errors import SimulationError
-from symgen.study.references.independent import CUTOFF, IndependentEquations, slope
+from symgen.study.references.curves import curves
+from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.vocabulary.expressions import ZERO, names
 from symgen.vocabulary.measures import (
     GROUND,
@@ -169,8 +169,7 @@ class SpatialEquations(IndependentEquations):
     def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
         tables: dict[str, Callable[[float], float]] = {}
         for table in self.mechanism.tables:
-            tables[f"table_{table.name}"] = partial(interpolate, table)
-            tables[f"slope_{table.name}"] = partial(slope, table)
+            tables |= curves(table)
         inputs = [self.t, self.q, self.v, self._whole_turns]
         function = sp.lambdify(inputs, [*outputs, *self._angles], modules=[tables, "math"], cse=True)
         count = len(self._angles)

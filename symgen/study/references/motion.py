@@ -21,10 +21,11 @@ import sympy as sp
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.describe.mechanism import Mechanism, Table
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.result.points import Points
 from symgen.store.jit import jit
+from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
@@ -158,27 +159,11 @@ class CompiledEquations(IndependentEquations):
         lines += [f"out[{i}] = {sp.pycode(e)}" for i, e in enumerate(results)]
         space: dict[str, Any] = {"math": math}
         for table in self.mechanism.tables:
-            space |= _table_functions(table)
+            space |= {name: numba.njit(error_model="numpy")(f) for name, f in curves(table).items()}
         exec("\n    ".join([*lines, "return 0"]), space)  # SymPy's own printing of a checked mechanism
         signature = types.int64(_F8, _A, _A, _A, _A)
         function: Callable[..., Any] = numba.njit(signature, error_model="numpy", nogil=True)(space["equations"])
         return function
-
-
-def _table_functions(table: Table) -> dict[str, Any]:
-    x, y = np.asarray(table.x, dtype=float), np.asarray(table.y, dtype=float)
-
-    def value(at: float) -> Any:
-        return np.interp(at, x, y)
-
-    def slope(at: float) -> Any:
-        if at <= x[0] or at >= x[-1]:
-            return 0.0
-        i = np.searchsorted(x, at, side="right")
-        return (y[i] - y[i - 1]) / (x[i] - x[i - 1])
-
-    inlined = numba.njit(error_model="numpy")
-    return {f"table_{table.name}": inlined(value), f"slope_{table.name}": inlined(slope)}
 
 
 @jit(types.Array(_F8, 1, "C")(types.Array(_F8, 2, "C"), _A))

@@ -1,0 +1,203 @@
+"""Inputs of a run: numbers, formulas and data in place of the names that a mechanism declares.
+
+A formula of t, or a table of data, takes the place of the name before equations are derived, so that every stage of a
+step sees it where it stands. Conditions on t in it become numbers of their own, *switches*, that a run sets between
+pieces: inside a piece nothing jumps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import msgspec
+
+from symgen import arguments
+from symgen.describe.input_data import Data, data_of
+from symgen.describe.mechanism import Mechanism, Parameter
+from symgen.describe.parser import Names, parse
+from symgen.describe.readings import Readings
+from symgen.describe.scope import Model
+from symgen.errors import InputError, nearest
+from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Number, call, names, table_of
+
+T = TypeVar("T")
+_COMPARISONS = ("lt", "le", "gt", "ge")
+
+
+@dataclass(frozen=True)
+class Jump:
+    """Where a formula of t changes: where `argument` passes a level.
+
+    Attributes
+    ----------
+    argument : Expr
+        Of t and parameters.
+    levels : tuple of float
+        What it passes.
+    switch : str
+        The parameter that says which side holds; empty where both are the same there, as at a kink.
+    value : Expr
+        What the switch is.
+    """
+
+    argument: Expr
+    levels: tuple[float, ...] = (0.0,)
+    switch: str = ""
+    value: Expr = ZERO
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A mechanism with what a run gives its inputs.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With formulas and data in the place of names; slots of all inputs stay, switches stand behind them.
+    numbers : mapping of str to float
+        Inputs that are held.
+    samples : mapping of str to Data
+        Inputs that are held from one sample to the next.
+    jumps : tuple of Jump
+        Of all formulas.
+    told : mapping of str to str or float
+        Every input of the mechanism in words, or its number.
+    """
+
+    mechanism: Mechanism
+    numbers: Mapping[str, float]
+    samples: Mapping[str, Data]
+    jumps: tuple[Jump, ...]
+    told: Mapping[str, str | float]
+
+
+def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
+    """Return a mechanism with what a run gives its inputs.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Declares inputs.
+    given : mapping
+        By name: a number; a text, which is a number, a formula of t, parameters and state, or
+        ``FILE.csv:COLUMN[:INTERPOLATION]``; a pair of times and values; or a mapping of one of these, see
+        `symgen.describe.input_data.data_of`.
+
+    Raises
+    ------
+    InputError
+        If a name is no input, or what is given is none of these.
+    """
+    inputs = {p.name: p.value for p in mechanism.parameters if p.input}
+    numbers, samples, formulas = dict[str, float](), dict[str, Data](), dict[str, Expr]()
+    told: dict[str, str | float] = dict(inputs)
+    tables, jumps = list(mechanism.tables), list[Jump]()
+    for name, value in given.items():
+        where = f"input '{name}'"
+        if name not in inputs:
+            hint = nearest(name, inputs) if inputs else "it declares none, in a section [inputs]"
+            raise InputError(where, f"an input of {mechanism.name}", "none of that name", hint)
+        data = data_of(where, value)
+        if data is None and not isinstance(value, str):
+            numbers[name] = told[name] = arguments.number(where, value)
+        elif data is None:
+            number = _number(value)
+            if number is None:
+                formulas[name], told[name] = parse(value, _names(mechanism), where), value
+            else:
+                numbers[name] = told[name] = arguments.number(where, number)
+        else:
+            told[name] = data.words
+            if data.interpolation == "hold":
+                samples[name] = data
+            else:
+                table = data.table(where, name)
+                tables.append(table)
+                formulas[name] = Call(table.function, (Name("t"),))
+    known = msgspec.structs.replace(mechanism, tables=tuple(tables))
+    changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
+    switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
+    if not changed:
+        return Driven(mechanism, numbers, samples, (), told)
+    forces = replaced(known.forces, lambda e: changed.get(e.name, e))
+    parameters = (*known.parameters, *switches)
+    return Driven(
+        msgspec.structs.replace(known, forces=forces, parameters=parameters), numbers, samples, tuple(jumps), told
+    )
+
+
+def replaced(value: T, by: Callable[[Name], Expr]) -> T:
+    """Return a part of a mechanism with names replaced in all of its formulas."""
+    if isinstance(value, Name):
+        return by(value)  # type: ignore[return-value]  # an expression for an expression
+    if isinstance(value, Call):
+        return Call(value.function, tuple(replaced(a, by) for a in value.arguments))  # type: ignore[return-value]
+    if isinstance(value, tuple):
+        return tuple(replaced(item, by) for item in value)  # type: ignore[return-value]
+    if isinstance(value, msgspec.Struct):
+        return type(value)(**{field: replaced(getattr(value, field), by) for field in value.__struct_fields__})
+    return value
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _names(mechanism: Mechanism) -> Names:
+    """Return what the formula of an input may use."""
+    plain = {p.name: p.name for p in mechanism.parameters if not p.input} | {"t": "t"}
+    bodies = {body.name: body.coordinates + body.speeds for body in mechanism.bodies}
+    what = "a number or an expression of t, parameters and body coordinates"
+    hints = dict.fromkeys(mechanism.inputs, "an input does not depend on others")
+    tables = {table.name: table.function for table in mechanism.tables}
+    readings = Readings(Model.of(mechanism))
+    return Names(what, plain, bodies, tables, frozenset(mechanism.inputs), readings=readings, hints=hints)
+
+
+class _Switching:
+    """Takes jumps out of one formula, and notes them and its kinks down."""
+
+    def __init__(self, mechanism: Mechanism, name: str, jumps: list[Jump]) -> None:
+        self.tables = {table.name: table for table in mechanism.tables}
+        self.timely = frozenset(p.name for p in mechanism.parameters if not p.input) | {"t"}
+        self.name, self.jumps, self.known = name, jumps, dict[Expr, Expr]()
+
+    def expression(self, e: Expr) -> Expr:
+        """Return a formula in which nothing jumps within a piece."""
+        if not isinstance(e, Call):
+            return e
+        arguments = tuple(self.expression(a) for a in e.arguments)
+        if "t" in (found := set(names(e))) and found <= self.timely:
+            if e.function in (*_COMPARISONS, "sign"):
+                return self.switch(e)
+            table = self.tables.get(table_of(e.function) or "")
+            if e.function in ("abs", "min", "max"):
+                argument = e.arguments[0] if e.function == "abs" else call("sub", *e.arguments)
+                self.note(Jump(argument))
+            elif table is not None and table.interpolation != "cubic" and len(table.x) <= MOST_KNOTS:
+                self.note(Jump(e.arguments[0], table.x))
+        return Call(e.function, arguments)
+
+    def note(self, jump: Jump) -> None:
+        """Note a kink down, where it depends on t."""
+        if "t" in set(names(jump.argument)):
+            self.jumps.append(jump)
+
+    def switch(self, e: Call) -> Expr:
+        """Return what stands for a condition or a sign: the number that a run sets."""
+        if e not in self.known:
+            name = f"{self.name}~{sum(1 for j in self.jumps if j.switch) + 1}"  # no name of a file
+            argument = e.arguments[0] if e.function == "sign" else call("sub", *e.arguments)
+            self.jumps.append(Jump(argument, switch=name, value=e))
+            number = Name(name)
+            self.known[e] = number if e.function == "sign" else Call("gt", (number, Number(0.5)))
+        return self.known[e]
+
+
+#: Points of a table that a run stops at; one with more of them is evaluated as it stands.
+MOST_KNOTS = 2000

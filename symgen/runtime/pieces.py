@@ -1,0 +1,183 @@
+"""Pieces of a run: times known beforehand at which an input jumps or has a kink, and what holds between them.
+
+A run ends a step at each of these times and sets the numbers of the next piece before it goes on, so that no step and
+no stage of one sees two sides of a jump.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from symgen.describe.evaluate import evaluate
+from symgen.describe.inputs import Driven, Jump
+from symgen.errors import InputError
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
+
+#: Pieces of a run at most.
+MOST_PIECES = 100_000
+#: Instants at which a formula is looked at first, and at most, until it changes sides as often as the time before.
+_FIRST, _MOST = 2048, 65536
+#: Jumps closer than this part of the run are one.
+_SAME = 1e-14
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a run.
+
+    Attributes
+    ----------
+    begin : float
+        Where it begins [s].
+    values : mapping of str to float
+        Inputs that are others than in the piece before; in the first one all that vary.
+    """
+
+    begin: float
+    values: Mapping[str, float]
+
+
+def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tuple[Piece, ...]:
+    """Return the pieces of a run from 0 to `until`, none where nothing jumps.
+
+    Parameters
+    ----------
+    driven : Driven
+        What inputs are.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
+
+    Raises
+    ------
+    InputError
+        If there are too many, or smooth data end before the run does.
+    """
+    tables = {table.name: table for table in driven.mechanism.tables}
+
+    def at(e: Expr, t: float) -> float:
+        try:
+            return evaluate(e, {**values, "t": t}, tables=tables)
+        except InputError:  # undefined there: no comparison with it holds
+            return math.nan
+
+    found = {t for data in driven.samples.values() for t in data.t}
+    for jump in driven.jumps:
+        found.update(crossings(lambda t, e=jump.argument: at(e, t), _line(jump, values), jump.levels, until))  # type: ignore[misc]
+    times = [0.0]
+    for t in sorted(found):
+        if t - times[-1] > _SAME * until and until - t > _SAME * until:
+            times.append(t)
+    if len(times) > MOST_PIECES:
+        raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{len(times) - 1}")
+    switches = [jump for jump in driven.jumps if jump.switch]
+    if not (switches or driven.samples or len(times) > 1):
+        return ()
+    result, before = list[Piece](), dict[str, float]()
+    for begin, end in pairwise([*times, until]):
+        middle = 0.5 * (begin + end)
+        now = {name: data.at(middle) for name, data in driven.samples.items()}
+        now |= {jump.switch: 0.0 if math.isnan(x := at(jump.value, middle)) else x for jump in switches}
+        result.append(Piece(begin, {name: x for name, x in now.items() if before.get(name) != x}))
+        before = now
+    return tuple(result)
+
+
+def crossings(
+    function: Callable[[float], float], line: tuple[float, float] | None, levels: Sequence[float], until: float
+) -> list[float]:
+    """Return the times from 0 to `until` at which a function passes one of some levels.
+
+    Parameters
+    ----------
+    function : callable
+        Of the time [s].
+    line : tuple of float or None
+        Its value at 0 and its slope where it is a straight line.
+    levels : sequence of float
+        What it passes.
+    until : float
+        End [s].
+    """
+    if line is not None:
+        value, slope = line
+        return [t for level in levels if slope and 0.0 <= (t := (level - value) / slope) <= until]
+    found, count = list[float](), _FIRST
+    while True:
+        times = [until * i / count for i in range(count + 1)]
+        samples, before = [function(t) for t in times], len(found)
+        found = [t for level in levels for t in _passed(function, times, samples, level)]
+        if count >= _MOST or (count > _FIRST and len(found) == before):
+            return found
+        count *= 2
+
+
+def _passed(
+    function: Callable[[float], float], times: Sequence[float], samples: Sequence[float], level: float
+) -> list[float]:
+    """Return where a function passes a level between instants at which it is known."""
+    found = []
+    for i in range(len(times) - 1):
+        a, b = samples[i] - level, samples[i + 1] - level
+        if (a > 0.0) != (b > 0.0):
+            found.append(_bisected(function, times[i], times[i + 1], level))
+        elif 0 < i and abs(a) <= abs(samples[i - 1] - level) and abs(a) <= abs(b):
+            # nearest to the level among its neighbours: it may pass it twice there
+            low, high, side = times[i - 1], times[i + 1], a > 0.0
+            t = _nearest(lambda x: abs(function(x) - level), low, high)
+            if (function(t) - level > 0.0) != side:
+                found += [_bisected(function, low, t, level), _bisected(function, t, high, level)]
+    return found
+
+
+def _bisected(function: Callable[[float], float], low: float, high: float, level: float) -> float:
+    """Return the first number at which a function is on the side that it is on at `high`."""
+    side = function(high) - level > 0.0
+    while low < (middle := 0.5 * (low + high)) < high:
+        if (function(middle) - level > 0.0) == side:
+            high = middle
+        else:
+            low = middle
+    return high
+
+
+def _nearest(distance: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a distance is smallest, by golden sections."""
+    ratio = 0.5 * (math.sqrt(5.0) - 1.0)
+    for _ in range(60):
+        a, b = high - ratio * (high - low), low + ratio * (high - low)
+        if distance(a) < distance(b):
+            high = b
+        else:
+            low = a
+    return 0.5 * (low + high)
+
+
+def _line(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
+    """Return value at 0 and slope of a jump's argument where that is a straight line in t."""
+
+    def line(e: Expr) -> tuple[float, float] | None:
+        if isinstance(e, Name) and e.name == "t":
+            return 0.0, 1.0
+        if isinstance(e, Number | Name) or "t" not in set(names(e)):
+            try:
+                return evaluate(e, values), 0.0
+            except InputError:
+                return None
+        assert isinstance(e, Call), "a tree has three kinds of nodes"
+        parts = [line(a) for a in e.arguments]
+        if any(part is None for part in parts):
+            return None
+        (a, m), (b, n) = (parts[0] or (0.0, 0.0)), ((parts[1] if len(parts) > 1 else None) or (0.0, 0.0))
+        if e.function in ("add", "sub", "neg"):
+            sign = {"add": 1.0, "sub": -1.0, "neg": -1.0}[e.function]
+            return (sign * a, sign * m) if e.function == "neg" else (a + sign * b, m + sign * n)
+        if e.function == "mul" and 0.0 in (m, n):
+            return a * b, a * n + b * m
+        return (a / b, m / b) if e.function == "div" and n == 0.0 and b != 0.0 else None
+
+    return line(jump.argument)

@@ -1,0 +1,104 @@
+"""Runs with tables of smooth pieces: cams, power, and the same numbers from every shape of code."""
+
+import numpy as np
+import pytest
+
+from symgen.api import Model
+from symgen.describe.builder import MechanismBuilder
+from symgen.formulate.formulate import formulate
+from symgen.lower.model import lower_model
+
+#: A cubic polynomial of time, which a cubic table through points of it is.
+CAM = "0.1 + 0.3*t - 0.4*t**2 + 0.15*t**3"
+POINTS = np.array([0.0, 0.21, 0.5, 0.83, 1.1, 1.4])
+
+
+def cam_follower(value):
+    """A block that a cam lifts, with a pendulum on it."""
+    heights = 0.1 + 0.3 * POINTS - 0.4 * POINTS**2 + 0.15 * POINTS**3
+    return Model(
+        MechanismBuilder("cam-follower", gravity=(0.0, -9.81))
+        .parameter("speed", 2.0)
+        .table("cam", POINTS, heights, interpolation="cubic")
+        .body("block", mass=1.0, inertia=0.1)
+        .body("rod", mass=0.5, inertia=0.02, points={"top": (0.0, 0.3)}, position=(0.0, -0.2), angle=0.4)
+        .joint("guide", "translational", between=("ground", "block"), at=((0.0, 0.0), "centre"), axis=(0.0, 1.0))
+        .joint("lift", "driver", joint="guide", value=value)
+        .joint("pin", "revolute", between=("block", "rod"), at=("centre", "top"))
+        .build()
+    )
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize(("method", "integrator"), [("direct-correction", "rk4"), ("ggl", "radau5")])
+def test_a_cam_is_the_polynomial_that_its_points_lie_on(shape, method, integrator):
+    """Value, slope and second derivative of the table enter Phi, nu and gamma: motion and multipliers agree."""
+    asked = {"until": 0.6, "method": method, "integrator": integrator, "shape": shape, "output_step": 0.05}
+    found = cam_follower("cam(speed*t)").simulate(**asked)
+    expected = cam_follower(CAM.replace("t", "(speed*t)")).simulate(**asked)
+    assert found.status == expected.status == "ok"
+    # multipliers are of the order of 10 N; second derivatives of the table are rounded at 1e-13 of its coefficients
+    for table in ("q", "v", "lam"):
+        a, b = (getattr(r, table).values for r in (found, expected))
+        np.testing.assert_allclose(a, b, rtol=0.0, atol=1e-9)
+
+
+PUSH = "f(1.2*sin(block.x)) - 9*block.x - 0.1*f(sin(block.vx)) + 0.2*f(t)"
+
+
+def forced(interpolation, periodic):
+    """A block in a guide that a force of a table of its place and rate, and of time, moves."""
+    x = np.linspace(-1.0, 1.0, 9)
+    y = np.array([0.3, -1.2, 0.4, 2.0, -0.7, 0.1, 1.1, -0.4, 0.3])
+    return Model(
+        MechanismBuilder("table-force")
+        .table("f", x, 40.0 * y, interpolation=interpolation, periodic=periodic)
+        .body("block", mass=1.0, inertia=0.1, position=(0.9, 0.0), velocity=(1.5, 0.0))
+        .joint("guide", "translational", between=("ground", "block"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
+        .force(
+            "push",
+            "force",
+            body="block",
+            force=("f(1.2*sin(block.x)) - 9*block.x - 0.1*f(sin(block.vx)) + 0.2*f(t)", 0.0),
+        )
+        .build()
+    )
+
+
+@pytest.mark.parametrize(("interpolation", "periodic"), [("cubic", False), ("cubic", True), ("pchip", False)])
+def test_power_of_table_forces_is_the_change_of_energy(interpolation, periodic):
+    """The block leaves the table on the right; the same motion from both shapes and another scheme."""
+    model = forced(interpolation, periodic)
+    runs = [
+        model.simulate(
+            until=2.0, method="lagrange", integrator="dop853", rtol=1e-11, atol=1e-12, shape=shape, times=TIMES
+        )
+        for shape in ("straight", "looped")
+    ]
+    runs.append(model.simulate(until=2.0, method="lagrange", integrator="radau5", rtol=1e-9, atol=1e-11, times=TIMES))
+    for run in runs:
+        assert run.status == "ok"
+        scale = np.abs(run.work).max()
+        assert np.abs(run.energy_error).max() < 1e-7 * scale
+        np.testing.assert_allclose(run.q["block.x"], runs[0].q["block.x"], rtol=0.0, atol=1e-6)
+    assert max(np.sin(runs[0].q["block.x"])) > 1.0 / 1.2
+
+
+TIMES = np.linspace(0.0, 2.0, 21)
+
+
+def test_lanes_take_smooth_tables():
+    from symgen.ensemble.sweep import sweep
+
+    model = forced("cubic", False)
+    asked = {"vary": {"block.x": np.linspace(-0.9, 1.2, 11)}, "until": 0.5, "step": 1e-3, "method": "lagrange"}
+    single, lanes = (
+        sweep(model, **asked, quantities=["block.x"], target=target)["block.x"] for target in ("cpu", "lanes")
+    )
+    np.testing.assert_allclose(lanes, single, rtol=0.0, atol=1e-12)
+
+
+def test_programs_ask_for_the_derivatives_they_need():
+    equations = formulate(cam_follower("cam(speed*t)").mechanism)
+    asked = {what for block in lower_model(equations, digest="").blocks for what in block.tables}
+    assert asked == {("cam", "value"), ("cam", "slope"), ("cam", "second")}
