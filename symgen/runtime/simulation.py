@@ -14,6 +14,7 @@ from symgen.runtime import abi
 from symgen.runtime.blocks import padded
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
+from symgen.runtime.snapshot import Snapshot, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
@@ -42,7 +43,11 @@ class Simulation:
     Attributes
     ----------
     state : State
-        All that the run keeps, as arrays.
+        All that the run keeps, as arrays. They stay where they are: views of them are up to date for ever.
+    span : Span
+        How far the run goes, and by which steps.
+    snapshot : Snapshot
+        The memory of `state`, and a copy of what it held when `remember` was called.
 
     Notes
     -----
@@ -54,13 +59,18 @@ class Simulation:
         self.compiled, self.integrator, self.spec = compiled, integrator, spec
         self.setup = integrator.setup(compiled, spec, start.w)
         self.sizes = sizes_of(compiled)
-        self.scheme = self.setup.scheme
-        self.state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
+        self.snapshot = Snapshot(new_state(compiled, self.sizes, self.setup.memory, self.setup.room))
+        self.state = self.snapshot.state
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
-        gauges = self.state.gauges
+        self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+        self.set_limits()
+
+    def set_limits(self) -> None:
+        """Have the limits of this run, as after the state of another one was taken up."""
+        gauges, spec = self.state.gauges, self.spec
         gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
         gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
-        gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -82,7 +92,7 @@ class Simulation:
         pause : float
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
         """
-        span = span_of(self.spec, self.setup, until, pause)
+        span = self.span._replace(until=self.spec.until if until is None else float(until), pause=float(pause))
         while True:
             code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
             if code == abi.NO_ROOM:
@@ -114,7 +124,15 @@ class Simulation:
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
             else:
-                self.scheme = self.scheme._replace(**{name: array.copy()})
+                self.scheme = with_kept(self.scheme, name, array)
+
+    def remember(self) -> None:
+        """Take a copy of all that the run keeps, in place of the one taken before: `save` in a tenth of its time."""
+        self.snapshot.take(self.scheme)
+
+    def go_back(self) -> None:
+        """Take up what was last remembered."""
+        self.scheme = self.snapshot.put_back(self.scheme)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

@@ -1,0 +1,76 @@
+"""All that a run keeps in one piece of memory, of which a copy costs less than a step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import abi
+from symgen.runtime.blocks import padded
+
+if TYPE_CHECKING:
+    from symgen.runtime.records import State
+
+Array = NDArray[np.float64]
+
+#: Arrays of a state that stand behind those which are always copied: passages are few, and working memory is not kept.
+_BEHIND = ("events", "room")
+
+
+class Snapshot:
+    """A state whose arrays stand one behind the other, and a copy of what they held at some time.
+
+    Parameters
+    ----------
+    state : State
+        Its arrays are copied; all hold numbers of eight bytes.
+
+    Attributes
+    ----------
+    state : State
+        The same numbers in one piece of memory.
+    """
+
+    def __init__(self, state: State) -> None:
+        from symgen.runtime.records import KEPT
+
+        arrays = state._asdict()
+        names = [*(name for name in arrays if name not in _BEHIND), *_BEHIND]
+        ends = np.cumsum([padded(len(arrays[name])) for name in names])
+        block, views = np.zeros(ends[-1]), dict[str, Any]()
+        for name, end in zip(names, ends, strict=True):
+            first = end - padded(len(arrays[name]))
+            views[name] = block[first : first + len(arrays[name])].view(arrays[name].dtype)
+            views[name][:] = arrays[name]
+        self.state = type(state)(**views)
+        self._front = block[: ends[-len(_BEHIND) - 1]]
+        self._copy, self._events = self._front.copy(), self.state.events.copy()
+        self._rows, self._names, self._kept = 0, KEPT, dict[str, NDArray[Any]]()
+
+    def take(self, scheme: Any) -> None:
+        """Copy what the state holds, and what a scheme's record keeps."""
+        np.copyto(self._copy, self._front)
+        self._rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
+        if self._rows:
+            self._events[: self._rows] = self.state.events[: self._rows]
+        self._kept = {name: getattr(scheme, name).copy() for name in self._names if hasattr(scheme, name)}
+
+    def put_back(self, scheme: Any) -> Any:
+        """Give the state what was copied, and return the scheme's record with what it kept then."""
+        np.copyto(self._front, self._copy)
+        self.state.events[: self._rows] = self._events[: self._rows]
+        self.state.events[self._rows :] = 0.0
+        for name, array in self._kept.items():
+            scheme = with_kept(scheme, name, array)
+        return scheme
+
+
+def with_kept(scheme: Any, name: str, array: NDArray[Any]) -> Any:
+    """Return a scheme's record with numbers that it kept, in the same memory where there is room for just these."""
+    there = getattr(scheme, name)
+    if there.shape != array.shape:
+        return scheme._replace(**{name: array.copy()})
+    there[:] = array
+    return scheme
