@@ -77,7 +77,7 @@ class SteppedRun:
         state = self._loop.state
         self._clock, self._control = state.clock, state.control
         self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
-        self._calling = self._unsure = False
+        self._until, self._calling, self._unsure = 0.0, False, False
         both = *info.coordinates, *info.velocities
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
@@ -273,8 +273,7 @@ class SteppedRun:
     def _recover(self) -> None:
         """Go back to an accepted state, where an interrupt came between a failure and what is done about it."""
         if self._unsure:
-            self._loop.go_back()
-            self._unsure = False
+            self._replay()
 
     def _begin(self) -> None:
         """Accept the first state, if that has not happened."""
@@ -327,36 +326,46 @@ class SteppedRun:
         loop, control = self._loop, self._control
         attempts = control[abi.STEPS] + control[abi.REJECTED]
         loop.span = loop.span._replace(most=float(attempts + self._plan.spec.max_steps))
-        while True:
-            loop.remember()
-            began = time.perf_counter()
-            self._unsure = True
-            code = loop.enter(self._outputs, until, control[abi.STEPS] + self._steps_at_once)
-            if code == abi.DONE:
+        try:
+            while True:
+                loop.remember()
+                began = time.perf_counter()
+                self._until, self._unsure = until, True
+                code = loop.enter(self._outputs, until, control[abi.STEPS] + self._steps_at_once)
+                if code not in (abi.DONE, abi.PAUSED):
+                    self._fail(code)
                 self._unsure = False
-                return
-            if code != abi.PAUSED:
-                self._fail(code)
-            self._unsure = False
-            faster = PATIENCE / max(time.perf_counter() - began, 1e-9)
-            self._steps_at_once = int(min(max(self._steps_at_once * faster, 10), 1e7))
+                if code == abi.DONE:
+                    return
+                faster = PATIENCE / max(time.perf_counter() - began, 1e-9)
+                self._steps_at_once = int(min(max(self._steps_at_once * faster, 10), 1e7))
+        except KeyboardInterrupt:  # which may come before it is known how the loop ended
+            self._recover()
+            raise
 
     def _fail(self, code: int) -> None:
-        """Go back to the last accepted state, and raise what happened.
+        """Go back to the last accepted state, and raise what happened."""
+        moment = self.t
+        reason = reason_of(self._loop, code, moment)
+        self._replay()
+        raise StepError(reason, moment)
 
-        A failed step leaves numbers behind that are of no use. The steps from what is remembered up to it are done
-        once more: whether the failed one was counted depends on where it failed.
+    def _replay(self) -> None:
+        """Have the last accepted state, as a failed step leaves numbers behind that are of no use.
+
+        The steps from what is remembered on are done once more. Whether a failed one was counted depends on where it
+        failed.
         """
-        loop, control, moment = self._loop, self._control, self.t
-        reason, steps = reason_of(loop, code, moment), int(control[abi.STEPS])
+        loop, steps = self._loop, int(self._control[abi.STEPS])
         for accepted in (steps, steps - 1):
             loop.go_back()
-            if control[abi.BEGUN] == 0 or loop.enter(self._outputs, np.inf, accepted) == abi.PAUSED:
+            if self._control[abi.BEGUN] == 0:
+                break
+            if loop.enter(self._outputs, self._until, accepted) in (abi.DONE, abi.PAUSED):
                 break
         else:
             loop.go_back()
         self._unsure = False
-        raise StepError(reason, moment)
 
 
 def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
