@@ -14,16 +14,20 @@ from symgen.runtime import abi
 from symgen.runtime.blocks import padded
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
-from symgen.runtime.snapshot import Snapshot, with_kept
+from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.entry import Entry
     from symgen.runtime.integrator import Integrator, Setup
     from symgen.runtime.records import Outputs, Sizes, Span, State
     from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]
+
+
+_EVENTS = abi.EVENTS
 
 
 class Simulation:
@@ -46,8 +50,10 @@ class Simulation:
         All that the run keeps, as arrays. They stay where they are: views of them are up to date for ever.
     span : Span
         How far the run goes, and by which steps.
+    direct : bool
+        Whether `go` may take the shortest way; it gives the same bits.
     snapshot : Snapshot
-        The memory of `state`, and a copy of what it held when `remember` was called.
+        The memory of `state`, and a copy of what it held when `go` was called last.
 
     Notes
     -----
@@ -60,8 +66,10 @@ class Simulation:
         self.setup = integrator.setup(compiled, spec, start.w)
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
+        self.direct = True
         self.snapshot = Snapshot(new_state(compiled, self.sizes, self.setup.memory, self.setup.room))
         self.state = self.snapshot.state
+        self._counts = memoryview(self.state.control)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.set_limits()
@@ -94,14 +102,63 @@ class Simulation:
         """
         span = self.span._replace(until=self.spec.until if until is None else float(until), pause=float(pause))
         while True:
-            code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
-            if code == abi.NO_ROOM:
-                self.scheme = _with_room(self.scheme)
-            elif code == abi.CHOOSE:
-                self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
-                self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
-            else:
+            arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
+            if not self._answered(code := int(self.setup.loop(*arguments))):
                 return code
+
+    def go(self, until: float, pause: float) -> int:
+        """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
+
+        What the run keeps before is remembered, see `go_back`.
+        """
+        entry, snapshot = self._entry, self.snapshot
+        if entry is None or not self.direct:
+            snapshot.take(self.scheme)
+            return self.enter(self._nothing, until, pause)
+        if not self._copied or self._counts[_EVENTS] > 0:
+            snapshot.take(self.scheme)
+        else:
+            snapshot.rows = 0
+        while True:
+            if not entry.has(self.scheme, self.span):
+                entry.take(self.scheme, self.span)
+            if (code := entry(until, pause)) >= 0 or not self._answered(code):
+                return code
+
+    def go_back(self) -> None:
+        """Take up what was remembered when `go` was called last."""
+        self.scheme = self.snapshot.put_back(self.scheme)
+
+    def _answered(self, code: int) -> bool:
+        """Do what a loop asks for that has to be entered again."""
+        if code == abi.NO_ROOM:
+            self.scheme = _with_room(self.scheme)
+        elif code == abi.CHOOSE:
+            self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
+            self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
+        else:
+            return False
+        return True
+
+    @cached_property
+    def _nothing(self) -> Outputs:
+        return self.outputs(np.zeros(0))
+
+    @cached_property
+    def _entry(self) -> Entry | None:
+        from symgen.runtime.entry import Entry
+
+        setup = self.setup
+        records = self.scheme, self.sizes, self.span, self.state, self._nothing
+        entry = Entry.of(setup.loop, (*setup.functions, *records))
+        if entry is not None and self._copied:
+            entry.copy_before(self.snapshot.copy, self.snapshot.front)
+        return entry
+
+    @cached_property
+    def _copied(self) -> bool:
+        """Whether all that is remembered stands in one piece of memory, but for passages."""
+        return not names_kept(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
@@ -125,14 +182,6 @@ class Simulation:
                 getattr(self.state, name)[:] = array
             else:
                 self.scheme = with_kept(self.scheme, name, array)
-
-    def remember(self) -> None:
-        """Take a copy of all that the run keeps, in place of the one taken before: `save` in a tenth of its time."""
-        self.snapshot.take(self.scheme)
-
-    def go_back(self) -> None:
-        """Take up what was last remembered."""
-        self.scheme = self.snapshot.put_back(self.scheme)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

@@ -31,11 +31,13 @@ class Snapshot:
     ----------
     state : State
         The same numbers in one piece of memory.
+    front, copy : Array
+        The part of it that is always copied, and its copy.
+    rows : int
+        Numbers of the table of passages that belong to the copy.
     """
 
     def __init__(self, state: State) -> None:
-        from symgen.runtime.records import KEPT
-
         arrays = state._asdict()
         names = [*(name for name in arrays if name not in _BEHIND), *_BEHIND]
         ends = np.cumsum([padded(len(arrays[name])) for name in names])
@@ -45,26 +47,32 @@ class Snapshot:
             views[name] = block[first : first + len(arrays[name])].view(arrays[name].dtype)
             views[name][:] = arrays[name]
         self.state = type(state)(**views)
-        self._front = block[: ends[-len(_BEHIND) - 1]]
-        self._copy, self._events = self._front.copy(), self.state.events.copy()
-        self._rows, self._names, self._kept = 0, KEPT, dict[str, NDArray[Any]]()
+        self.front = block[: ends[-len(_BEHIND) - 1]]
+        self.copy, self._events = self.front.copy(), self.state.events.copy()
+        self.rows, self._kept = 0, dict[str, NDArray[Any]]()
 
     def take(self, scheme: Any) -> None:
         """Copy what the state holds, and what a scheme's record keeps."""
-        np.copyto(self._copy, self._front)
-        self._rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
-        if self._rows:
-            self._events[: self._rows] = self.state.events[: self._rows]
-        self._kept = {name: getattr(scheme, name).copy() for name in self._names if hasattr(scheme, name)}
+        self.copy[:] = self.front
+        self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
+        self._events[: self.rows] = self.state.events[: self.rows]
+        self._kept = {name: getattr(scheme, name).copy() for name in names_kept(scheme)}
 
     def put_back(self, scheme: Any) -> Any:
         """Give the state what was copied, and return the scheme's record with what it kept then."""
-        np.copyto(self._front, self._copy)
-        self.state.events[: self._rows] = self._events[: self._rows]
-        self.state.events[self._rows :] = 0.0
+        self.front[:] = self.copy
+        self.state.events[: self.rows] = self._events[: self.rows]
+        self.state.events[self.rows :] = 0.0
         for name, array in self._kept.items():
             scheme = with_kept(scheme, name, array)
         return scheme
+
+
+def names_kept(scheme: Any) -> tuple[str, ...]:
+    """Return the fields of a scheme's record that belong to what a run keeps."""
+    from symgen.runtime.records import KEPT
+
+    return tuple(name for name in KEPT if hasattr(scheme, name))
 
 
 def with_kept(scheme: Any, name: str, array: NDArray[Any]) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 
 #: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.
 PATIENCE, FIRST_STEPS = 0.05, 100
+
+# looked up at every step
+_TIME, _STEPS, _BEGUN, _DONE = abi.TIME, abi.STEPS, abi.BEGUN, abi.DONE
 
 
 class SteppedRun:
@@ -71,11 +75,11 @@ class SteppedRun:
     ) -> None:
         info = compiled.info
         self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
-        self._changed, self._free = dict(parameters), free and not plan.spec.adaptive
+        self._changed, self._adaptive = dict(parameters), plan.spec.adaptive
+        self._free = free and not self._adaptive
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
-        self._outputs = self._loop.outputs(np.zeros(0))
         state = self._loop.state
-        self._clock, self._control = state.clock, state.control
+        self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
         self._until, self._calling, self._unsure = 0.0, False, False
         both = *info.coordinates, *info.velocities
@@ -91,12 +95,12 @@ class SteppedRun:
     @property
     def t(self) -> float:
         """Time of the state [s]."""
-        return float(self._clock[abi.TIME])
+        return self._clock[_TIME]
 
     @property
     def steps(self) -> int:
         """Steps that have been accepted."""
-        return int(self._control[abi.STEPS])
+        return self._control[_STEPS]
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -127,13 +131,18 @@ class SteppedRun:
         StepError
             If a step fails; the run stays at the last accepted state.
         """
-        dt = arguments.number("dt", dt, positive=True)
-        self._ready("step")
+        if type(dt) is not float or not 0.0 < dt < math.inf:  # the rest of it is for what seldom happens
+            dt = arguments.number("dt", dt, positive=True)
+        if self._calling or self._unsure:
+            self._ready("step")
         if u is not None:
             self.set(u)
         if self._free:
             self._take_steps_of(dt)
-        self._go(float(self._clock[abi.TIME]) + dt)
+        if self._clocks:
+            self._go(self._clock[_TIME] + dt)
+        else:
+            self._advance(self._clock[_TIME] + dt)
 
     def run(self, until: float) -> None:
         """Go on to a time.
@@ -237,10 +246,10 @@ class SteppedRun:
         saved.check(self._owner, loop.save(), tuple(c.interval for c in self._clocks))
         loop.restore(saved.arrays)
         loop.set_limits()
-        self._control[[abi.STOP, abi.OUTPUTS]] = 0
+        loop.state.control[[abi.STOP, abi.OUTPUTS]] = 0
         if self._free:
             loop.span = loop.span._replace(step=saved.step)
-        elif saved.step != loop.span.step and not self._plan.spec.adaptive:
+        elif saved.step != loop.span.step and not self._adaptive:
             self._begin_grid()
         self._changed = dict(saved.parameters)
         for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
@@ -250,7 +259,7 @@ class SteppedRun:
 
     @property
     def _owner(self) -> dict[str, str]:
-        law, steps = self._compiled.law, "varying" if self._plan.spec.adaptive else "constant"
+        law, steps = self._compiled.law, "varying" if self._adaptive else "constant"
         return {
             "symgen": __version__,
             "mechanism": f"{self._mechanism.name} ({digest(self._mechanism)[:16]})",
@@ -262,7 +271,7 @@ class SteppedRun:
     @property
     def _slack(self) -> float:
         """How far apart times may be that count as one [s]: as the loops have it."""
-        return 0.0 if self._plan.spec.adaptive else SAME * self._loop.span.step
+        return 0.0 if self._adaptive else SAME * self._loop.span.step
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
@@ -278,7 +287,6 @@ class SteppedRun:
     def _begin(self) -> None:
         """Accept the first state, if that has not happened."""
         if self._control[abi.BEGUN] == 0:
-            self._loop.remember()
             code = begin(self._loop)
             if code != abi.DONE:
                 self._fail(code)
@@ -298,12 +306,9 @@ class SteppedRun:
 
     def _go(self, until: float) -> None:
         """Go on to a time, with the controllers called on the way."""
-        if not self._clocks:
-            self._advance(until)
-            return
         while until - self.t > self._slack:
             self._call()
-            self._advance(min(until, *(clock.due for clock in self._clocks)))
+            self._advance(min([until, *(clock.due for clock in self._clocks)]))
 
     def _call(self) -> None:
         """Call the controllers whose time has come."""
@@ -322,23 +327,29 @@ class SteppedRun:
 
     def _advance(self, until: float) -> None:
         """Go on to a time without a look at controllers, in pieces between which an interrupt is heard."""
-        self._begin()
         loop, control = self._loop, self._control
-        attempts = control[abi.STEPS] + control[abi.REJECTED]
-        loop.span = loop.span._replace(most=float(attempts + self._plan.spec.max_steps))
+        if control[_BEGUN] == 0:
+            self._begin()
+        if self._adaptive:
+            attempts = control[_STEPS] + control[abi.REJECTED]
+            loop.span = loop.span._replace(most=attempts + loop.spec.max_steps)
+        began = 0.0
         try:
             while True:
-                loop.remember()
-                began = time.perf_counter()
-                self._until, self._unsure = until, True
-                code = loop.enter(self._outputs, until, control[abi.STEPS] + self._steps_at_once)
-                if code not in (abi.DONE, abi.PAUSED):
+                self._until = until
+                self._unsure = True
+                code = loop.go(until, control[_STEPS] + self._steps_at_once)
+                if code == _DONE:
+                    self._unsure = False
+                    return
+                if code != abi.PAUSED:
                     self._fail(code)
                 self._unsure = False
-                if code == abi.DONE:
-                    return
-                faster = PATIENCE / max(time.perf_counter() - began, 1e-9)
-                self._steps_at_once = int(min(max(self._steps_at_once * faster, 10), 1e7))
+                now = time.perf_counter()
+                if began > 0.0:
+                    more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)
+                    self._steps_at_once = int(min(max(more, FIRST_STEPS), 1e7))
+                began = now
         except KeyboardInterrupt:  # which may come before it is known how the loop ended
             self._recover()
             raise
@@ -361,7 +372,7 @@ class SteppedRun:
             loop.go_back()
             if self._control[abi.BEGUN] == 0:
                 break
-            if loop.enter(self._outputs, self._until, accepted) in (abi.DONE, abi.PAUSED):
+            if loop.go(self._until, accepted) in (abi.DONE, abi.PAUSED):
                 break
         else:
             loop.go_back()
