@@ -14,7 +14,7 @@ import hashlib
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from numba.core import types
+from numba import types
 from numba.core.registry import cpu_target
 
 from symgen.native.machine import compiled, load

@@ -88,7 +88,9 @@ class Simulation:
         kept = abi.N_STATUS + self.compiled.info.windings
         return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
 
-    def enter(self, outputs: Outputs, until: float | None = None, pause: float = np.inf) -> int:
+    def enter(
+        self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
+    ) -> int:
         """Go on; return how the loop ended, see `symgen.runtime.abi`.
 
         Parameters
@@ -99,14 +101,17 @@ class Simulation:
             End [s]; that of the run unless given.
         pause : float
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
+        most : float, optional
+            Attempts at an adaptive step that the run may have taken then; as many as it has been told unless given.
         """
-        span = self.span._replace(until=self.spec.until if until is None else float(until), pause=float(pause))
+        until, most = self.spec.until if until is None else until, self.span.most if most is None else most
+        span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
         while True:
             arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
             if not self._answered(code := int(self.setup.loop(*arguments))):
                 return code
 
-    def go(self, until: float, pause: float) -> int:
+    def go(self, until: float, pause: float, most: float | None = None) -> int:
         """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
 
         What the run keeps before is remembered, see `go_back`.
@@ -114,15 +119,16 @@ class Simulation:
         entry, snapshot = self._entry, self.snapshot
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
-            return self.enter(self._nothing, until, pause)
+            return self.enter(self._nothing, until, pause, most)
         if not self._copied or self._counts[_EVENTS] > 0:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
+        most = self.span.most if most is None else most
         while True:
             if not entry.has(self.scheme, self.span):
                 entry.take(self.scheme, self.span)
-            if (code := entry(until, pause)) >= 0 or not self._answered(code):
+            if (code := entry(until, pause, most)) >= 0 or not self._answered(code):
                 return code
 
     def go_back(self) -> None:
@@ -146,11 +152,11 @@ class Simulation:
 
     @cached_property
     def _entry(self) -> Entry | None:
-        from symgen.runtime.entry import Entry
+        from symgen.runtime.entry import entry_of
 
         setup = self.setup
         records = self.scheme, self.sizes, self.span, self.state, self._nothing
-        entry = Entry.of(setup.loop, (*setup.functions, *records))
+        entry = entry_of(setup.loop, (*setup.functions, *records))
         if entry is not None and self._copied:
             entry.copy_before(self.snapshot.copy, self.snapshot.front)
         return entry

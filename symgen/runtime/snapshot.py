@@ -50,13 +50,21 @@ class Snapshot:
         self.front = block[: ends[-len(_BEHIND) - 1]]
         self.copy, self._events = self.front.copy(), self.state.events.copy()
         self.rows, self._kept = 0, dict[str, NDArray[Any]]()
+        self._names: tuple[str, ...] | None = None
 
     def take(self, scheme: Any) -> None:
         """Copy what the state holds, and what a scheme's record keeps."""
         self.copy[:] = self.front
         self.rows = min(int(self.state.control[abi.EVENTS]), abi.MAX_EVENTS) * abi.N_EVENT
         self._events[: self.rows] = self.state.events[: self.rows]
-        self._kept = {name: getattr(scheme, name).copy() for name in names_kept(scheme)}
+        if self._names is None:
+            self._names = names_kept(scheme)
+        for name in self._names:
+            array, there = getattr(scheme, name), self._kept.get(name)
+            if there is None or len(there) != len(array):
+                self._kept[name] = array.copy()
+            else:
+                there[:] = array
 
     def put_back(self, scheme: Any) -> Any:
         """Give the state what was copied, and return the scheme's record with what it kept then."""

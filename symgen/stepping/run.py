@@ -14,7 +14,7 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, SimulationError, StepError
 from symgen.runtime import abi
-from symgen.runtime.changes import begin, begin_anew, set_parameters
+from symgen.runtime.changes import Changes, begin, begin_anew
 from symgen.runtime.run import reason_of
 from symgen.runtime.simulation import Simulation
 from symgen.stepping.clock import SAME, Clock, Controller
@@ -80,8 +80,9 @@ class SteppedRun:
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
         state = self._loop.state
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
+        self._changes = Changes(self._loop)
         self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
-        self._until, self._calling, self._unsure = 0.0, False, False
+        self._until, self._most, self._calling, self._unsure = 0.0, plan.spec.max_steps, False, False
         both = *info.coordinates, *info.velocities
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
@@ -218,7 +219,7 @@ class SteppedRun:
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
         if not np.array_equal(p[:count], loop.state.p[:count]):
             self._begin()
-            set_parameters(loop, p)
+            self._changes.set(p[:count])
         self._changed = {name: found[name] for name in changed}
 
     # -- keeping -------------------------------------------------------------------------------------------------------
@@ -331,14 +332,13 @@ class SteppedRun:
         if control[_BEGUN] == 0:
             self._begin()
         if self._adaptive:
-            attempts = control[_STEPS] + control[abi.REJECTED]
-            loop.span = loop.span._replace(most=attempts + loop.spec.max_steps)
+            self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
         began = 0.0
         try:
             while True:
                 self._until = until
                 self._unsure = True
-                code = loop.go(until, control[_STEPS] + self._steps_at_once)
+                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most)
                 if code == _DONE:
                     self._unsure = False
                     return
@@ -372,7 +372,7 @@ class SteppedRun:
             loop.go_back()
             if self._control[abi.BEGUN] == 0:
                 break
-            if loop.go(self._until, accepted) in (abi.DONE, abi.PAUSED):
+            if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED):
                 break
         else:
             loop.go_back()
