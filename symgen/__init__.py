@@ -22,10 +22,11 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.ensemble.study import Sweep
     from symgen.ensemble.sweep import sweep
-    from symgen.errors import AssemblyError, InputError, SimulationError, SymgenError
+    from symgen.errors import AssemblyError, InputError, SimulationError, StepError, SymgenError
     from symgen.result.labelled import Labelled
     from symgen.result.result import Result
     from symgen.settings import Settings
+    from symgen.stepping.run import SteppedRun
     from symgen.study.comparison.compare import Study, compare
 
 #: Public name -> module that has it.
@@ -39,6 +40,8 @@ _WHERE = {
     "Result": "symgen.result.result",
     "Settings": "symgen.settings",
     "SimulationError": "symgen.errors",
+    "StepError": "symgen.errors",
+    "SteppedRun": "symgen.stepping.run",
     "Study": "symgen.study.comparison.compare",
     "Sweep": "symgen.ensemble.study",
     "SymgenError": "symgen.errors",
@@ -58,6 +61,8 @@ __all__ = [
     "Result",
     "Settings",
     "SimulationError",
+    "StepError",
+    "SteppedRun",
     "Study",
     "Sweep",
     "SymgenError",

@@ -21,13 +21,14 @@ from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, ready, start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
-from symgen.settings import SHAPES, Settings, changed
+from symgen.settings import SHAPES, Settings, changed, default
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
     from symgen.runtime.held import Held
+    from symgen.stepping.run import SteppedRun
 
 
 def load(model: str | Path | Mechanism | Model) -> Model:
@@ -218,3 +219,45 @@ class Model:
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told)
+
+    def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
+        """Return a run that goes on step by step, at its start.
+
+        Parameters
+        ----------
+        settings : Settings, optional
+            All settings at once.
+        **changes
+            Single settings, as for `simulate`. ``until`` is no end, but says in which time a motion that begins at rest
+            may be expected to cross the mechanism. Where an integrator with constant steps is given no ``step``, each
+            call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second runs mean nothing
+            here and are refused.
+
+        Raises
+        ------
+        InputError
+            If a setting is wrong.
+        AssemblyError
+            If the mechanism cannot be closed.
+        StepError
+            If the start violates a limit of the run.
+        """
+        from symgen.auto import resolve
+        from symgen.stepping.run import SteppedRun
+        from symgen.store import ahead
+
+        asked = changed(settings, changes)
+        for name in ("output_step", "times", "verify", "repeat"):
+            if getattr(asked, name) != default(name):
+                raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
+        given = give_inputs(self.mechanism, asked)
+        if len(given.pieces) > 1:
+            hint = "`step(dt, u=...)` and `set` give inputs other values on the way"
+            raise InputError("start: inputs", "inputs without jumps", "one that jumps", hint)
+        mechanism = given.mechanism
+        chosen, reasons = resolve(mechanism, given.settings)
+        plan = make_plan(mechanism, replace(chosen, times=()))
+        ahead.start(plan.tableau.loop(plan.spec.adaptive))
+        compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
+        start = replace(start, notes=(*reasons, *start.notes))
+        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None)

@@ -62,6 +62,25 @@ class SimulationError(SymgenError):
     """A run could not be started or its result cannot be used."""
 
 
+class StepError(SimulationError):
+    """A run that goes on step by step cannot do so; it stays at the last accepted state.
+
+    Parameters
+    ----------
+    reason : str
+        Why, as results have it.
+    time : float
+        Where the failed step was to end, or began if it came to nothing [s].
+    """
+
+    def __init__(self, reason: str, time: float) -> None:
+        self.reason, self.time = reason, time
+        super().__init__(reason)
+
+    def __reduce__(self) -> tuple[type, tuple[str, float]]:
+        return type(self), (self.reason, self.time)
+
+
 def printable(text: str) -> str:
     """Return `text` on one line, with escapes in place of characters that a terminal would act on or not show."""
     if text.isprintable():

@@ -290,15 +290,7 @@ def integrate(
     table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
         code=code,
-        reason=end_reason(
-            code,
-            end,
-            tuple(float(w[i]) for i in (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)),
-            float(gauges[abi.ENERGY_SCALE]),
-            int(control[abi.STEPS] + control[abi.REJECTED]),
-            spec,
-        )
-        + (f" (row {_shortest_row(compiled, w)})" if code == abi.VANISHED else ""),
+        reason=reason_of(simulation, code, end),
         end=end,
         times=outputs.times[:k],
         states=outputs.states[:k],
@@ -329,6 +321,16 @@ def integrate(
         simulation=simulation,
         held=tuple(held),
     )
+
+
+def reason_of(simulation: Simulation, code: int, end: float) -> str:
+    """Return why a run ended at a time, empty where it reached its end; see `end_reason`."""
+    state = simulation.state
+    measures = (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)
+    attempts = int(state.control[abi.STEPS] + state.control[abi.REJECTED])
+    scale = float(state.gauges[abi.ENERGY_SCALE])
+    reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
+    return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 
 
 def _shortest_row(compiled: CompiledModel, w: Array) -> str:

@@ -18,10 +18,12 @@ from symgen.runtime.ensemble_abi import PREPARE
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
 from symgen.runtime.probe import Ready
+from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.entry import Entry
     from symgen.runtime.integrator import Integrator, Setup
     from symgen.runtime.records import Outputs, Sizes, Span, State
     from symgen.runtime.run import RunSpec
@@ -32,6 +34,7 @@ Array = NDArray[np.float64]
 #: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
 #: differ in the last bit from the state that a multistep scheme goes on with.
 SHOWN = ("shown_state", "shown_status")
+_EVENTS = abi.EVENTS
 
 
 class Simulation:
@@ -51,7 +54,13 @@ class Simulation:
     Attributes
     ----------
     state : State
-        All that the run keeps, as arrays.
+        All that the run keeps, as arrays. They stay where they are: views of them are up to date for ever.
+    span : Span
+        How far the run goes, and by which steps.
+    direct : bool
+        Whether `go` may take the shortest way; it gives the same bits.
+    snapshot : Snapshot
+        The memory of `state`, and a copy of what it held when `go` was called last.
     before : Array of int
         What it had counted where it was taken up: zeros for one that begins.
 
@@ -65,18 +74,25 @@ class Simulation:
         self.compiled, self.integrator, self.spec = compiled, integrator, spec
         self.setup = integrator.setup(compiled, spec, start.w)
         self.sizes = sizes_of(compiled)
-        self.scheme = self.setup.scheme
-        self.state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
+        self.direct = True
+        self.snapshot = Snapshot(new_state(compiled, self.sizes, self.setup.memory, self.setup.room))
+        self.state = self.snapshot.state
+        self._counts = memoryview(self.state.control)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
-        gauges = self.state.gauges
-        gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
-        gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
-        gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
-        self.state.clock[[abi.TIME, abi.ORIGIN]] = gauges[abi.LAST_TIME] = start.t
+        self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+        self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
         self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
         self.iterations_before = 0
+        self.set_limits()
         if start.saved is not None:
             self._take_up(start.saved)
+
+    def set_limits(self) -> None:
+        """Have the limits of this run, as after the state of another one was taken up."""
+        gauges, spec = self.state.gauges, self.spec
+        gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
+        gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -88,11 +104,10 @@ class Simulation:
 
     def _take_up(self, saved: Mapping[str, NDArray[Any]]) -> None:
         """Go on from what another run has kept, with the limits and outputs of this one."""
-        state, limits = self.state, [abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY]
-        own = state.gauges[limits].copy()
+        state = self.state
         self.restore({name: array for name, array in saved.items() if name not in SHOWN})
         self._shown = tuple(saved[name] for name in SHOWN)
-        state.gauges[limits] = own
+        self.set_limits()
         state.control[[abi.STOP, abi.OUTPUTS]] = 0
         self.before, self.iterations_before = state.control.copy(), int(state.iw[abi.ITERATIONS])
 
@@ -105,7 +120,9 @@ class Simulation:
             out += 1
         control[abi.OUTPUTS] = out
 
-    def enter(self, outputs: Outputs, until: float | None = None, pause: float = np.inf) -> int:
+    def enter(
+        self, outputs: Outputs, until: float | None = None, pause: float = np.inf, most: float | None = None
+    ) -> int:
         """Go on; return how the loop ended, see `symgen.runtime.abi`.
 
         Parameters
@@ -116,16 +133,14 @@ class Simulation:
             End [s]; that of the run unless given.
         pause : float
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
+        most : float, optional
+            Attempts at an adaptive step that the run may have taken then; as many as it has been told unless given.
         """
-        span = span_of(self.spec, self.setup, until, pause)
+        until, most = self.spec.until if until is None else until, self.span.most if most is None else most
+        span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
         while True:
-            code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
-            if code == abi.NO_ROOM:
-                self.scheme = _with_room(self.scheme)
-            elif code == abi.CHOOSE:
-                self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
-                self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
-            else:
+            arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
+            if not self._answered(code := int(self.setup.loop(*arguments))):
                 return code
 
     def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
@@ -148,6 +163,61 @@ class Simulation:
                 follow()
             self.set_parameters(piece.values)
         return self.enter(outputs)
+
+    def go(self, until: float, pause: float, most: float | None = None) -> int:
+        """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
+
+        What the run keeps before is remembered, see `go_back`.
+        """
+        entry, snapshot = self._entry, self.snapshot
+        if entry is None or not self.direct:
+            snapshot.take(self.scheme)
+            return self.enter(self._nothing, until, pause, most)
+        if not self._copied or self._counts[_EVENTS] > 0:
+            snapshot.take(self.scheme)
+        else:
+            snapshot.rows = 0
+        most = self.span.most if most is None else most
+        while True:
+            if not entry.has(self.scheme, self.span):
+                entry.take(self.scheme, self.span)
+            if (code := entry(until, pause, most)) >= 0 or not self._answered(code):
+                return code
+
+    def go_back(self) -> None:
+        """Take up what was remembered when `go` was called last."""
+        self.scheme = self.snapshot.put_back(self.scheme)
+
+    def _answered(self, code: int) -> bool:
+        """Do what a loop asks for that has to be entered again."""
+        if code == abi.NO_ROOM:
+            self.scheme = _with_room(self.scheme)
+        elif code == abi.CHOOSE:
+            self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
+            self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
+        else:
+            return False
+        return True
+
+    @cached_property
+    def _nothing(self) -> Outputs:
+        return self.outputs(np.zeros(0))
+
+    @cached_property
+    def _entry(self) -> Entry | None:
+        from symgen.runtime.entry import entry_of
+
+        setup = self.setup
+        records = self.scheme, self.sizes, self.span, self.state, self._nothing
+        entry = entry_of(setup.loop, (*setup.functions, *records))
+        if entry is not None and self._copied:
+            entry.copy_before(self.snapshot.copy, self.snapshot.front)
+        return entry
+
+    @cached_property
+    def _copied(self) -> bool:
+        """Whether all that is remembered stands in one piece of memory, but for passages."""
+        return not names_kept(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
@@ -202,7 +272,7 @@ class Simulation:
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
             else:
-                self.scheme = self.scheme._replace(**{name: array.copy()})
+                self.scheme = with_kept(self.scheme, name, array)
 
     def _prepare(self, p: Array, w: Array) -> None:
         """Work out what depends on parameters alone."""

@@ -49,6 +49,7 @@ ALLOWED = {
     "run_setup": {"numpy"},
     "runtime": {"llvmlite", "msgspec", "numba", "numpy"},
     "settings": set(),
+    "stepping": {"numpy"},
     "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
     "study": {"numpy", "pandas", "scipy"},
     "vocabulary": {"msgspec"},

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.models import parallelogram
+from support.remembering import CONSTANT, PAIRS
 
 from symgen.api import load
 from symgen.integrators import INTEGRATORS
@@ -14,15 +15,6 @@ from symgen.plan import Settings, make_plan
 from symgen.runtime import abi
 from symgen.runtime.simulation import Simulation
 
-#: A method for each integrator, and methods that remember something beside the state.
-PAIRS = [
-    *(("direct-correction", name) for name in ("euler", "heun", "rk4", "rkmk4", "abm4", "abm", "dopri5", "dop853")),
-    *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
-    *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
-    *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853")),
-    *(("augmented-hamiltonian", "dopri5"), ("augmented-lagrangian", "rk4")),
-]
-CONSTANT = {"options": {"integrator.adaptive": "false"}}
 STEP, STEPS = 2e-3, 12
 
 

@@ -1,0 +1,163 @@
+"""A run from outside: its first state accepted without a step, and parameters that change while it goes on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.entry import direct
+from symgen.runtime.model_arrays import entries_of
+
+if TYPE_CHECKING:
+    from symgen.runtime.simulation import Simulation
+
+Array = NDArray[np.float64]
+
+#: What `watch` finds out at every accepted state: it has been found out already where a run begins anew.
+_WATCHED = [abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK, abi.MASKED, abi.OUTPUTS]
+
+
+def begin(simulation: Simulation) -> int:
+    """Accept the first state and prepare the scheme, without a step; return `DONE` or why the state is refused."""
+    control = simulation.state.control
+    control[abi.STOP] = 1
+    try:
+        code = simulation.go(simulation.spec.until, math.inf)
+    finally:
+        control[abi.STOP] = 0
+    return abi.DONE if code == abi.STOPPED else code
+
+
+def begin_anew(simulation: Simulation) -> int:
+    """Have the scheme forget what it knows of rates: what they depend on has just changed.
+
+    The state is accepted once more. What a run has found out so far stays: its largest violations, passages, and the
+    step that an adaptive one would try next. What the change has added to the energy counts as work.
+    """
+    state, span, place = simulation.state, simulation.span, simulation.compiled.info.work
+    w, gauges, watched = state.w, state.gauges.copy(), state.control[_WATCHED]
+    work = float(state.y[place])
+    if state.control[abi.STEPS] > 0 and simulation.spec.adaptive:
+        simulation.span = span._replace(step=float(state.clock[abi.NEXT]))
+    state.control[abi.BEGUN] = 0
+    state.y[place] = 0.0  # the balance begins with none
+    try:
+        before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
+        code = begin(simulation)
+    finally:
+        simulation.span = span
+    state.y[place] = work + float(w[abi.KINETIC] + w[abi.POTENTIAL]) - before
+    state.gauges[:], state.control[_WATCHED] = gauges, watched
+    state.clock[abi.ALLOWED] = 0.0
+    return code
+
+
+class Changes:
+    """Other parameters for a run that goes on.
+
+    Parameters
+    ----------
+    simulation : Simulation
+        The run.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.simulation = simulation
+
+    def set(self, p: Array) -> None:
+        """Go on with other parameters from the present state.
+
+        What the change adds to the energy counts as work done on the mechanism. Masses may change as well; positions
+        and velocities stay what they are, so whatever moves the constraints away from them is refused.
+
+        Parameters
+        ----------
+        p : Array
+            Parameters of the model and the method, not yet prepared; the rest is left as it is.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite, a mass is not positive, or the present state violates the constraints by more
+            than the run tolerates. Nothing is changed then.
+        """
+        simulation, state = self.simulation, self.simulation.state
+        front = simulation.snapshot.front
+        kept, events = front.copy(), state.events.copy() if state.control[abi.EVENTS] > 0 else None
+        try:
+            with np.errstate(all="ignore"):
+                self._check(p)
+            code = begin_anew(simulation)
+            if code != abi.DONE:
+                raise InputError("set", "parameters with which the run can go on", abi.REASONS[code])
+        except BaseException:
+            front[:] = kept
+            if events is not None:
+                state.events[:] = events
+            raise
+
+    def _check(self, p: Array) -> None:
+        """Put parameters, and masses, in their places, and see whether the present state allows it."""
+        compiled, state = self.simulation.compiled, self.simulation.state
+        w, info = state.w, compiled.info
+        t, sections = float(state.clock[abi.TIME]), [compiled.section(w, name) for name in ("jacobian", "nu")]
+        prepare, masses, geometry = self._functions
+        geometry(t)
+        before = [section.copy() for section in sections]
+        state.p[: len(p)] = p
+        try:
+            for function in prepare:
+                function()
+            masses()
+            geometry(t)
+        except (ArithmeticError, ValueError):  # where nothing is compiled
+            w[abi.PHI] = math.nan
+        mass = compiled.section(w, "mass")
+        for j in np.flatnonzero(~(mass > 0.0)):
+            if j not in info.massless:
+                body = info.velocities[j].name.partition(".")[0]
+                raise InputError("set", f"a mass and an inertia of {body} above 0", f"{mass[j]:g}")
+        if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
+            raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")
+        w[abi.MEAN_MASS] = float(mass @ compiled.section(w, "gauge")) / max(1, info.nv)
+        spec, reach = self.simulation.spec, state.metric[: info.nq] * state.y[: info.nq]
+        length = max(float(w[abi.LENGTH]), float(np.abs(reach).max(initial=0.0)))
+        self._refuse("position", float(w[abi.PHI_MEASURE]), spec.max_violation * length)
+        if any(not np.array_equal(*pair) for pair in zip(before, sections, strict=True)):
+            self._refuse("velocity", self._drift(*sections), spec.velocity_limit * float(w[abi.SPEED]))
+
+    @staticmethod
+    def _refuse(what: str, size: float, most: float) -> None:
+        if not size <= most:
+            raise InputError(
+                "set",
+                f"parameters that leave the {what} of every joint as it is",
+                f"a violation of {size:.3g} (at most {most:.3g})",
+                "start anew for another geometry",
+            )
+
+    def _drift(self, jacobian: Array, nu: Array) -> float:
+        """Return how far the present velocities are from D v = nu, rows that are angles times the length."""
+        info, state = self.simulation.compiled.info, self.simulation.state
+        entries, constants = entries_of(info)
+        rows, columns, slots = entries.reshape(-1, 3).T
+        values = np.where(slots < 0, constants, jacobian[slots] if len(jacobian) else constants)
+        v = state.y[info.nq : info.nq + info.nv]
+        lengths = np.where([row.unit == "rad" for row in info.rows], state.w[abi.LENGTH], 1.0)
+        return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))
+
+    @cached_property
+    def _functions(self) -> tuple[tuple[Callable[..., Any], ...], Callable[..., Any], Callable[..., Any]]:
+        """Both ``prepare``, ``masses`` and ``geometry`` on the arrays of the run; the last one takes the time."""
+        (y, p, w), compiled = self.simulation.state[:3], self.simulation.compiled
+        prepare = tuple(direct(m.prepare, e.PREPARE, p) for m in (compiled.model, compiled.law_module))
+        geometry = direct(compiled.model.geometry, abi.MEASURE, 0.0, y, p, w)
+        return prepare, direct(compiled.model.masses, abi.MOVE, p, w), geometry

@@ -1,0 +1,179 @@
+"""Compiled functions called by the shortest way: arguments taken apart once, and one call with their address."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Self
+
+import numpy as np
+from numba import types
+from numba.experimental.function_type import _get_jit_address, _get_wrapper_address
+from numpy.typing import NDArray
+
+from symgen.errors import SimulationError
+from symgen.native import internals
+from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, slots, trampoline
+
+Array = NDArray[np.float64]
+#: A trampoline.
+Call = Callable[[int], int]
+#: Places of two of a loop's arguments.
+_SCHEME, _SPAN = 6, 8
+
+
+class Block:
+    """A compiled function with its arguments in one block of memory.
+
+    Arrays are referred to by their addresses, so they have to stay where they are; they are kept alive.
+
+    Parameters
+    ----------
+    result : result of a compilation
+        The function.
+    arguments : tuple
+        What it takes.
+    call : callable
+        The trampoline for its signature.
+    """
+
+    def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
+        self._result, self._arguments, self._call = result, list(arguments), call
+        self._kinds = result.signature.args
+        places = np.cumsum([FIRST, *(sum(1 for _ in slots(kind)) for kind in self._kinds)])
+        self._places = [int(place) for place in places]
+        block: Any = np.zeros(self._places[-1], dtype=np.int64)
+        self._block, self._address = block, block.ctypes.data
+        self._ints: Any = memoryview(block)  # read and written faster than arrays are
+        self._floats: Any = memoryview(block.view(np.float64))
+        block[FUNCTION] = result.library.get_pointer_to_function(result.fndesc.llvm_func_name)
+        for which in range(len(arguments)):
+            self._fill(which)
+
+    @classmethod
+    def of(cls, compiled: Any, arguments: tuple[Any, ...]) -> Self | None:
+        """Return the block of a function, None where it has to be called as every compiled function.
+
+        Parameters
+        ----------
+        compiled : result of a compilation
+            The function.
+        arguments : tuple
+            What it takes.
+        """
+        signature = compiled.signature
+        if not internals.usable() or len(signature.args) != len(arguments):
+            return None
+        call = trampoline(signature.return_type, signature.args)
+        try:
+            return None if call is None else cls(compiled, arguments, call)
+        except (NotImplementedError, TypeError, ValueError):  # a function, or a record, of a kind of its own
+            return None
+
+    def enter(self) -> int:
+        """Call the function; return its result, a whole number."""
+        if self._call(self._address) != 0:
+            raise SimulationError("compiled code has raised an exception")
+        return int(self._ints[RESULT])
+
+    def _fill(self, which: int) -> None:
+        """Put an argument into its slots."""
+        at = self._places[which]
+        for value in _numbers(self._kinds[which], self._arguments[which]):
+            if isinstance(value, float):
+                self._floats[at] = value
+            else:
+                self._ints[at] = value
+            at += 1
+
+
+class Entry(Block):
+    """A compiled loop, an instance of `symgen.runtime.frame.integrate`, with all that it is entered with."""
+
+    def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
+        super().__init__(result, arguments, call)
+        self._scheme, self._span = arguments[_SCHEME], arguments[_SPAN]
+        first, names = self._places[_SPAN], self._span._fields
+        self._until, self._pause, self._most = (first + names.index(name) for name in ("until", "pause", "most"))
+
+    def copy_before(self, target: Array, source: Array) -> None:
+        """Have one array copied into another of its size, at every entry."""
+        self._block[[COPY, SOURCE, BYTES]] = target.ctypes.data, source.ctypes.data, source.nbytes
+
+    def has(self, scheme: Any, span: Any) -> bool:
+        """Whether the block holds a scheme and a span."""
+        return self._scheme is scheme and self._span is span
+
+    def take(self, scheme: Any, span: Any) -> None:
+        """Put another scheme, whose arrays may stand elsewhere, and another span into the block."""
+        if self._scheme is not scheme:
+            self._scheme = self._arguments[_SCHEME] = scheme
+            self._fill(_SCHEME)
+        self._span = self._arguments[_SPAN] = span
+        self._fill(_SPAN)
+
+    def __call__(self, until: float, pause: float, most: float) -> int:
+        """Enter the loop; return how it ended."""
+        floats = self._floats
+        floats[self._until], floats[self._pause], floats[self._most] = until, pause, most
+        if self._call(self._address) != 0:
+            raise SimulationError("a compiled loop has raised an exception")
+        return int(self._ints[RESULT])
+
+
+def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
+    """Return the entry of a loop, None where it has to be called as every compiled function.
+
+    Parameters
+    ----------
+    loop : compiled function
+        With a single signature.
+    arguments : tuple
+        Functions of the model, scheme, sizes, span, state, outputs.
+    """
+    if hasattr(loop, "open"):
+        loop.open()
+    compiled = list(getattr(loop, "overloads", {}).values())  # none where nothing is compiled
+    return Entry.of(compiled[0], arguments) if len(compiled) == 1 else None
+
+
+def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
+    """Return a function on given arguments; what it is called with takes the place of the first ones, if numbers.
+
+    Parameters
+    ----------
+    function : Dispatcher or function
+        An emitted function; plain Python where nothing is compiled.
+    kind : FunctionType
+        Its type, of `symgen.runtime.abi`.
+    *arguments
+        Arrays and numbers.
+    """
+    compiled = function.get_compile_result(kind.signature) if hasattr(function, "get_compile_result") else None
+    block = None if compiled is None else Block.of(compiled, arguments)
+    if block is None:
+        return lambda *first: function(*first, *arguments[len(first) :])
+
+    def call(*first: float) -> int:
+        for which, value in enumerate(first):
+            block._floats[FIRST + which] = value
+        return block.enter()
+
+    return call
+
+
+def _numbers(kind: Any, value: Any) -> Iterator[int | float]:
+    """Yield what stands in the slots of an argument: integers, addresses among them, and floating-point numbers."""
+    if isinstance(kind, types.BaseTuple):
+        for part, item in zip(kind, value, strict=True):
+            yield from _numbers(part, item)
+    elif isinstance(kind, types.FunctionType):
+        signature = kind.signature
+        yield from (_get_wrapper_address(value, signature), id(value), _get_jit_address(value, signature))
+    elif isinstance(kind, types.Array):
+        if not (isinstance(value, np.ndarray) and value.flags.c_contiguous and value.ndim == kind.ndim):
+            raise TypeError("an array of another kind")
+        if value.dtype != np.dtype(str(kind.dtype)):
+            raise TypeError("an array of other numbers")
+        yield from (0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides)
+    else:
+        yield float(value) if kind == types.float64 else int(value)

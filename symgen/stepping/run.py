@@ -1,0 +1,385 @@
+"""A run that goes on step by step: entered, left, saved, restored and changed from Python."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen import __version__, arguments
+from symgen.describe.digest import digest
+from symgen.describe.evaluate import parameter_values
+from symgen.errors import InputError, SimulationError, StepError
+from symgen.runtime import abi
+from symgen.runtime.changes import Changes, begin, begin_anew
+from symgen.runtime.run import reason_of
+from symgen.runtime.simulation import Simulation
+from symgen.stepping.clock import SAME, Clock, Controller
+from symgen.stepping.named import Named
+from symgen.stepping.saved import Saved
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.plan import Plan
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel, Quantity
+
+#: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.
+PATIENCE, FIRST_STEPS = 0.05, 100
+
+# looked up at every step
+_TIME, _STEPS, _BEGUN, _DONE = abi.TIME, abi.STEPS, abi.BEGUN, abi.DONE
+
+
+class SteppedRun:
+    """A run that goes on as far as it is told; `Model.start` makes it.
+
+    Any division into pieces is the same run: with constant steps bit for bit, as long as pieces end on the grid of
+    steps. A piece that ends between two of them ends with a shortened step, and a new grid begins there. Adaptive
+    steps are shortened so that every piece ends exactly where it is to.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    plan : Plan
+        How.
+    compiled : CompiledModel
+        Model and method.
+    start : Start
+        A consistent start; not changed.
+    parameters : mapping of str to float
+        Values that differ from the described ones.
+    free : bool
+        Whether no constant step was asked for: then each call of `step` is one step.
+
+    Attributes
+    ----------
+    q, v, state : Named
+        Coordinates, velocities, and both: read-only views of what the run holds at present, without copies.
+    warnings, notes : tuple of str
+        What there is to say of the start and the settings.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        plan: Plan,
+        compiled: CompiledModel,
+        start: Start,
+        parameters: Mapping[str, float],
+        free: bool = False,
+    ) -> None:
+        info = compiled.info
+        self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
+        self._changed, self._adaptive = dict(parameters), plan.spec.adaptive
+        self._free = free and not self._adaptive
+        self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
+        state = self._loop.state
+        self._clock, self._control = memoryview(state.clock), memoryview(state.control)
+        self._changes = Changes(self._loop)
+        self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
+        self._until, self._most, self._calling, self._unsure = 0.0, plan.spec.max_steps, False, False
+        both = *info.coordinates, *info.velocities
+        self.q = _view(state.y, 0, info.coordinates)
+        self.v = _view(state.y, info.nq, info.velocities)
+        self.state = _view(state.y, 0, both)
+        self.warnings, self.notes = (*plan.warnings, *start.warnings), start.notes
+        if not self._free:  # else the first step says how long it is
+            self._begin()
+
+    # -- what can be read ----------------------------------------------------------------------------------------------
+
+    @property
+    def t(self) -> float:
+        """Time of the state [s]."""
+        return self._clock[_TIME]
+
+    @property
+    def steps(self) -> int:
+        """Steps that have been accepted."""
+        return self._control[_STEPS]
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Present values of all parameters."""
+        return parameter_values(self._mechanism, self._changed)
+
+    def __repr__(self) -> str:
+        law, integrator = self._compiled.law.method, self._plan.tableau.name
+        return f"SteppedRun({self._mechanism.name}, {law}, {integrator}, t={self.t:.6g} s)"
+
+    # -- going on ------------------------------------------------------------------------------------------------------
+
+    def step(self, dt: float, u: Mapping[str, float] | None = None) -> None:
+        """Go on for a time.
+
+        Parameters
+        ----------
+        dt : float
+            How long [s]: a multiple of a constant step goes on along its grid, anything else ends with a shortened
+            step, from which a new grid begins. Where no step was asked for, this is the step.
+        u : mapping of str to float, optional
+            Values to be set before, as by `set`; they are held until others are set.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong.
+        StepError
+            If a step fails; the run stays at the last accepted state.
+        """
+        if type(dt) is not float or not 0.0 < dt < math.inf:  # the rest of it is for what seldom happens
+            dt = arguments.number("dt", dt, positive=True)
+        if self._calling or self._unsure:
+            self._ready("step")
+        if u is not None:
+            self.set(u)
+        if self._free:
+            self._take_steps_of(dt)
+        if self._clocks:
+            self._go(self._clock[_TIME] + dt)
+        else:
+            self._advance(self._clock[_TIME] + dt)
+
+    def run(self, until: float) -> None:
+        """Go on to a time.
+
+        Parameters
+        ----------
+        until : float
+            Where to [s]. Where no step was asked for, steps are those of the mechanism.
+
+        Raises
+        ------
+        InputError
+            If that time has passed.
+        StepError
+            If a step fails; the run stays at the last accepted state.
+        KeyboardInterrupt
+            After Ctrl-C; the run stays at an accepted state and can go on.
+        """
+        until = arguments.number("until", until)
+        self._ready("run")
+        if until < self.t - self._slack:
+            raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
+        if self._free:
+            self._take_steps_of(self._plan.spec.step or 0.0)
+        self._go(until)
+
+    def every(self, interval: float, controller: Controller) -> None:
+        """Have a function called at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
+
+        It is called before the run goes on from that time, so not at the end of a piece but at the beginning of the
+        next one. Runs with constant steps meet such times by shortened steps where they are no multiples of the step.
+
+        Parameters
+        ----------
+        interval : float
+            Time between two calls [s].
+        controller : callable
+            Takes the time of the call, one multiplication from t0, and this run. What it returns, values by name or
+            None, is set as by `set` and held until the next call.
+        """
+        interval = arguments.number("interval", interval, positive=True)
+        if controller is None or arguments.function("controller", controller) is None:
+            raise InputError("controller", "a function", "None")
+        self._clocks.append(Clock(controller, self.t, interval))
+
+    # -- changing ------------------------------------------------------------------------------------------------------
+
+    def set(self, values: Mapping[str, float] | None = None, /, **more: float) -> None:
+        """Change parameters from the present time on.
+
+        Positions and velocities stay what they are. What the change adds to the energy counts as work. Numbers of
+        forces, masses and inertias may change; what moves a joint away from where it is, such as another length, is
+        refused.
+
+        Parameters
+        ----------
+        values : mapping of str to float, optional
+            Values by name.
+        **more
+            The same as keywords.
+
+        Raises
+        ------
+        InputError
+            If a name or a value is wrong, a mass is not above 0, or the state does not satisfy the constraints with
+            these parameters. Nothing is changed then.
+        """
+        asked = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
+        changed = {**self._changed, **asked}
+        found = parameter_values(self._mechanism, changed)
+        self._recover()
+        loop, count = self._loop, len(found)
+        p = self._compiled.parameter_array(found, self._plan.method_parameters)
+        if not np.array_equal(p[:count], loop.state.p[:count]):
+            self._begin()
+            self._changes.set(p[:count])
+        self._changed = {name: found[name] for name in changed}
+
+    # -- keeping -------------------------------------------------------------------------------------------------------
+
+    def save(self) -> Saved:
+        """Return all that the run remembers, as a value that can be pickled."""
+        self._recover()
+        clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
+        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks)
+
+    def restore(self, saved: Saved) -> None:
+        """Go back, or on, to what `save` returned, here or by another run of the same model, method and integrator.
+
+        Limits and tolerances stay those of this run. Controllers are functions and are not saved: register the same
+        ones before, and they go on at their next beats.
+
+        Raises
+        ------
+        InputError
+            If it belongs to something else. Nothing is changed then.
+        """
+        arguments.of_kind("restore", saved, Saved, "what `save` returned")
+        self._ready("restore")
+        loop = self._loop
+        saved.check(self._owner, loop.save(), tuple(c.interval for c in self._clocks))
+        loop.restore(saved.arrays)
+        loop.set_limits()
+        loop.state.control[[abi.STOP, abi.OUTPUTS]] = 0
+        if self._free:
+            loop.span = loop.span._replace(step=saved.step)
+        elif saved.step != loop.span.step and not self._adaptive:
+            self._begin_grid()
+        self._changed = dict(saved.parameters)
+        for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
+            clock.start, clock.beat = start, beat
+
+    # -- inside --------------------------------------------------------------------------------------------------------
+
+    @property
+    def _owner(self) -> dict[str, str]:
+        law, steps = self._compiled.law, "varying" if self._adaptive else "constant"
+        return {
+            "symgen": __version__,
+            "mechanism": f"{self._mechanism.name} ({digest(self._mechanism)[:16]})",
+            "code of shape": self._compiled.shape,
+            "method": f"{law.method} ({law.key})",
+            "integrator": f"{self._plan.tableau.name} with {steps} steps",
+        }
+
+    @property
+    def _slack(self) -> float:
+        """How far apart times may be that count as one [s]: as the loops have it."""
+        return 0.0 if self._adaptive else SAME * self._loop.span.step
+
+    def _ready(self, what: str) -> None:
+        """Refuse a call from inside a controller, and have an accepted state."""
+        if self._calling:
+            raise SimulationError(f"a controller cannot call `{what}`: it is called while the run goes on")
+        self._recover()
+
+    def _recover(self) -> None:
+        """Go back to an accepted state, where an interrupt came between a failure and what is done about it."""
+        if self._unsure:
+            self._replay()
+
+    def _begin(self) -> None:
+        """Accept the first state, if that has not happened."""
+        if self._control[abi.BEGUN] == 0:
+            code = begin(self._loop)
+            if code != abi.DONE:
+                self._fail(code)
+
+    def _begin_grid(self) -> None:
+        self._clock[abi.ORIGIN], self._control[abi.INDEX] = self._clock[abi.TIME], 0
+
+    def _take_steps_of(self, step: float) -> None:
+        """Go on by constant steps of another length, on a grid that begins here."""
+        loop = self._loop
+        if step == loop.span.step:
+            return
+        loop.span = loop.span._replace(step=step)
+        self._begin_grid()
+        if self._control[abi.BEGUN] == 1 and self._control[abi.STEPS] == 0:
+            begin_anew(loop)  # schemes may prepare for the first step's length
+
+    def _go(self, until: float) -> None:
+        """Go on to a time, with the controllers called on the way."""
+        while until - self.t > self._slack:
+            self._call()
+            self._advance(min([until, *(clock.due for clock in self._clocks)]))
+
+    def _call(self) -> None:
+        """Call the controllers whose time has come."""
+        now, slack = self.t, self._slack
+        self._begin()
+        self._calling = True
+        try:
+            for clock in self._clocks:
+                if clock.is_due(now, slack):
+                    values = clock.controller(clock.due, self)
+                    if values is not None:
+                        self.set(arguments.mapping("controller", values, "values by name, or None"))
+                    clock.beat += 1
+        finally:
+            self._calling = False
+
+    def _advance(self, until: float) -> None:
+        """Go on to a time without a look at controllers, in pieces between which an interrupt is heard."""
+        loop, control = self._loop, self._control
+        if control[_BEGUN] == 0:
+            self._begin()
+        if self._adaptive:
+            self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
+        began = 0.0
+        try:
+            while True:
+                self._until = until
+                self._unsure = True
+                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most)
+                if code == _DONE:
+                    self._unsure = False
+                    return
+                if code != abi.PAUSED:
+                    self._fail(code)
+                self._unsure = False
+                now = time.perf_counter()
+                if began > 0.0:
+                    more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)
+                    self._steps_at_once = int(min(max(more, FIRST_STEPS), 1e7))
+                began = now
+        except KeyboardInterrupt:  # which may come before it is known how the loop ended
+            self._recover()
+            raise
+
+    def _fail(self, code: int) -> None:
+        """Go back to the last accepted state, and raise what happened."""
+        moment = self.t
+        reason = reason_of(self._loop, code, moment)
+        self._replay()
+        raise StepError(reason, moment)
+
+    def _replay(self) -> None:
+        """Have the last accepted state, as a failed step leaves numbers behind that are of no use.
+
+        The steps from what is remembered on are done once more. Whether a failed one was counted depends on where it
+        failed.
+        """
+        loop, steps = self._loop, int(self._control[abi.STEPS])
+        for accepted in (steps, steps - 1):
+            loop.go_back()
+            if self._control[abi.BEGUN] == 0:
+                break
+            if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED):
+                break
+        else:
+            loop.go_back()
+        self._unsure = False
+
+
+def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:
+    """Return a named view of a part of the state."""
+    names, units = zip(*((q.name, q.unit) for q in quantities), strict=True)
+    return Named.of(y[first : first + len(names)], names, units)

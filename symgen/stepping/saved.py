@@ -1,0 +1,80 @@
+"""What a run remembers, as a value that can be sent elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError
+from symgen.runtime import abi
+
+
+@dataclass(frozen=True)
+class Saved:
+    """All that a run remembers at an accepted state; see `SteppedRun.save`.
+
+    It can be pickled, and taken up in another process by a run of the same model, method and integrator.
+
+    Attributes
+    ----------
+    owner : mapping
+        What a run must have in common with the one that was saved, in words.
+    arrays : mapping of str to array
+        State, time, work, scratch, counters, past points and factors, by name.
+    step : float
+        The constant step of the grid that the run stands on [s].
+    parameters : mapping of str to float
+        Values at that time.
+    clocks : tuple of (float, float, int)
+        Start [s], interval [s] and next beat of every controller.
+    """
+
+    owner: Mapping[str, str] = field(repr=False)
+    arrays: Mapping[str, NDArray[Any]] = field(repr=False)
+    step: float = field(repr=False)
+    parameters: Mapping[str, float]
+    clocks: tuple[tuple[float, float, int], ...]
+
+    @property
+    def t(self) -> float:
+        """Time of the state [s]."""
+        return float(self.arrays["clock"][abi.TIME])
+
+    def check(self, owner: Mapping[str, str], arrays: Mapping[str, NDArray[Any]], intervals: tuple[float, ...]) -> None:
+        """Refuse what belongs to another run.
+
+        Parameters
+        ----------
+        owner, arrays, intervals
+            Of the run that is to take it up.
+
+        Raises
+        ------
+        InputError
+            If they do not fit; says what is different.
+        """
+        for what, own in owner.items():
+            if self.owner.get(what) != own:
+                raise InputError("restore", f"a state of {what} {own}", f"one of {self.owner.get(what, 'another')}")
+        for name, own_array in arrays.items():
+            given = self.arrays.get(name)
+            fits = isinstance(given, np.ndarray) and given.dtype == own_array.dtype and given.ndim == 1
+            if not fits or (name in FIXED and len(given) != len(own_array)):  # type: ignore[arg-type]  # an array
+                raise InputError("restore", f"'{name}' as this run has it", "another size or kind")
+        saved = tuple(interval for _, interval, _ in self.clocks)
+        if saved != intervals:
+            expected = f"a run with controllers as that which was saved ({_every(saved)})"
+            raise InputError("restore", expected, _every(intervals), "register them with `every` before")
+
+
+#: Arrays that are as long in every run of a model: room for factors is made as it is needed.
+FIXED = frozenset({"y", "p", "w", "iw", "clock", "gauges", "control", "events", "memory", "share", "metric", "scales"})
+
+
+def _every(intervals: tuple[float, ...]) -> str:
+    """Return intervals in words."""
+    return "every " + ", ".join(f"{h:g} s" for h in intervals) if intervals else "none"

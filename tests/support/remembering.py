@@ -1,0 +1,11 @@
+"""Pairs of methods and integrators that remember something of their past, and some that do not."""
+
+#: A method for each integrator, and methods that remember something beside the state.
+PAIRS = [
+    *(("direct-correction", name) for name in ("euler", "heun", "rk4", "rkmk4", "abm4", "abm", "dopri5", "dop853")),
+    *(("direct-correction", name) for name in ("sdirk", "radau5", "trapezoidal", "newmark")),
+    *(("ggl", "radau5"), ("generalized-alpha", "generalized-alpha"), ("index3-augmented-lagrangian", "trapezoidal")),
+    *((m, i) for m in ("coordinate-partitioning", "null-space") for i in ("rk4", "abm4", "abm", "dop853")),
+    *(("augmented-hamiltonian", "dopri5"), ("augmented-lagrangian", "rk4")),
+]
+CONSTANT = {"options": {"integrator.adaptive": "false"}}
