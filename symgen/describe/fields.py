@@ -75,6 +75,12 @@ Points = Annotated[
     dict[str, Vector], Meta(description="a table of points, name = [x, y] or [x, y, z] in the body's frame")
 ]
 Numbers = Annotated[tuple[float, ...], Meta(description="a list of numbers")]
+Condition = Annotated[
+    str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
+]
+NewVelocities = Annotated[
+    dict[str, StateFunction], Meta(description='a table of new velocities, such as "ball.vy" = "-0.7*ball.vy"')
+]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 T = TypeVar("T")

@@ -149,6 +149,21 @@ class Defaults(msgspec.Struct, frozen=True):
     source: str = ""
 
 
+class Event(msgspec.Struct, frozen=True):
+    """A condition that is watched during a run.
+
+    `when` is a switching function: the event happens where it passes through zero, upwards (``rising``), downwards
+    (``falling``) or both (``any``); `text` is the condition as written. `reset` holds velocities and their new values.
+    """
+
+    name: str
+    when: Expr
+    direction: str
+    action: str
+    reset: tuple[tuple[Expr, Expr], ...] = ()
+    text: str = ""
+
+
 class Mechanism(msgspec.Struct, frozen=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
@@ -165,6 +180,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     joints: tuple[Joint, ...]
     forces: tuple[Force, ...]
     defaults: Defaults = Defaults()
+    events: tuple[Event, ...] = ()
 
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.

@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.events import EventSection
 from symgen.describe.sections import (
     BodySection,
     MechanismSection,
@@ -40,6 +41,7 @@ def schema() -> dict[str, Any]:
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases)}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
+            "events": _named(_table(EventSection)),
         },
     }
 

@@ -273,16 +273,20 @@ class Scope:
         """Return a number or an expression of t and parameters, without tables: it must have two derivatives."""
         return self._expression(key, value, self.model.times)
 
-    def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
+    def of_state(
+        self, key: str, value: float | str, words: Mapping[str, str] | None = None, *, conditions: bool = False
+    ) -> Expr:
         """Return a number or an expression of t, parameters, body coordinates and the element's own words.
 
-        Coordinates are those of the centre of mass, as in results.
+        Coordinates are those of the centre of mass, as in results. With `conditions` it may be true or false instead.
         """
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
-        what = f"a number or an expression of t{listed}, parameters and body coordinates"
+        kind = "a condition" if conditions else "a number"
+        what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.times.elsewhere))
+        known = Names(what, plain, self.model.coordinates, self.model.times.elsewhere)
+        return self._expression(key, value, known, conditions)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""
@@ -304,9 +308,9 @@ class Scope:
                 raise self.error(key, f"'{word}' to mean the element's own", got, "rename the parameter")
         return own
 
-    def _expression(self, key: str, value: float | str, names: Names) -> Expr:
+    def _expression(self, key: str, value: float | str, names: Names, conditions: bool = False) -> Expr:
         if isinstance(value, str):
-            return parse(value, names, self.where(key))
+            return parse(value, names, self.where(key), conditions)
         if not math.isfinite(value):
             raise self.error(key, "a finite number", str(value))
         return Number(float(value))

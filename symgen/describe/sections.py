@@ -186,6 +186,13 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
 
 
 #: Sections whose entries are named tables -> what one entry is called.
-NAMED = {"parameters": "parameter", "tables": "table", "bodies": "body", "joints": "joint", "forces": "force"}
+NAMED = {
+    "parameters": "parameter",
+    "tables": "table",
+    "bodies": "body",
+    "joints": "joint",
+    "forces": "force",
+    "events": "event",
+}
 #: All sections of a file.
 SECTIONS = ("mechanism", "run", *NAMED)

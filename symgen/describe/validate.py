@@ -11,6 +11,7 @@ import msgspec
 from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.evaluate import evaluate
+from symgen.describe.events import read_event
 from symgen.describe.fields import PlainScalar, found, read, read_value
 from symgen.describe.mechanism import Defaults, Force, Joint, Mechanism, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
@@ -96,6 +97,7 @@ class _Validator:
             joints=tuple(self.joint(name, self.where("joints")) for name, _ in self.entries("joints")),
             forces=tuple(self.force(name, value) for name, value in self.entries("forces")),
             defaults=self.defaults(line(head.source)),
+            events=tuple(read_event(Scope(self.model, f"events.{n}", n), n, e) for n, e in self.entries("events")),
         )
 
     # Names ---------------------------------------------------------------------------------------------------------

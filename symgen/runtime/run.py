@@ -21,6 +21,7 @@ from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Happening, Watched
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.records import Observed, Outputs, Sizes
 
@@ -62,6 +63,8 @@ class RunSpec:
         The run is stopped some time after it took more right-hand sides than this.
     max_steps : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
+    events : Watched or None
+        Events that are looked for.
     """
 
     until: float
@@ -78,6 +81,7 @@ class RunSpec:
     integrator_parameters: Mapping[str, float] = field(default_factory=dict)
     max_evaluations: int | None = None
     max_steps: float = MAX_STEPS
+    events: Watched | None = None
 
     @property
     def velocity_limit(self) -> float:
@@ -100,7 +104,8 @@ class Outcome:
     """What a run gave; arrays have one row an output.
 
     `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
-    evaluations at the outputs is computed when it is first asked for.
+    evaluations at the outputs is computed when it is first asked for. A run that an event has ended has its last output
+    there.
     """
 
     code: int
@@ -129,6 +134,8 @@ class Outcome:
     start: Start = field(repr=False)
     p: Array = field(repr=False)
     w: Array = field(repr=False)
+    happened: tuple[Happening, ...] = ()
+    accumulation: float | None = None
 
     @property
     def accelerations(self) -> Array:
@@ -227,24 +234,30 @@ def integrate(
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
     end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
+    times, states, status = (array[:k] for array in outputs)
+    if code in (abi.MET, abi.GATHERED) and not (k and times[-1] >= end):
+        here = np.concatenate([w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + compiled.info.windings]])
+        times, states = np.append(times, end), np.vstack([states, state.y[: compiled.info.ny]])
+        status = np.vstack([status, here])
+    events = simulation.events
+    code = abi.DONE if code == abi.MET else code  # an event at which the run was to end
+    violations = tuple(float(w[i]) for i in (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED))
+    attempts = int(control[abi.STEPS] + control[abi.REJECTED])
+    reason = end_reason(code, end, violations, float(gauges[abi.ENERGY_SCALE]), attempts, spec)
+    if code == abi.VANISHED:
+        reason += f" (row {_shortest_row(compiled, w)})"
+    if code == abi.GATHERED and events is not None:
+        reason = events.reason
     after = cache_stats()
     n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
     table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
         code=code,
-        reason=end_reason(
-            code,
-            end,
-            tuple(float(w[i]) for i in (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)),
-            float(gauges[abi.ENERGY_SCALE]),
-            int(control[abi.STEPS] + control[abi.REJECTED]),
-            spec,
-        )
-        + (f" (row {_shortest_row(compiled, w)})" if code == abi.VANISHED else ""),
+        reason=reason,
         end=end,
-        times=outputs.times[:k],
-        states=outputs.states[:k],
-        status_columns=outputs.status[:k],
+        times=times,
+        states=states,
+        status_columns=status,
         steps=int(control[abi.STEPS]),
         rejected=int(control[abi.REJECTED]),
         evaluations=int(control[abi.EVALUATIONS]),
@@ -268,6 +281,8 @@ def integrate(
         start=start,
         p=state.p,
         w=w,
+        happened=() if events is None else tuple(events.happened),
+        accumulation=None if events is None else events.accumulation,
     )
 
 

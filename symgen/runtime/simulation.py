@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +19,7 @@ from symgen.runtime.model_arrays import entries_of, lengths_of
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator, Setup
     from symgen.runtime.records import Outputs, Sizes, Span, State
     from symgen.runtime.run import RunSpec
@@ -43,6 +45,8 @@ class Simulation:
     ----------
     state : State
         All that the run keeps, as arrays.
+    events : Events or None
+        What happens in it, where events are looked for.
 
     Notes
     -----
@@ -55,12 +59,25 @@ class Simulation:
         self.setup = integrator.setup(compiled, spec, start.w)
         self.sizes = sizes_of(compiled)
         self.scheme = self.setup.scheme
+        self.events: Events | None = None
         self.state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         gauges = self.state.gauges
         gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
         gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
         gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
+        if spec.events is not None:
+            self._watch(spec.events)
+
+    def _watch(self, watched: Watched) -> None:
+        """Look for events."""
+        from symgen.runtime.events import Events
+        from symgen.runtime.hunting import decide, with_events
+
+        functions = *self.setup.functions[:-2], watched.function, decide
+        self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
+        self.state = self.state._replace(hunt=watched.new_hunt(self.sizes, len(self.state.w)))
+        self.events = Events(self.compiled, watched, self.spec.until)
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -81,10 +98,23 @@ class Simulation:
             End [s]; that of the run unless given.
         pause : float
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
+
+        Raises
+        ------
+        InputError
+            If an event asks for velocities that the constraints do not allow.
         """
         span = span_of(self.spec, self.setup, until, pause)
         while True:
             code = int(self.setup.loop(*self.setup.functions, self.scheme, self.sizes, span, self.state, outputs))
+            if self.events is not None:
+                found = self.events.take(self.state)
+                if code == abi.MET:
+                    code = self.events.meet(self.state, found)
+                    if code == abi.DONE:
+                        continue
+                elif code == abi.NOTED:
+                    continue
             if code == abi.NO_ROOM:
                 self.scheme = _with_room(self.scheme)
             elif code == abi.CHOOSE:
@@ -109,12 +139,14 @@ class Simulation:
         return {name: array.copy() for name, array in found.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Take up what `save` returned, for the same model, method, integrator and limits."""
+        """Take up what `save` returned, for the same model, method, integrator, limits and events."""
         for name, array in saved.items():
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
             else:
                 self.scheme = self.scheme._replace(**{name: array.copy()})
+        if self.events is not None:
+            self.events.forget_after(float(self.state.clock[abi.TIME]))
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
@@ -197,7 +229,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
         *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
-        np.zeros(sizes.width + room),
+        *(np.zeros(0), np.zeros(sizes.width + room)),
     )
 
 
