@@ -12,6 +12,7 @@ import numpy as np
 from symgen.arguments import shown
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
+from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
@@ -20,7 +21,7 @@ from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Event, Mechanism
     from symgen.runtime.integrator import Integrator
 
 #: Adaptive runs without asked output times report this many equidistant ones.
@@ -42,6 +43,7 @@ class Plan:
     warnings: tuple[str, ...]
     solver_is_free: bool = False  # the solver was not asked for and may be chosen by the start
     shape_reason: str = ""
+    events: tuple[Event, ...] = ()
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
@@ -112,7 +114,19 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
     shape = choose_shape(mechanism, choice, s.shape, expected_evaluations(tableau, until, step, adaptive))
     choice = replace(choice, shape=shape.shape)
-    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason)
+    return Plan(
+        choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason, events_asked(mechanism, s)
+    )
+
+
+def events_asked(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
+    """Return the events of a run: those of the mechanism, then those that are asked for beside."""
+    return (
+        *mechanism.events,
+        *events_of(mechanism, s.events),
+        *(watched(mechanism, "stop_when", text, STOP) for text in s.stop_when),
+        *(watched(mechanism, "record_when", text, RECORD) for text in s.record_when),
+    )
 
 
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.compiling.events import compile_events
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
@@ -71,3 +72,13 @@ def ready(
     start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
+
+
+def watching(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, parameters: Mapping[str, float] | None = None
+) -> Plan:
+    """Return a plan whose run looks for its events, which are compiled for the model."""
+    if not plan.events:
+        return plan
+    watched = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, parameters))
+    return replace(plan, spec=replace(plan.spec, events=watched))

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 @click.argument("model")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "options", "strict"),
-    *("verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
+    *("stop_when", "record_when", "verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
 )
 @click.option("--save", metavar="FILE", help="Write the result to FILE: .nc, .parquet or .csv.")
 @click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
 from pathlib import Path
@@ -66,6 +66,44 @@ class Seconds:
     compile: float
     run: float
     run_spread: float = 0.0
+
+
+@dataclass(frozen=True)
+class EventRecord:
+    """An event that happened during a run.
+
+    Attributes
+    ----------
+    t : float
+        When [s].
+    name, action : str
+        Which one, and what was done: ``record``, ``stop`` or ``reset``.
+    q, v : mapping
+        Coordinates and velocities there, before a reset.
+    v_after : mapping or None
+        Velocities after a reset.
+    impulses : mapping
+        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that were given
+        values.
+    work : float
+        What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
+    """
+
+    t: float
+    name: str
+    action: str
+    q: Mapping[str, float]
+    v: Mapping[str, float]
+    v_after: Mapping[str, float] | None = None
+    impulses: Mapping[str, float] = field(default_factory=dict)
+    work: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as JSON has it."""
+        after = None if self.v_after is None else dict(self.v_after)
+        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
+        numbers = {"impulses": dict(self.impulses), "work": self.work}
+        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
 
 
 @dataclass(frozen=True, repr=False)
@@ -148,6 +186,9 @@ class Result:
     error_estimate: float | None
     outcome: Outcome
     forces: Forces
+    end: float = math.nan
+    events: tuple[EventRecord, ...] = ()
+    accumulation: float | None = None
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -319,6 +360,9 @@ class Result:
                     for e in self.rank_events
                 ],
                 "rank_event_count": self.rank_event_count,
+                "end": self.end,
+                "events": [event.to_json() for event in self.events],
+                "accumulation": self.accumulation,
                 "final": {
                     "t": float(self.t[last]) if last >= 0 else None,
                     "q": self.q.row(),

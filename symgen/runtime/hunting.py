@@ -11,7 +11,7 @@ Which side of an event a run is on is kept as such, not taken from g: a state th
 rounding, is on the side that it came from, and after a change of velocities on the side that it goes to.
 
 What is kept stands in ``run.hunt``, in this order: numbers of the step (`HEAD`), columns with one number for each
-event (`COLUMNS`), what the emitted function writes (values, then rates), a rate of the state, ``w`` and ``iw`` at the
+event (`COLUMNS`), what the emitted function writes (values, then rates), a state and its rate, ``w`` and ``iw`` at the
 beginning of the step and at the state that is looked at, and notes: time, number of the event, state.
 """
 
@@ -31,6 +31,7 @@ from symgen.runtime.frame import CROWD, MEET, NOTHING, SEEK, TAKE, TRY, evaluate
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE
+from symgen.runtime.vectors import copied
 from symgen.store.jit import jit
 
 if TYPE_CHECKING:
@@ -380,14 +381,15 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
     width, nw, ni, hunt = system.sizes.width, run.w.shape[0], run.iw.shape[0], run.hunt
     n = int(hunt[_COUNT])
     at = N_HEAD + N_COLUMNS * n
-    out, rate = part(hunt, at, 2 * n), part(hunt, at + 2 * n, width)
+    out, state, rate = part(hunt, at, 2 * n), part(hunt, at + 2 * n, width), part(hunt, at + 2 * n + width, width)
     if hunt[_NEEDS_RATES] != 0.0:
-        kept = at + 2 * n + width + nw + ni
+        kept = at + 2 * n + 2 * width + nw + ni
         for i in range(nw):
             hunt[kept + i] = run.w[i]
         for i in range(ni):
             hunt[kept + nw + i] = run.iw[i]
-        evaluate(system, run, t, y, rate)
+        copied(width, y, state)
+        evaluate(system, run, t, state, rate)  # which may close coordinates that depend on others
         run.control[_EVALUATIONS] += 1
         system.happens(t, y, run.p, run.w, rate, out)
         for i in range(nw):
@@ -430,7 +432,7 @@ def look(system: Any, run: Any, again: bool) -> None:
 def remember(run: Any) -> None:
     """Keep what emitted functions remember at the beginning of a step."""
     nw, ni, n = run.w.shape[0], run.iw.shape[0], int(run.hunt[_COUNT])
-    at = N_HEAD + (N_COLUMNS + 2) * n + run.trial.shape[0]
+    at = N_HEAD + (N_COLUMNS + 2) * n + 2 * run.trial.shape[0]
     for i in range(nw):
         run.hunt[at + i] = run.w[i]
     for i in range(ni):
@@ -440,7 +442,7 @@ def remember(run: Any) -> None:
 def recall(run: Any) -> None:
     """Have again what `remember` kept."""
     nw, ni, n = run.w.shape[0], run.iw.shape[0], int(run.hunt[_COUNT])
-    at = N_HEAD + (N_COLUMNS + 2) * n + run.trial.shape[0]
+    at = N_HEAD + (N_COLUMNS + 2) * n + 2 * run.trial.shape[0]
     for i in range(nw):
         run.w[i] = run.hunt[at + i]
     for i in range(ni):
@@ -450,7 +452,7 @@ def recall(run: Any) -> None:
 @jit()
 def notes_at(n: int, width: int, nw: int, ni: int) -> int:
     """Return where notes begin."""
-    return N_HEAD + (N_COLUMNS + 2) * n + width + 2 * (nw + ni)
+    return N_HEAD + (N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)
 
 
 _MEANINGS: dict[str, Any] = {
@@ -467,15 +469,29 @@ def with_events(loop: Any) -> Any:
     loop : compiled loop
         From `symgen.runtime.frame.loop`.
     """
+    if loop is None:  # an integrator whose loop depends on the model
+        return None
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         taken = {"rhs", "confirm", "accept", "happens", "decide", *functions}
         kinds = (kind if called in taken else types.int64 for called, kind in frame.FUNCTIONS.items())
         signature = types.int64(*kinds, scheme, SIZES, SPAN, STATE, OUTPUTS)
-        _loops[loop] = compiled_loop(
-            module, f"{name}_with_events", frame.integrate, signature, **{**meanings, **_MEANINGS}
-        )
+        own = f"{module.rpartition('.')[2]}_{name}"
+        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]
+
+
+def __getattr__(name: str) -> Any:
+    """Return the loop that `with_events` makes of one of the built-in schemes: another process asks for it by name."""
+    from importlib import import_module
+    from importlib.util import find_spec
+
+    scheme, _, own = name.partition("_")
+    if own and find_spec(f"symgen.runtime.schemes.{scheme}") is not None:
+        loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), own, None)
+        if loop in frame.RECIPES:
+            return with_events(loop)
+    raise AttributeError(f"module '{__name__}' has no attribute '{name}'")
 
 
 # -- from Python -------------------------------------------------------------------------------------------------------
