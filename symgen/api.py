@@ -18,7 +18,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, ready, start_of
+from symgen.run_setup import give_inputs, ready, start_of, watching
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, default
@@ -182,7 +182,9 @@ class Model:
             ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
             ``inputs`` (by name a number, a formula of t, parameters and state, a pair of times and values, or a mapping
             with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``),
-            ``options`` (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
+            ``options`` (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
+            ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
+            in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_steps`` (attempts at steps after which it has),
             ``repeat`` (warm up, then time that many runs and report the shortest), ``shape`` (``auto``, ``straight``
@@ -196,6 +198,7 @@ class Model:
         from symgen.auto import resolve
         from symgen.result.agreement import settle
         from symgen.result.build import build_result
+        from symgen.runtime.hunting import with_events
         from symgen.runtime.timing import repeated
         from symgen.store import ahead
         from symgen.store.stats import seconds_in_cache
@@ -207,8 +210,10 @@ class Model:
         plan = make_plan(mechanism, chosen)
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         before = seconds_in_cache()
-        ahead.start(plan.tableau.loop(plan.spec.adaptive))
+        loop = plan.tableau.loop(plan.spec.adaptive)
+        ahead.start(with_events(loop) if plan.events else loop)
         compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
+        plan = watching(mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         second = None

@@ -13,6 +13,7 @@ from symgen.arguments import shown
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
+from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
@@ -22,7 +23,7 @@ from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Hold, Mechanism
+    from symgen.describe.mechanism import Event, Hold, Mechanism
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.last_state import LastState
 
@@ -47,6 +48,7 @@ class Plan:
     shape_reason: str = ""
     holds: tuple[Hold, ...] = ()
     last: LastState | None = None  # what the run goes on from
+    events: tuple[Event, ...] = ()
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
@@ -130,7 +132,18 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     )
     choice = replace(choice, shape=shape.shape)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
-    return Plan(choice, tableau, method_parameters, spec, tuple(warnings), free, shape.reason, holds, last)
+    return Plan(
+        choice,
+        tableau,
+        method_parameters,
+        spec,
+        tuple(warnings),
+        free,
+        shape.reason,
+        holds,
+        last,
+        events_asked(mechanism, s),
+    )
 
 
 def _check_same(mechanism: Mechanism, last: LastState) -> None:
@@ -149,6 +162,16 @@ def _shape(s: Settings, last: LastState | None) -> str:
     """Return the shape asked for; a run that goes on from another keeps that one's unless asked otherwise."""
     kept = {} if last is None or last.made is None else last.made
     return str(kept.get("shape", s.shape)) if s.shape == "auto" else s.shape
+
+
+def events_asked(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
+    """Return the events of a run: those of the mechanism, then those that are asked for beside."""
+    return (
+        *mechanism.events,
+        *events_of(mechanism, s.events),
+        *(watched(mechanism, "stop_when", text, STOP) for text in s.stop_when),
+        *(watched(mechanism, "record_when", text, RECORD) for text in s.record_when),
+    )
 
 
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:

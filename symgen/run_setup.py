@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen import __version__
+from symgen.compiling.events import compile_events
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
@@ -236,3 +237,13 @@ def _going_on(
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence} with its coordinates and velocities alone: {'; '.join(other)}"
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
+
+
+def watching(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, parameters: Mapping[str, float] | None = None
+) -> Plan:
+    """Return a plan whose run looks for its events, which are compiled for the model."""
+    if not plan.events:
+        return plan
+    watched = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, parameters))
+    return replace(plan, spec=replace(plan.spec, events=watched))

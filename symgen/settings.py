@@ -25,7 +25,7 @@ class About:
     text : str
         One sentence, ``{unit}`` standing where its unit belongs.
     kind : type
-        Of its values: float, int, str, bool, dict (values by name) or tuple (numbers).
+        Of its values: float, int, str, bool, dict (values by name), tuple (numbers) or list (texts).
     check : callable
         (where, value) -> the value as a run takes it, or `InputError`.
     unit : str
@@ -84,6 +84,16 @@ def _repeat(where: str, value: object) -> int:
 
 def _shape(where: str, value: object) -> str:
     return arguments.one_of(where, value, SHAPES)
+
+
+def _conditions(where: str, value: object) -> tuple[str, ...]:
+    return tuple(arguments.text(where, x, "a condition such as 'ball.y < 0.1'") for x in arguments.words(where, value))
+
+
+def _events(where: str, value: object) -> dict[str, dict[str, Any]]:
+    expected = "tables by the names of events, such as {'low': {'when': 'ball.y < 0.1'}}"
+    found = arguments.mapping(where, value, expected)
+    return {name: arguments.mapping(f"{where} '{name}'", table, expected) for name, table in found.items()}
 
 
 def _options(where: str, value: object) -> dict[str, str | float]:
@@ -161,6 +171,15 @@ class Settings:
     )
     options: Mapping[str, str | float] = _setting(
         {}, "Option, such as method.alpha=5.", dict, _options, flag="--option", metavar="KEY=VALUE"
+    )
+    stop_when: Sequence[str] = _setting(
+        (), "Condition at which the run ends, such as 'crank.theta > 2*pi'.", list, _conditions, metavar="CONDITION"
+    )
+    record_when: Sequence[str] = _setting(
+        (), "Condition whose times and states are noted.", list, _conditions, metavar="CONDITION"
+    )
+    events: Mapping[str, Mapping[str, Any]] = _setting(
+        {}, "Events beside those of the mechanism, as tables by name.", dict, _events
     )
     strict: bool = _setting(False, "Refuse a start that is not consistent.", bool, arguments.switch)
     verify: bool = _setting(

@@ -51,7 +51,7 @@ def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
     extra: dict[str, Any] = {"help": text or known.help, "callback": lambda c, p, v: _checked(name, v)}
     if known.kind is bool:
         extra["is_flag"] = True
-    elif known.kind is dict:
+    elif known.kind in (dict, list):
         extra |= {"multiple": True, "metavar": known.metavar}
     else:
         extra |= {"type": str if known.kind is tuple else known.kind, "default": value}

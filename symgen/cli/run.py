@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 @click.argument("model")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
-    *("options", "strict", "verify", "max_violation", "max_energy_error", "max_steps", "repeat", "shape"),
+    *("options", "stop_when", "record_when", "strict", "verify", "max_violation", "max_energy_error"),
+    *("max_steps", "repeat", "shape"),
 )
 @click.option(
     "--from",

@@ -42,10 +42,13 @@ class Side:
         ``(t, y, p, w, ydot, out)``, of type `symgen.runtime.abi.OBSERVE`; nothing is compiled before a loop takes it.
     labels : tuple of str
         What the elements of ``out`` are.
+    reads : frozenset of str
+        What it reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``.
     """
 
     function: Any
     labels: tuple[str, ...]
+    reads: frozenset[str]
 
     @cached_property
     def plain(self) -> Any:
@@ -103,9 +106,11 @@ def compile_side(
     text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])
     text += "\n".join(to_text(e) for _, e in formulas)
     stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    if store.get(folder, stem) is None:
+    metadata = store.get(folder, stem)
+    if metadata is None:
         with store.building(folder):
-            if store.get(folder, stem) is None:  # another process may have built it while this one waited
+            metadata = store.get(folder, stem)  # another process may have built it while this one waited
+            if metadata is None:
                 from symgen.emit.side import emit_side
                 from symgen.lower.side import lower_side
 
@@ -114,5 +119,7 @@ def compile_side(
                 except OverflowError:
                     expected = "numbers whose products, sums and quotients are finite"
                     raise InputError(purpose, expected, "some that overflow") from None
-                store.put(folder, stem, emit_side(program), {})
-    return Side(getattr(load_module(store.path(folder, stem)), name), tuple(labels))
+                metadata = {"reads": list(program.reads)}
+                store.put(folder, stem, emit_side(program), metadata)
+    function = getattr(load_module(store.path(folder, stem)), name)
+    return Side(function, tuple(labels), frozenset(metadata["reads"]))

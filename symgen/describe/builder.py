@@ -71,6 +71,10 @@ class MechanismBuilder:
         """Add a force element of a type, with that type's keys."""
         return self._add("forces", name, {"type": type} | keys)
 
+    def event(self, name: str, **keys: Any) -> Self:
+        """Add an event: ``when``, ``direction``, ``action``, ``reset`` as in a file."""
+        return self._add("events", name, keys)
+
     @property
     def source(self) -> str:
         """What messages call this description."""

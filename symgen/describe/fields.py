@@ -86,6 +86,12 @@ Held = Annotated[
 JointStart = Annotated[
     dict[str, float | str], Meta(description="a table of the joint's coordinates at the start, such as { angle = 0.5 }")
 ]
+Condition = Annotated[
+    str, Meta(description="a condition such as 'ball.y < 0.1', or an expression that passes through zero")
+]
+NewVelocities = Annotated[
+    dict[str, StateFunction], Meta(description='a table of new velocities, such as "ball.vy" = "-0.7*ball.vy"')
+]
 PositiveNumber = Annotated[float, Meta(description="a number above 0", gt=0)]
 
 T = TypeVar("T")

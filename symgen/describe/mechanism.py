@@ -218,6 +218,21 @@ class Defaults(msgspec.Struct, frozen=True):
     source: str = ""
 
 
+class Event(msgspec.Struct, frozen=True):
+    """A condition that is watched during a run.
+
+    `when` is a switching function: the event happens where it passes through zero, upwards (``rising``), downwards
+    (``falling``) or both (``any``); `text` is the condition as written. `reset` holds velocities and their new values.
+    """
+
+    name: str
+    when: Expr
+    direction: str
+    action: str
+    reset: tuple[tuple[Expr, Expr], ...] = ()
+    text: str = ""
+
+
 class Mechanism(msgspec.Struct, frozen=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
@@ -237,6 +252,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     outputs: tuple[Output, ...] = ()
     seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
     holds: tuple[Hold, ...] = ()
+    events: tuple[Event, ...] = ()
 
     @property
     def inputs(self) -> tuple[str, ...]:

@@ -84,7 +84,7 @@ class Names(msgspec.Struct, frozen=True):
         return Names(what, plain, elsewhere=self.elsewhere, hints=self.hints)
 
 
-def parse(text: str, names: Names, where: str) -> Expr:
+def parse(text: str, names: Names, where: str, conditions: bool = False) -> Expr:
     """Return the tree of the formula `text`, or raise `InputError` with one sentence about what is wrong.
 
     Parameters
@@ -95,8 +95,10 @@ def parse(text: str, names: Names, where: str) -> Expr:
         The names it may use.
     where : str
         File and key, for the message.
+    conditions : bool
+        Whether the formula may be true or false instead of a number.
     """
-    return _Reader(names, where).read(text)
+    return _Reader(names, where).read(text, conditions)
 
 
 class _Reader:
@@ -108,7 +110,7 @@ class _Reader:
     def fail(self, got: str, hint: str = "", expected: str = "") -> InputError:
         return InputError(self.where, expected or self.names.what, got, hint)
 
-    def read(self, text: str) -> Expr:
+    def read(self, text: str, conditions: bool) -> Expr:
         if len(text) > LONGEST_TEXT:
             raise self.fail(f"{len(text)} characters", expected=f"a formula of at most {LONGEST_TEXT} characters")
         if not text.strip():
@@ -122,7 +124,8 @@ class _Reader:
             raise self.fail(f"{quoted(text)}, which breaks off or has a slip{near}") from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep() from None
-        result = self.quantity(tree.body, 0)
+        condition = conditions and _is_condition(tree.body)
+        result = self.condition(tree.body, 0) if condition else self.quantity(tree.body, 0)
         if _depth(result) > DEEPEST:
             raise self.too_deep()
         return result

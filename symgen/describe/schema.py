@@ -8,6 +8,7 @@ from typing import Any
 
 import msgspec
 
+from symgen.describe.events import EventSection
 from symgen.describe.fields import JointStart
 from symgen.describe.sections import (
     BodySection,
@@ -45,6 +46,7 @@ def schema() -> dict[str, Any]:
             "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
+            "events": _named(_table(EventSection)),
         },
     }
 

@@ -41,11 +41,11 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     inputs: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, mechanism: Mechanism) -> Model:
+    def of(cls, mechanism: Mechanism, source: str = "") -> Model:
         """Return what is known of a mechanism that was read already, for formulas that come later."""
         joints = {joint.name: joint for joint in mechanism.joints}
         return cls(
-            mechanism.name,
+            source or mechanism.name,
             {p.name: p.value for p in mechanism.parameters if not p.input},
             {table.name: table for table in mechanism.tables},
             {body.name: body for body in mechanism.bodies},
@@ -313,21 +313,22 @@ class Scope:
         """Return a number or an expression of t and parameters, with smooth tables: it must have two derivatives."""
         return self._expression(key, value, self.model.times)
 
-    def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
+    def of_state(
+        self, key: str, value: float | str, words: Mapping[str, str] | None = None, *, conditions: bool = False
+    ) -> Expr:
         """Return a number or an expression of t, parameters, the state and the element's own words.
 
         Of the state: coordinates of bodies, which are those of the centre of mass, as in results, points of bodies,
-        coordinates of joints, and their rates (`symgen.describe.readings`).
+        coordinates of joints, and their rates (`symgen.describe.readings`). With `conditions` it may be true or false
+        instead.
         """
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
-        what = f"a number or an expression of t{listed}, parameters and body coordinates"
+        kind = "a condition" if conditions else "a number"
+        what = f"{kind} or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.model.states)
-        return self._expression(
-            key,
-            value,
-            Names(what, plain, self.model.coordinates, self.model.functions, readings=Readings(self.model)),
-        )
+        known = Names(what, plain, self.model.coordinates, self.model.functions, readings=Readings(self.model))
+        return self._expression(key, value, known, conditions)
 
     def of_motion(self, key: str, value: float | str) -> Expr:
         """Return a number or an expression of t, parameters and all that is known at outputs."""
@@ -361,9 +362,9 @@ class Scope:
                 raise self.error(key, f"'{word}' to mean the element's own", got, f"rename the {what}")
         return own
 
-    def _expression(self, key: str, value: float | str, names: Names) -> Expr:
+    def _expression(self, key: str, value: float | str, names: Names, conditions: bool = False) -> Expr:
         if isinstance(value, str):
-            return parse(value, names, self.where(key))
+            return parse(value, names, self.where(key), conditions)
         if not math.isfinite(value):
             raise self.error(key, "a finite number", str(value))
         return Number(float(value))

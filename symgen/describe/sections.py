@@ -253,6 +253,7 @@ NAMED = {
     "joints": "joint",
     "forces": "force",
     "outputs": "output",
+    "events": "event",
 }
 #: All sections of a file.
 SECTIONS = ("mechanism", "run", *NAMED)

@@ -12,6 +12,7 @@ from symgen.describe.bodies import planar_body, spatial_body
 from symgen.describe.bounds import DEEPEST
 from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
+from symgen.describe.events import read_event
 from symgen.describe.fields import JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Table
@@ -118,6 +119,7 @@ class _Validator:
             holds=tuple(
                 hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
             ),
+            events=tuple(read_event(Scope(self.model, f"events.{n}", n), n, e) for n, e in self.entries("events")),
         )
         holds_of(mechanism, self.source)  # says what is held twice
         return mechanism

@@ -35,6 +35,13 @@ class SideProgram:
     tables: tuple[Interpolation, ...]
     formulas: tuple[str, ...]
 
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """What the function reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
+        graph = self.block.graph
+        found = (graph.nodes[n] for n in graph.needed(self.block.nodes))
+        return tuple(sorted({str(o.payload[0]) for o in found if o.op == "input" and isinstance(o.payload, tuple)}))
+
 
 @dataclass
 class SideModel(Model):

@@ -147,8 +147,23 @@ def run_again(compiled: CompiledModel, plan: Plan, outcome: Outcome, points: Poi
     second, nq = integrate(compiled, plan.tableau, start, spec), compiled.info.nq
     found = None
     if second.code == abi.DONE:
-        found = agreement(points, outcome.states[:, :nq], second.states[:, :nq])
+        a, b = _comparable(outcome, second)
+        found = agreement(points, outcome.states[a, :nq], second.states[b, :nq])
     return Rerun(other, second, f"a run with {steps_of(other)}", found)
+
+
+def _comparable(first: Outcome, second: Outcome) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return which outputs of two runs to compare: those at the same times, and the last ones where both end early.
+
+    Where only one of them has been stopped by an event, its last output stands beside that of the other one.
+    """
+    same = min(len(first.times), len(second.times))
+    apart = np.flatnonzero(first.times[:same] != second.times[:same])
+    same = int(apart[0]) if len(apart) else same
+    rows = [np.arange(same) for _ in range(2)]
+    if same < max(len(first.times), len(second.times)):
+        rows = [np.append(rows[0], len(first.times) - 1), np.append(rows[1], len(second.times) - 1)]
+    return rows[0], rows[1]
 
 
 def steps_of(plan: Plan) -> str:

@@ -52,6 +52,9 @@ def contract(result: Result) -> dict[str, Any]:
                 for e in result.rank_events
             ],
             "rank_event_count": result.rank_event_count,
+            "end": result.end,
+            "events": [event.to_json() for event in result.events],
+            "accumulation": result.accumulation,
             "start": result.start,
             "final": {
                 "t": float(result.t[last]) if last >= 0 else None,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING
 
 from symgen.result.result import FAILED
@@ -30,6 +31,10 @@ def lines(result: Result) -> list[tuple[str, str]]:
     ]
     if result.rank_event_count:
         found.append(("passages", f"{result.rank_event_count} near singular positions"))
+    if result.events:
+        counts = Counter(event.name for event in result.events)
+        said = [name if n == 1 else f"{name} {n} times" for name, n in counts.items()]
+        found.append(("events", f"{', '.join(said)}; the last at t = {result.events[-1].t:g} s"))
     if len(result.t):
         found.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
     return found

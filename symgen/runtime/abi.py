@@ -25,6 +25,8 @@ MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
 MOVE = types.FunctionType(types.int64(_A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
+#: decide(hunt, n, notes, following, h, hunting, width, y) of `symgen.runtime.hunting`.
+DECIDE = types.FunctionType(types.int64(_A, types.int64, types.int64, _F8, _F8, types.int64, types.int64, _A))
 
 # -- positions in the status section at the beginning of w, and in iw --------------------------------------------------
 PHI = STATUS.index("position_violation")
@@ -62,7 +64,7 @@ N_COUNTERS = len(COUNTERS)
     LAST_RANK,
     JACOBIANS,
     NEWTON_ITERATIONS,
-    BEGUN,  # 1 once the first state is accepted, `AFRESH` or `ALTERED` where parameters were changed since
+    BEGUN,  # 1 once the first state is accepted, `AFRESH` or `ALTERED` where something was changed since
     INDEX,  # steps of the grid that began at `ORIGIN`
     REFUSED,  # 1 where the last attempt was
     BARRED,  # 1 where a zone is not to be crossed in one step: an attempt to do so has failed
@@ -118,10 +120,25 @@ N_EVENT = 4
 MAX_EVENTS = 1000
 
 # -- how a loop ended --------------------------------------------------------------------------------------------------
-DONE, STOPPED, NOT_FINITE, POSITION, VELOCITY, ENERGY, CORRECTION, TINY_STEP, NEWTON, NO_PROGRESS, VANISHED = range(11)
+(
+    DONE,
+    STOPPED,
+    NOT_FINITE,
+    POSITION,
+    VELOCITY,
+    ENERGY,
+    CORRECTION,
+    TINY_STEP,
+    NEWTON,
+    NO_PROGRESS,
+    VANISHED,
+    GATHERED,
+) = range(12)
 #: A loop that can go on when it is entered again: after so many steps, once there is more room for a matrix, and once
 #: other rows stand for all; and a run in a lane that is left to the loop over single runs.
 PAUSED, NO_ROOM, LEFT, CHOOSE = -1, -2, -3, -4
+#: The same, at an event that ends a run or changes its state, and where the notes of events have to be taken.
+MET, NOTED = -5, -6
 
 REASONS = {
     DONE: "",
@@ -134,5 +151,6 @@ REASONS = {
     NEWTON: "Newton's iteration of an implicit stage did not converge",
     TINY_STEP: "the step size fell below what the time can resolve",
     NO_PROGRESS: "the run makes no progress",
+    GATHERED: "events accumulate",
     VANISHED: "a row that is an angle has lost its gradient: the joint stands where it determines nothing",
 }

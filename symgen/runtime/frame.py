@@ -9,7 +9,8 @@ so does what runs it: a processor, vector lanes, a CUDA device.
 | `attempt` | system, scheme, span, run, t, following, h, between | sets ``run.trial``, at `following`, from ``run.y`` |
 | `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
-| `happened` | system, scheme, span, run, t, following, h | what to end with after an accepted step, `DONE` to go on |
+| `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
+| `look`, `remember`, `recall` | system, run, again; run; run | what events need (`symgen.runtime.hunting`) |
 
 `attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
 the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
@@ -43,6 +44,10 @@ _FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
 _PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.WINDING, abi.N_STATUS
 _DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
 _NOT_FINITE, _CORRECTION, _TINY_STEP, _NEWTON = abi.NOT_FINITE, abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
+_MET, _NOTED = abi.MET, abi.NOTED
+#: Where the step to try stands in what is kept of events (`symgen.runtime.hunting`).
+TRY = 0
+_TRY = TRY
 
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
 #: Whether steps follow the error estimate.
@@ -50,6 +55,8 @@ ADAPTIVE = False
 #: Whether outputs inside a step are interpolated; else they are reached by a shortened step of their own. Schemes with
 #: dense output cross the zone around a singular position in one step.
 DENSE = False
+#: Whether events are looked for; without, nothing of that is compiled.
+EVENTS = False
 #: Smallest change of a step after a refused attempt; smallest and largest one after an accepted one; error estimate
 #: that counts as none.
 SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
@@ -66,6 +73,10 @@ _ACROSS = 2.3
 _WINDOW = 10_000
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
+#: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
+#: next attempt being one to take; that the state ends in an event; and that there is little room for more notes.
+NOTHING, SEEK, TAKE, MEET, CROWD = range(5)
+_NOTHING, _SEEK, _TAKE, _MEET, _CROWD = NOTHING, SEEK, TAKE, MEET, CROWD
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -93,9 +104,21 @@ def interpolate(
     """Stand for the dense output of schemes that have one."""
 
 
-def happened(system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float) -> int:
-    """Look for nothing: the place of events, between an accepted state and the outputs before it."""
-    return _DONE
+def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
+    """Look for nothing: the place of events, between a good attempt and its acceptance."""
+    return _NOTHING
+
+
+def look(system: Any, run: Any, again: bool) -> None:
+    """Do nothing: where events are looked for, see on which side of each of them a run begins."""
+
+
+def remember(run: Any) -> None:
+    """Do nothing: where events are looked for, keep what emitted functions remember at the beginning of a step."""
+
+
+def recall(run: Any) -> None:
+    """Do nothing: where events are looked for, have that again."""
 
 
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
@@ -106,7 +129,7 @@ def opened(sizes: Any, state: Any) -> Any:
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
-    return Run(*kept, s.share, s.metric, s.scales, room)
+    return Run(*kept, s.share, s.metric, s.scales, s.hunt, room)
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
@@ -185,6 +208,8 @@ def integrate(
     turn: Any,
     residual: Any,
     tangent: Any,
+    happens: Any,
+    decide: Any,
     scheme: Any,
     sizes: Any,
     span: Any,
@@ -197,6 +222,9 @@ def integrate(
     ----------
     rhs, confirm, accept, turn, residual, tangent : emitted functions
         Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
+    happens, decide : emitted function, function
+        Switching functions of events, behind them their rates, and `symgen.runtime.hunting.decide`; 0 where there are
+        no events.
     scheme : record
         The scheme.
     sizes : Sizes
@@ -213,7 +241,7 @@ def integrate(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = System(sizes, rhs, confirm, accept, turn, residual, tangent)
+    system = System(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
     run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width
@@ -239,16 +267,23 @@ def integrate(
         if ADAPTIVE:
             clock[_NEXT] = span.step
         prepare(system, scheme, span, run)
+        look(system, run, control[_BEGUN] != 0)
         control[_BEGUN] = 1
     t, out = clock[_TIME], control[_OUTPUTS]
+    hunting, crossing, whole, whole_following = _NOTHING, False, 0.0, 0.0
     while t < until - tiny:
-        if control[_STOP] != 0:
-            return _STOPPED
-        if control[_STEPS] >= span.pause:
-            return _PAUSED
+        if hunting == _NOTHING:
+            if control[_STOP] != 0:
+                return _STOPPED
+            if control[_STEPS] >= span.pause:
+                return _PAUSED
+            crossing = False
         # -- the step to try
-        crossing = False
-        if ADAPTIVE:
+        if EVENTS and hunting != _NOTHING:
+            recall(run)
+            h = run.hunt[_TRY]
+            following = whole_following if h == whole else t + h
+        elif ADAPTIVE:
             if stuck(span, run, t):
                 return _NO_PROGRESS
             crossing = DENSE and control[_BARRED] == 0 and control[_IN_ZONE] == 1 and run.gauges[_FALL] > 0.0
@@ -264,11 +299,15 @@ def integrate(
             h, following = span.step, clock[_ORIGIN] + (control[_INDEX] + 1) * span.step
             if following > until + tiny:
                 h, following = until - t, until
-        between = not DENSE and out < asked and times[out] < following - tiny
+        between = not DENSE and hunting == _NOTHING and out < asked and times[out] < following - tiny
         if between:
             h, following = times[out] - t, times[out]
+        elif hunting == _NOTHING:
+            whole, whole_following = h, following
+            remember(run)
+        probing = between or hunting == _SEEK
         note_step(run, h)
-        error = attempt(system, scheme, span, run, t, following, h, between)
+        error = attempt(system, scheme, span, run, t, following, h, probing)
         # -- is it good enough?
         if error < 0.0:
             if error == TOO_LARGE:
@@ -278,8 +317,10 @@ def integrate(
             control[_REJECTED] += 1
             control[_REFUSED] = 1
             clock[_NEXT] = 0.25 * h
+            hunting = _NOTHING
             continue
-        if ADAPTIVE and not between and not (error <= 1.0 or (crossing and error <= _HOPELESS)):
+        refused = not (error <= 1.0 or (crossing and error <= _HOPELESS))
+        if ADAPTIVE and not between and hunting == _NOTHING and refused:
             if crossing:
                 control[_BARRED] = 1
             control[_REJECTED] += 1
@@ -288,7 +329,7 @@ def integrate(
             refuse(run)
             control[_REFUSED] = 1
             continue
-        bits = correct(system, run, following, run.trial, between)
+        bits = correct(system, run, following, run.trial, probing)
         if between:
             keep_maxima(sizes, run, run.trial)
             store(sizes, run.w, outputs, out, run.trial)
@@ -301,21 +342,34 @@ def integrate(
             control[_REJECTED] += 1
             control[_REFUSED] = control[_BARRED] = 1
             clock[_NEXT] = 0.5 * h
+            hunting = _NOTHING
             continue
+        if EVENTS:
+            hunting = happened(system, run, t, following, h, hunting)
+            if hunting == _SEEK or hunting == _TAKE:
+                continue
         # -- it is: the state at `following` is accepted
         control[_STEPS] += 1
         code = watch(sizes, run, run.trial, following)
         if code != _DONE:
             return code
-        code = happened(system, scheme, span, run, t, following, h)
+        if EVENTS and hunting == _MEET:
+            code = _MET
+            while out > 0 and times[out - 1] > following:  # outputs behind the event, from before it was found
+                out -= 1
+            control[_OUTPUTS] = out
+        elif EVENTS and hunting == _CROWD:
+            code = _NOTED
+        hunting = _NOTHING
         if DENSE and out < asked and times[out] < following:
             interpolate(system, scheme, span, run, outputs, t, following, h)
             out = control[_OUTPUTS]
         copied(width, run.trial, run.y)
         if not ADAPTIVE:
             control[_INDEX] += 1
-            if following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny:
-                clock[_ORIGIN], control[_INDEX] = until, 0  # the grid of whoever goes on begins here
+            early = following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny
+            if early or (EVENTS and code == _MET):
+                clock[_ORIGIN], control[_INDEX] = following, 0  # the grid of whoever goes on begins here
         elif crossing:
             clock[_ALLOWED] = 0.0
         else:
@@ -342,10 +396,12 @@ def integrate(
 
 
 #: Where functions of the model stand in a loop's arguments, with their types.
-_FUNCTIONS = {
+FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
-    **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
+    **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE, "happens": abi.OBSERVE, "decide": abi.DECIDE},
 }
+#: What each loop was made of, so that one that looks for events can be made of the same.
+RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
@@ -363,6 +419,8 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
         What the names of the frame mean.
     """
     called = {"rhs", "confirm", "accept", *functions}
-    types_ = (kind if name in called else types.int64 for name, kind in _FUNCTIONS.items())
+    types_ = (kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
     signature = types.int64(*types_, scheme, SIZES, SPAN, STATE, OUTPUTS)
-    return compiled_loop(module, name, integrate, signature, **meanings)
+    made = compiled_loop(module, name, integrate, signature, **meanings)
+    RECIPES[made] = (module, name, scheme, *functions), meanings
+    return made

@@ -102,6 +102,8 @@ class State(NamedTuple):
     metric, scales : Array, shape (width,)
         What makes lengths and speeds of coordinates and velocities, and what makes numbers of order 1 of them; see
         `symgen.runtime.scales.settle`.
+    hunt : Array
+        What it keeps of events, see `symgen.runtime.hunting`; empty where there are none.
     room : Array
         Working memory: nothing in it outlives a step. A state that is tried stands first.
     """
@@ -118,6 +120,7 @@ class State(NamedTuple):
     share: Any
     metric: Any
     scales: Any
+    hunt: Any
     room: Any
 
 
@@ -137,6 +140,7 @@ class Run(NamedTuple):
     share: Any
     metric: Any
     scales: Any
+    hunt: Any
     room: Any
 
 
@@ -228,6 +232,8 @@ class System(NamedTuple):
     turn: Any
     residual: Any
     tangent: Any
+    happens: Any
+    decide: Any
 
 
 # -- schemes -----------------------------------------------------------------------------------------------------------
@@ -371,7 +377,7 @@ KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 #: How compiled loops see the records.
 SIZES = types.NamedUniTuple(_I, len(Sizes._fields), Sizes)
 SPAN = types.NamedUniTuple(_F, len(Span._fields), Span)
-STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
+STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 7), State)
 OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
 OBSERVED = types.NamedUniTuple(_M, 3, Observed)
 KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)

@@ -21,6 +21,7 @@ from symgen.store.stats import cache_stats
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Happening, Watched
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Observed, Outputs, Sizes
@@ -67,6 +68,8 @@ class RunSpec:
         In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` unless given.
     pieces : tuple of Piece
         Where inputs jump, and what they are from there on; the first one is what the start has.
+    events : Watched or None
+        Events that are looked for.
     """
 
     until: float
@@ -85,6 +88,7 @@ class RunSpec:
     max_steps: float = MAX_STEPS
     duration: float | None = None
     pieces: tuple[Piece, ...] = ()
+    events: Watched | None = None
 
     @property
     def scale_time(self) -> float:
@@ -114,6 +118,7 @@ class Outcome:
     `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
     evaluations at the outputs is computed when it is first asked for. `held` are the parameters of earlier pieces, each
     with the time of its last output; an output where an input jumps shows what held before.
+    A run that an event has ended has its last output there.
     """
 
     code: int
@@ -143,6 +148,8 @@ class Outcome:
     p: Array = field(repr=False)
     w: Array = field(repr=False)
     simulation: Simulation = field(repr=False)
+    happened: tuple[Happening, ...] = ()
+    accumulation: float | None = None
     held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
 
     @property
@@ -286,15 +293,22 @@ def integrate(
     after, before_it = cache_stats(), simulation.before
     counters = {name: int(state.iw[i]) for i, name in enumerate(COUNTERS)}
     counters["iterations"] -= simulation.iterations_before
+    times, states, status = (array[:k] for array in outputs)
+    if code in (abi.MET, abi.GATHERED) and not (k and times[-1] >= end):
+        here = np.concatenate([w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + compiled.info.windings]])
+        times, states = np.append(times, end), np.vstack([states, state.y[: compiled.info.ny]])
+        status = np.vstack([status, here])
+    events = simulation.events
+    code = abi.DONE if code == abi.MET else code  # an event at which the run was to end
     n_events = int(min(control[abi.EVENTS], abi.MAX_EVENTS))
     table = state.events.reshape(-1, abi.N_EVENT)[:n_events]
     return Outcome(
         code=code,
         reason=reason_of(simulation, code, end),
         end=end,
-        times=outputs.times[:k],
-        states=outputs.states[:k],
-        status_columns=outputs.status[:k],
+        times=times,
+        states=states,
+        status_columns=status,
         steps=int(control[abi.STEPS] - before_it[abi.STEPS]),
         rejected=int(control[abi.REJECTED] - before_it[abi.REJECTED]),
         evaluations=int(control[abi.EVALUATIONS] - before_it[abi.EVALUATIONS]),
@@ -320,6 +334,8 @@ def integrate(
         w=w,
         simulation=simulation,
         held=tuple(held),
+        happened=() if events is None else tuple(events.happened),
+        accumulation=None if events is None else events.accumulation,
     )
 
 
@@ -329,6 +345,8 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
     measures = (abi.PHI_MEASURE, abi.DRIFT_MEASURE, abi.LENGTH, abi.SPEED)
     attempts = int(state.control[abi.STEPS] + state.control[abi.REJECTED])
     scale = float(state.gauges[abi.ENERGY_SCALE])
+    if code == abi.GATHERED and simulation.events is not None:
+        return simulation.events.reason
     reason = end_reason(code, end, tuple(float(state.w[i]) for i in measures), scale, attempts, simulation.spec)
     return reason + (f" (row {_shortest_row(simulation.compiled, state.w)})" if code == abi.VANISHED else "")
 

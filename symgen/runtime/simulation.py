@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.entry import Entry
+    from symgen.runtime.events import Events, Watched
     from symgen.runtime.integrator import Integrator, Setup
     from symgen.runtime.records import Outputs, Sizes, Span, State
     from symgen.runtime.run import RunSpec
@@ -63,6 +65,8 @@ class Simulation:
         The memory of `state`, and a copy of what it held when `go` was called last.
     before : Array of int
         What it had counted where it was taken up: zeros for one that begins.
+    events : Events or None
+        What happens in it, where events are looked for.
 
     Notes
     -----
@@ -76,7 +80,12 @@ class Simulation:
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
         self.direct = True
-        self.snapshot = Snapshot(new_state(compiled, self.sizes, self.setup.memory, self.setup.room))
+        state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        self.events: Events | None = None
+        if spec.events is not None:
+            state = state._replace(hunt=spec.events.new_hunt(self.sizes, len(state.w)))
+            self._watch(spec.events)
+        self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
         self._counts = memoryview(self.state.control)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
@@ -93,6 +102,15 @@ class Simulation:
         gauges, spec = self.state.gauges, self.spec
         gauges[[abi.LIMIT_PHI, abi.LIMIT_DRIFT]] = spec.max_violation, spec.velocity_limit
         gauges[[abi.LIMIT_ENERGY, abi.WARN_PIVOT]] = spec.max_energy_error, WARN
+
+    def _watch(self, watched: Watched) -> None:
+        """Look for events."""
+        from symgen.runtime.events import Events
+        from symgen.runtime.hunting import decide, with_events
+
+        functions = *self.setup.functions[:-2], watched.function, decide
+        self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
+        self.events = Events(self.compiled, watched, self.spec.until)
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
@@ -135,13 +153,18 @@ class Simulation:
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
         most : float, optional
             Attempts at an adaptive step that the run may have taken then; as many as it has been told unless given.
+
+        Raises
+        ------
+        InputError
+            If an event asks for velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
         span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
         while True:
             arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
-            if not self._answered(code := int(self.setup.loop(*arguments))):
-                return code
+            if (ended := self._ended(int(self.setup.loop(*arguments)))) is not None:
+                return ended
 
     def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
         """Go through all pieces of the run, from where it stands; return how the loop ended.
@@ -181,23 +204,30 @@ class Simulation:
         while True:
             if not entry.has(self.scheme, self.span):
                 entry.take(self.scheme, self.span)
-            if (code := entry(until, pause, most)) >= 0 or not self._answered(code):
+            if (code := entry(until, pause, most)) >= 0 and self.events is None:
                 return code
+            if (ended := self._ended(code)) is not None:
+                return ended
 
     def go_back(self) -> None:
         """Take up what was remembered when `go` was called last."""
         self.scheme = self.snapshot.put_back(self.scheme)
 
-    def _answered(self, code: int) -> bool:
-        """Do what a loop asks for that has to be entered again."""
+    def _ended(self, code: int) -> int | None:
+        """Do what a loop asks for; return how it ended, None where it is to be entered again."""
+        if self.events is not None:
+            found = self.events.take(self.state)
+            if code == abi.MET:
+                code = self.events.meet(self.state, found)
+                return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)
         elif code == abi.CHOOSE:
             self._choose_anew(self.state.w)  # what a scheme knows of its matrices depends on the rows
             self.scheme = self.integrator.setup(self.compiled, self.spec, self.state.w).scheme
-        else:
-            return False
-        return True
+        elif code != abi.NOTED:
+            return code
+        return None
 
     @cached_property
     def _nothing(self) -> Outputs:
@@ -267,12 +297,14 @@ class Simulation:
         return {name: array.copy() for name, array in found.items()}
 
     def restore(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Take up what `save` returned, for the same model, method, integrator and limits."""
+        """Take up what `save` returned, for the same model, method, integrator, limits and events."""
         for name, array in saved.items():
             if hasattr(self.state, name):
                 getattr(self.state, name)[:] = array
             else:
                 self.scheme = with_kept(self.scheme, name, array)
+        if self.events is not None:
+            self.events.forget_after(float(self.state.clock[abi.TIME]))
 
     def _prepare(self, p: Array, w: Array) -> None:
         """Work out what depends on parameters alone."""
@@ -378,7 +410,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
         *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
-        np.zeros(sizes.width + room),
+        *(np.zeros(0), np.zeros(sizes.width + room)),
     )
 
 

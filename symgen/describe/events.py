@@ -1,0 +1,141 @@
+"""Events of a mechanism or a run: conditions as switching functions, and what is done when one becomes true."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+import msgspec
+
+from symgen.describe.fields import Condition, NewVelocities, found, read
+from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.scope import Model, Scope
+from symgen.errors import InputError, quoted
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
+
+RISING, FALLING, ANY = "rising", "falling", "any"
+RECORD, STOP, RESET = "record", "stop", "reset"
+#: What names of velocities end in.
+_SPEEDS = ("vx", "vy", "vz", "omega", "wx", "wy", "wz", "rate")
+_LOGIC = frozenset(("lt", "le", "gt", "ge", "and", "or", "not"))
+
+
+class EventSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A condition that is watched during a run, and what is done when it becomes true.
+
+    Parameters
+    ----------
+    when : str
+        A condition such as ``"ball.y < 0.1"``, which may be put together by ``and``, ``or`` and ``not``: the event
+        happens when it becomes true. Or an expression: it happens where this passes through zero.
+    direction : str
+        ``"rising"``, ``"falling"`` or ``"any"``: through zero upwards, downwards, or both, which is so for an
+        expression unless given. A condition rises when it becomes true, which is meant unless given.
+    action : str
+        ``"record"``: time and state are noted; ``"stop"``: the run ends there; ``"reset"``: velocities change.
+        Recorded unless given.
+    reset : table
+        New velocities as expressions of those before, such as ``{ "ball.vy" = "-0.7*ball.vy" }``. All other velocities
+        change as an impulse in these and in the joints makes them.
+    """
+
+    when: Condition
+    direction: Literal["rising", "falling", "any"] | None = None
+    action: Literal["record", "stop", "reset"] | None = None
+    reset: NewVelocities | None = None
+
+
+def read_event(scope: Scope, name: str, raw: object) -> Event:
+    """Return the event that a table describes.
+
+    Parameters
+    ----------
+    scope : Scope
+        The table's place.
+    name : str
+        What the event is called.
+    raw : object
+        The table.
+
+    Raises
+    ------
+    InputError
+        With the key that is wrong.
+    """
+    section = read(EventSection, raw, scope.where(""))
+    if section.action == RESET and section.reset is None:
+        raise scope.error("reset", 'new velocities, such as { "ball.vy" = "-0.7*ball.vy" }', "no such key")
+    if section.reset is not None and section.action not in (None, RESET):
+        raise scope.error("action", "'reset', as new velocities are given", f"'{section.action}'")
+    action = section.action or (RECORD if section.reset is None else RESET)
+    reset = tuple(_velocity(scope, key, value) for key, value in (section.reset or {}).items())
+    if action == RESET and not reset:
+        raise scope.error("reset", "at least one new velocity", "an empty table")
+    when, condition = _switching(scope, section.when)
+    direction = section.direction or (RISING if condition else ANY)
+    return Event(name, when, direction, action, reset, " ".join(section.when.split()))
+
+
+def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Event:
+    """Return an event that is asked for beside the mechanism's own, named after its condition.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What it is about.
+    settings : str
+        The setting that has it, for messages.
+    when : str
+        The condition.
+    action : {"record", "stop"}
+        What is done.
+    """
+    text = " ".join(when.split())
+    return read_event(Scope(Model.of(mechanism, settings), ""), text, {"when": when, "action": action})
+
+
+def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
+    """Return events that are given in Python as tables by name, in the words of a file."""
+    result = []
+    for name, table in tables.items():
+        if any(name == event.name for event in mechanism.events):
+            raise InputError(f"events '{name}'", "a name that no event of the mechanism has", f"'{name}' again")
+        result.append(read_event(Scope(Model.of(mechanism, f"events '{name}'"), ""), name, table))
+    return tuple(result)
+
+
+def _switching(scope: Scope, text: str) -> tuple[Expr, bool]:
+    """Return a function that is above 0 where the condition holds, and whether there is one."""
+    expression = scope.of_state("when", text, conditions=True)
+    if not any(name == "t" or "." in name for name in names(expression)):
+        raise scope.error("when", "a condition that time or motion changes", quoted(text))
+    condition = isinstance(expression, Call) and expression.function in _LOGIC
+    return (_positive(expression), True) if condition else (expression, False)
+
+
+def _positive(condition: Expr) -> Expr:
+    """Return what is above 0 where a condition holds: b - a for ``a < b``, and for ``and`` the smaller one."""
+    if not isinstance(condition, Call):
+        raise AssertionError("a condition in a tree is never a literal")
+    a = condition.arguments
+    if condition.function in ("lt", "le"):
+        return _difference(a[1], a[0])
+    if condition.function in ("gt", "ge"):
+        return _difference(a[0], a[1])
+    if condition.function == "not":
+        return call("neg", _positive(a[0]))
+    return call("min" if condition.function == "and" else "max", *(_positive(e) for e in a))
+
+
+def _difference(a: Expr, b: Expr) -> Expr:
+    zero = Number(0.0)
+    return a if b == zero else call("neg", b) if a == zero else call("sub", a, b)
+
+
+def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
+    """Return a velocity that is named, and its new value."""
+    where = f"reset.{quoted(key)[1:-1]}"
+    quantity = scope.of_state(where, key)
+    if not (isinstance(quantity, Name) and quantity.name.rpartition(".")[2] in _SPEEDS):
+        raise scope.error(where, "the name of a velocity, such as ball.vy", found(key))
+    return quantity, scope.of_state(where, value)
