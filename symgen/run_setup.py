@@ -11,6 +11,7 @@ import numpy as np
 
 from symgen import __version__
 from symgen.compiling.events import compile_events
+from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import ORIENTATION, holds_of
@@ -26,6 +27,7 @@ from symgen.runtime.pieces import Piece, pieces_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Hold, Mechanism
     from symgen.describe.numbers import Scalars
     from symgen.plan import Plan
@@ -154,6 +156,11 @@ def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequenc
     return Held(values, speeds, tuple(fixed), places, rates)
 
 
+def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
+    """Return the compiled model of a run: with integrals behind the work, where outputs have some."""
+    return with_integrals(mechanism, compile_model(mechanism, choice))
+
+
 def ready(
     mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
 ) -> tuple[CompiledModel, Start]:
@@ -164,12 +171,12 @@ def ready(
     """
     if plan.last is not None:
         return _going_on(mechanism, plan, plan.last, parameters, strict)
-    compiled = compile_model(mechanism, plan.choice)
+    compiled = compiled_for(mechanism, plan.choice)
     start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds, plan.solver_is_free)
     if not start.light:
         return compiled, start
     choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
-    compiled = compile_model(mechanism, choice)
+    compiled = compiled_for(mechanism, choice)
     start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
@@ -216,7 +223,7 @@ def _going_on(
     values, choice = parameter_values(mechanism, parameters), plan.choice
     if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
         choice = replace(choice, options={**choice.options, "solver": "augmented"})
-    compiled = compile_model(mechanism, choice)
+    compiled = compiled_for(mechanism, choice)
     info, whence = compiled.info, f"goes on from t = {last.t:.6g} s of another run"
     other = last.other_than(made_of(compiled, plan, values))
     if not other and last.arrays is not None:
@@ -232,7 +239,7 @@ def _going_on(
     windings = last.windings if len(last.windings) == info.windings else ()
     start = assemble(compiled, q, v, p, strict, None, plan.solver_is_free, None, (last.t, windings))
     if start.light:
-        compiled = compile_model(mechanism, replace(choice, options={**choice.options, "solver": "augmented"}))
+        compiled = compiled_for(mechanism, replace(choice, options={**choice.options, "solver": "augmented"}))
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence} with its coordinates and velocities alone: {'; '.join(other)}"

@@ -82,6 +82,7 @@ class LoopedModel(CompiledModel):
         ]
         found += [address(getattr(self.kernels[stem], name), self.machine) for stem, name in self.tables.functions]
         part.view(np.int64)[-1] = offset
+        w.view(np.int64)[-1] = offset  # read from the end, where sections of a run may stand behind the tables
         first = self.tables.addresses
         part.view(np.int64)[first : first + len(found)] = found
         return self.with_scales(w)

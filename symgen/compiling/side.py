@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.errors import InputError
 from symgen.lower.windings import winding_order
@@ -29,7 +30,7 @@ from symgen.vocabulary.expressions import Expr
 Array = NDArray[np.float64]
 
 #: Sections of ``w`` that formulas of a run may read; they stand where a model of either shape has them.
-_READ = ("status", "winding", "multipliers")
+READ = ("status", "winding", "multipliers")
 
 
 @dataclass(frozen=True)
@@ -98,11 +99,11 @@ def compile_side(
     store = Entries() if entries is None else entries
     info = compiled.info
     turning = winding_order(mechanism, compiled.shape)
-    sections = {section: info.sections[section] for section in _READ if section in info.sections}
+    sections = {section: info.sections[section] for section in READ if section in info.sections}
     rows = {row.name: i for i, row in enumerate(info.rows)}
     labels = [label for label, _ in formulas] + [f"rate of {label}" for label, _ in formulas if rates]
     folder = folder_of(mechanism)
-    places = str(sorted(sections.items())), str(sorted(rows.items())), repr(turning)
+    places = str(sorted(sections.items())), str(sorted(rows.items())), repr(turning), str(list(integrals(mechanism)))
     text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])
     text += "\n".join(to_text(e) for _, e in formulas)
     stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"

@@ -12,6 +12,8 @@ from symgen.vocabulary.expressions import FUNCTIONS
 OPERATORS = frozenset({"add", "sub", "mul", "div", "pow", "neg", "lt", "le", "gt", "ge", "and", "or", "not", "where"})
 #: Functions a formula may call.
 CALLABLE = frozenset(FUNCTIONS) - OPERATORS | {"piecewise"}
+#: What outputs may write besides.
+INTEGRAL = "integral"
 #: Names with a meaning of their own: `s` and `rate` are the placeholders of an effort.
 RESERVED = frozenset({"ground", "t", "pi", "s", "rate"}) | CALLABLE
 LONGEST = 64

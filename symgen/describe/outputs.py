@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.readings import OUTPUT, Table, of_force, of_joint, of_point
-from symgen.vocabulary.expressions import Expr
-from symgen.vocabulary.measures import Marker
+from symgen.vocabulary.expressions import Expr, readings
+from symgen.vocabulary.measures import Integral, Marker
 
 
 class Column(NamedTuple):
@@ -40,6 +40,12 @@ def elements(mechanism: Mechanism) -> tuple[Column, ...]:
 def outputs(mechanism: Mechanism) -> tuple[Column, ...]:
     """Return the formulas of ``[outputs]``."""
     return tuple(Column(o.name, o.unit, o.value) for o in mechanism.outputs)
+
+
+def integrals(mechanism: Mechanism) -> dict[Integral, int]:
+    """Return the integrals that outputs ask for, numbered in their order, each once."""
+    found = (r.source for output in mechanism.outputs for r in readings(output.value))
+    return {source: i for i, source in enumerate(dict.fromkeys(s for s in found if isinstance(s, Integral)))}
 
 
 def _columns(table: Table) -> Iterator[Column]:

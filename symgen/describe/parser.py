@@ -15,9 +15,20 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from symgen.describe.names import CALLABLE
+from symgen.describe.names import CALLABLE, INTEGRAL
 from symgen.errors import InputError, nearest, quoted
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, call, number
+from symgen.vocabulary.expressions import (
+    FUNCTIONS,
+    Call,
+    Expr,
+    Name,
+    Number,
+    Reading,
+    call,
+    number,
+    readings,
+)
+from symgen.vocabulary.measures import Integral
 
 if TYPE_CHECKING:
     from symgen.describe.readings import Readings
@@ -67,6 +78,8 @@ class Names(msgspec.Struct, frozen=True):
         Names that exist, though not in this formula; only the message differs.
     readings : Readings, optional
         What else may be written with dots: points of bodies, coordinates of joints.
+    integrals : bool
+        Whether ``integral(...)`` may be written.
     hints : mapping of str to str
         What to say of some of them.
     """
@@ -77,6 +90,7 @@ class Names(msgspec.Struct, frozen=True):
     tables: Mapping[str, str] = {}
     elsewhere: frozenset[str] = frozenset()
     readings: Readings | None = None
+    integrals: bool = False
     hints: Mapping[str, str] = {}
 
     def beside(self, what: str, plain: Mapping[str, str]) -> Names:
@@ -274,6 +288,9 @@ class _Reader:
         if function in self.names.tables:
             self.count(function, nodes, 1)
             return Call(self.names.tables[function], (self.quantity(nodes[0], depth),))
+        if function == INTEGRAL and self.names.integrals:
+            self.count(function, nodes, 1)
+            return self.integral(nodes[0], depth)
         if function not in CALLABLE:
             if function in self.names.elsewhere:
                 hint = self.names.hints.get(function, "")
@@ -290,6 +307,15 @@ class _Reader:
             self.count(function, nodes, FUNCTIONS[function][0])
         arguments = [self.quantity(node, depth) for node in nodes]
         return self.chain(function, arguments) if function in ("min", "max") else self.apply(function, *arguments)
+
+    def integral(self, node: ast.expr, depth: int) -> Expr:
+        """Return the reading of an integral over time."""
+        integrand = self.quantity(node, depth)
+        if any(isinstance(r.source, Integral) for r in readings(integrand)):
+            raise self.fail("an integral of an integral", "give the inner one an integrand of its own")
+        from symgen.describe.printer import to_text
+
+        return Reading(f"{INTEGRAL}({to_text(integrand)})", Integral(integrand))
 
     def count(self, function: str, nodes: list[ast.expr], wanted: int) -> None:
         if len(nodes) != wanted:

@@ -337,9 +337,9 @@ class Scope:
             name: (*known, *(ACCELERATIONS[speed] for speed in self.model.bodies[name].speeds))
             for name, known in self.model.coordinates.items()
         }
-        return self._expression(
-            key, value, Names(what, self.model.states, own, self.model.functions, readings=Readings(self.model, OUTPUT))
-        )
+        known = Readings(self.model, OUTPUT)
+        names = Names(what, self.model.states, own, self.model.functions, readings=known, integrals=True)
+        return self._expression(key, value, names)
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""

@@ -66,6 +66,8 @@ class ElementAccess:
             return f"q{index}", self.element("y", index)
         if space == "v":
             return f"v{index}", self.element("y", self.layout.nq + index)
+        if space == "z":
+            return f"z{index}", self.element("y", self.layout.nq + self.layout.nv + index)
         return f"{space}{index}" if space in ("p", "k") else f"{space}_{index}", self.write(Target(space, index))
 
     def write(self, target: Target) -> str:

@@ -2,18 +2,62 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 from symgen.emit.emit import straight, table_codes
-from symgen.emit.module import module, templates_digest
+from symgen.emit.module import function, module, templates_digest
 from symgen.ir.program import FORMAT
 from symgen.lower.side import SideProgram
 
 
 def emit_side(program: SideProgram) -> str:
     """Return the source of a module with one function, straight code whatever the shape of the model's."""
-    codes = [*table_codes(program.tables), *straight([program.block], program.layout, program)]
+    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
     header = [
         f"format {FORMAT}, templates {templates_digest()}",
         "",
         *(f"out[{i}] {formula}" for i, formula in enumerate(program.formulas)),
     ]
-    return module(f"{program.block.purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
+    return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
+
+
+#: What a law with integrals has in place of its own: arguments, and what is called behind the law's own.
+_FOLLOWED = {
+    "rhs": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    "confirm": ("t, y, p, w, iw, ydot", "integrands(t, y, p, w, ydot)"),
+    "residual": ("t, y, k, p, w, r", "accumulate(t, y, k, p, w)"),
+}
+
+
+def emit_integrals(program: SideProgram, law: str, names: Collection[str], power: int) -> str:
+    """Return the source of a law's module whose right-hand side has rates of integrals behind that of the work.
+
+    Parameters
+    ----------
+    program : SideProgram
+        From `symgen.lower.side.lower_integrands`.
+    law : str
+        Stem of the law's module, in the same folder.
+    names : collection of str
+        What that module has.
+    power : int
+        Where in ``w`` a residual leaves the rate of the work.
+    """
+    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
+    exports = [name for name in names if name not in _FOLLOWED]
+    known = {name: (law, name) for name in exports}
+    for name, (arguments, more) in _FOLLOWED.items():
+        if name not in names:
+            continue
+        known[f"law_{name}"] = (law, name)
+        body = [f"flag = law_{name}({arguments})", more, "return flag"]
+        if name == "residual":
+            body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")
+        calls = f"law_{name}", more.partition("(")[0]
+        codes.append(function(name, arguments, "As the law's, with integrals.", body, calls=calls))
+    header = [
+        f"format {FORMAT}, templates {templates_digest()}",
+        "",
+        *(f"z[{1 + i}]' = {formula}" for i, formula in enumerate(program.formulas)),
+    ]
+    return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, known, {}, exports=exports)

@@ -22,6 +22,7 @@ from symgen.vocabulary.measures import (
     Dot,
     Driven,
     Exerted,
+    Integral,
     LinkStretch,
     Measure,
     PointSpeed,
@@ -137,7 +138,7 @@ class Model(Formulas):
 
     def reading(self, r: Reading) -> int:
         """Return the node of a measure's value, rate, or second derivative, which needs v'."""
-        assert not isinstance(r.source, Exerted | Driven), "what is exerted is read at outputs only"
+        assert not isinstance(r.source, Exerted | Driven | Integral), "what is exerted is read at outputs only"
         derived, g = self.motion(r.source), self.graph
         if r.order == 0:
             return derived.value

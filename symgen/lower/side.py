@@ -6,28 +6,30 @@ asking for it leaves the modules of the model as they are.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
+from symgen.describe.outputs import integrals
+from symgen.describe.printer import to_text
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Quantity
 from symgen.formulate.formulate import quantities
 from symgen.formulate.measures import Model
-from symgen.ir.derivative import jacobian
+from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Layout, Target
 from symgen.vocabulary.expressions import Expr, Reading
-from symgen.vocabulary.measures import Driven, Exerted, Measure
+from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
 
 
 @dataclass(frozen=True)
 class SideProgram:
-    """One function ``NAME(t, y, p, w, ydot, out)``; `formulas` are what each element of ``out`` is, for people."""
+    """Functions of formulas; `formulas` are what their outputs are, for people."""
 
     mechanism: str
-    block: Block
+    blocks: tuple[Block, ...]
     layout: Layout
     parameters: tuple[Quantity, ...]
     coordinates: tuple[Quantity, ...]
@@ -38,8 +40,8 @@ class SideProgram:
     @property
     def reads(self) -> tuple[str, ...]:
         """What the function reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
-        graph = self.block.graph
-        found = (graph.nodes[n] for n in graph.needed(self.block.nodes))
+        graph = self.blocks[0].graph
+        found = (graph.nodes[n] for n in graph.needed(self.blocks[0].nodes))
         return tuple(sorted({str(o.payload[0]) for o in found if o.op == "input" and isinstance(o.payload, tuple)}))
 
 
@@ -71,6 +73,8 @@ class SideModel(Model):
         if isinstance(source, Exerted):
             found = [exertion(self, effort) for effort in source.efforts]
             return g.total(g.mul(e.total, e.rate) if source.power else e.total for e in found)
+        if isinstance(source, Integral):
+            return g.input("z", 1 + integrals(self.mechanism)[source])  # behind the work
         if isinstance(source, Driven):
             effort = g.neg(g.input("multipliers", self.rows[source.row]))
             return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
@@ -90,6 +94,19 @@ class SideModel(Model):
             g.total(g.mul(slope, known[key]) for key, slope in sorted(slopes.items()))
             for slopes in jacobian(g, nodes, known)
         ]
+
+
+def moved(
+    source: Graph, nodes: Sequence[int], renamed: Callable[[Key], Key] = lambda key: key
+) -> tuple[Graph, list[int]]:
+    """Return a graph of its own for some nodes, inputs renamed."""
+    graph = Graph()
+    keys = {
+        key: graph.input(*renamed(key))
+        for n in source.needed(nodes)
+        if source.nodes[n].op == "input" and isinstance(key := source.nodes[n].payload, tuple)
+    }
+    return graph, graph.inline(source, nodes, keys)
 
 
 def lower_side(
@@ -132,20 +149,62 @@ def lower_side(
     if rates:
         nodes += model.rates(nodes)
         labels += [f"rate of {label}" for label in labels]
-    graph = Graph()
-    keys = {
-        key: graph.input(*key)
-        for n in model.graph.needed(nodes)
-        if model.graph.nodes[n].op == "input" and isinstance(key := model.graph.nodes[n].payload, tuple)
-    }
-    images = graph.inline(model.graph, nodes, keys)
+    graph, images = moved(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
+    return _program(mechanism, (block,), sections, labels)
+
+
+def lower_integrands(
+    mechanism: Mechanism,
+    turning: Sequence[Measure],
+    sections: Mapping[str, tuple[int, int]],
+    rows: Mapping[str, int],
+) -> SideProgram:
+    """Lower the integrands of a mechanism's outputs: their values are rates of auxiliary states behind the work.
+
+    ``integrands(t, y, p, w, ydot)`` sets them behind a right-hand side, ``accumulate(t, y, k, p, w)`` behind a
+    residual, with v' and lambda among its unknowns, in the section ``auxiliary``.
+
+    Parameters
+    ----------
+    mechanism, turning, sections, rows
+        As for `lower_side`.
+
+    Raises
+    ------
+    OverflowError
+        If numbers that meet in a formula overflow.
+    """
+    model = SideModel(mechanism, turning=turning, rows=rows)
+    found = integrals(mechanism)
+    nodes = [model.expression(integral.of) for integral in found]
     coordinates, velocities = quantities(mechanism)
-    used = {table for table, _ in block.tables}
+    first = len(coordinates) + len(velocities)
+
+    def unknown(key: Key) -> Key:
+        """Return where a residual has v' and lambda."""
+        return {"ydot": ("k", key[1]), "multipliers": ("k", first + key[1])}.get(key[0], key)
+
+    graph, images = moved(model.graph, nodes)
+    rates = tuple((Target("ydot", first + 1 + i), image) for i, image in enumerate(images))
+    stage, inside = moved(model.graph, nodes, unknown)
+    kept = tuple((Target("auxiliary", 1 + i), image) for i, image in enumerate(inside))
+    blocks = (
+        Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),
+        Block("accumulate", "the same of a stage with the unknowns k", stage, kept, ("t", "y", "k", "p", "w")),
+    )
+    return _program(mechanism, blocks, sections, [to_text(integral.of) for integral in found])
+
+
+def _program(
+    mechanism: Mechanism, blocks: tuple[Block, ...], sections: Mapping[str, tuple[int, int]], labels: Sequence[str]
+) -> SideProgram:
+    coordinates, velocities = quantities(mechanism)
+    used = {table for block in blocks for table, _ in block.tables}
     return SideProgram(
         mechanism=mechanism.name,
-        block=block,
+        blocks=blocks,
         layout=Layout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(sections)),
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,

@@ -75,9 +75,9 @@ class Assembly:
         info, joints = compiled.info, joints_of(compiled.info)
         sparse = compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE
         numbers = (
-            *(0.0, info.nq, info.nv, info.m, info.windings),
+            *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
             *(int(sparse), int(ask_light and hasattr(compiled.law_module, "confirm"))),
-            *(info.sections[name][0] for name in Layout._fields[7:16]),
+            *(info.sections[name][0] for name in Layout._fields[8:17]),
         )
         arrays = (
             *entries_of(info),

@@ -241,7 +241,7 @@ def is_light(rhs: Any, geometry: Any, layout: Any, now: Any, work: Any) -> bool:
 def _copy(layout: Any, now: Any, other: Any) -> None:
     """Copy state and scratch."""
     (y, _, w), (other_y, _, other_w) = now, other
-    for i in range(layout.nq + layout.nv + 1):
+    for i in range(layout.ny):
         other_y[i] = y[i]
     for i in range(w.shape[0]):
         other_w[i] = w[i]

@@ -39,7 +39,7 @@ class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
     or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
     for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
-    parameters that may change during a run.
+    parameters that may change during a run; `integrals` counts auxiliary states behind the work.
     """
 
     name: str
@@ -58,6 +58,7 @@ class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     spins: tuple[tuple[int, int], ...]
     operations: dict[str, int]
     inputs: tuple[str, ...] = ()
+    integrals: int = 0
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
@@ -86,8 +87,8 @@ class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
 
     @property
     def ny(self) -> int:
-        """Length of the state: q, v and the work."""
-        return self.nq + self.nv + 1
+        """Length of the state: q, v, the work and integrals."""
+        return self.work + 1 + self.integrals
 
 
 class LawInfo(msgspec.Struct, frozen=True):

@@ -372,7 +372,8 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
     pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
     lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
-    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, abi.POWER)
+    auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
+    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, auxiliary)
 
 
 def share_of(sizes: Sizes) -> Array:

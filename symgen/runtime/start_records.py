@@ -17,8 +17,8 @@ class Layout(NamedTuple):
     ----------
     t : float
         Time of the start [s].
-    nq, nv, m, windings : int
-        Coordinates, velocities, constraint rows, angles whose turns are counted.
+    nq, nv, ny, m, windings : int
+        Coordinates, velocities, length of the state, constraint rows, angles whose turns are counted.
     sparse, ask_light : int
         1 where ``spread`` gives the changes that are shortest in the metric of the gauge; where it shall be said
         whether bodies are too light.
@@ -46,6 +46,7 @@ class Layout(NamedTuple):
     t: float
     nq: int
     nv: int
+    ny: int
     m: int
     windings: int
     sparse: int
@@ -129,7 +130,7 @@ class Work(NamedTuple):
 def new_work(layout: Layout, nw: int) -> Work:
     """Return working memory for a model whose scratch has `nw` numbers."""
     n, m, k = layout.nv, layout.m, layout.windings
-    ny = layout.nq + n + 1
+    ny = layout.ny
     solver = 2 * (m + n) if layout.sparse else m * n + m * min(m, n) + m + n
     sizes = m, n, n, layout.nq, ny, ny, nw, max(solver, m * k + 2 * k + m)
     integers = (np.zeros(size, dtype=np.int64) for size in (m, abi.N_COUNTERS))
@@ -137,7 +138,7 @@ def new_work(layout: Layout, nw: int) -> Work:
 
 
 _A, _I = types.float64[::1], types.int64[::1]
-LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 15, _I, _A, *(_I,) * 6, _A, _A), Layout)
+LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 16, _I, _A, *(_I,) * 6, _A, _A), Layout)
 INSTANT = types.NamedUniTuple(_A, 3, Instant)
 ASKED = types.NamedUniTuple(_A, 3, Asked)
 WORK = types.NamedTuple((*(_A,) * 8, _I, _I), Work)

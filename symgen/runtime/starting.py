@@ -191,7 +191,7 @@ def close_rows(
         Rows that were worked on: all of them, unless the run was stopped.
     """
     layout, work, (ys, ps, ws), rest = bare(layout), bare(work), bare(all_of_now), bare(all_asked)
-    n, ny, h = layout.nv, layout.nq + layout.nv + 1, layout.held.shape[0] // 2
+    n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2
     runs = ys.shape[0] // ny
     n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs
     for s in range(selected.shape[0]):

@@ -219,5 +219,11 @@ class Driven(msgspec.Struct, frozen=True, tag="driven"):
     power: bool = False
 
 
+class Integral(msgspec.Struct, frozen=True, tag="integral"):
+    """The integral over time, from the start of the run, of a formula of outputs."""
+
+    of: Expr
+
+
 #: What a reading may be of.
-Source = Measure | Speed | Exerted | Driven
+Source = Measure | Speed | Exerted | Driven | Integral

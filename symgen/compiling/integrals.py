@@ -1,0 +1,78 @@
+"""A compiled model whose state holds integrals of outputs behind the work.
+
+The law's own module stays what it is: another one beside it calls its right-hand side and adds the rates of integrals.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+
+import msgspec
+
+from symgen.compiling.pipeline import folder_of, generator_digest
+from symgen.compiling.side import READ
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.outputs import integrals
+from symgen.describe.printer import to_text
+from symgen.errors import InputError
+from symgen.lower.windings import winding_order
+from symgen.runtime import abi
+from symgen.runtime.compiled import CompiledModel
+from symgen.store.entries import Entries
+from symgen.store.modules import load_module
+
+
+def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None) -> CompiledModel:
+    """Return a compiled model whose state holds what outputs integrate; as it is where they integrate nothing.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    compiled : CompiledModel
+        Its compiled form for a method.
+    entries : Entries, optional
+        The cache; by default the user's.
+
+    Raises
+    ------
+    InputError
+        If the method integrates something else than velocities, or numbers that meet in a formula overflow.
+    """
+    found, info, law = integrals(mechanism), compiled.info, compiled.law_module
+    if not found:
+        return compiled
+    if hasattr(law, "rates"):
+        expected = "a method that integrates velocities, as an output is an integral"
+        raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
+    auxiliary = compiled.law.nw, 1 + len(found)
+    sections = {name: info.sections[name] for name in READ if name in info.sections} | {"auxiliary": auxiliary}
+    rows = {row.name: i for i, row in enumerate(info.rows)}
+    turning = winding_order(mechanism, compiled.shape)
+    names = sorted(name for name, value in vars(law).items() if hasattr(value, "py_func"))
+    path = Path(str(law.__file__))
+    places = folder_of(mechanism), str(sorted(sections.items())), str(sorted(rows.items())), repr(turning)
+    text = "\n".join([*places, generator_digest(), path.stem, *names, *(to_text(integral.of) for integral in found)])
+    stem = f"integrals_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    store = Entries() if entries is None else entries
+    folder = path.parent.name
+    if store.get(folder, stem) is None:
+        with store.building(folder):
+            if store.get(folder, stem) is None:  # another process may have built it while this one waited
+                from symgen.emit.side import emit_integrals
+                from symgen.lower.side import lower_integrands
+
+                try:
+                    program = lower_integrands(mechanism, turning, sections, rows)
+                except OverflowError:
+                    expected = "numbers whose products, sums and quotients are finite"
+                    raise InputError("integrals of outputs", expected, "some that overflow") from None
+                store.put(folder, stem, emit_integrals(program, path.stem, names, abi.POWER), {})
+    return replace(
+        compiled,
+        info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),
+        law=msgspec.structs.replace(compiled.law, nw=sum(auxiliary) + 1),  # the last one is looped code's own
+        law_module=load_module(store.path(folder, stem)),
+    )
