@@ -179,7 +179,8 @@ class Model:
         **changes
             Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run),
             ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
-            ``options`` (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
+            ``start`` (values of coordinates and velocities that the start keeps, by name, or a result that is gone on
+            from), ``options`` (``"method.alpha": 5``), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_steps`` (attempts at steps after which it has),
             ``repeat`` (warm up, then time that many runs and report the shortest), ``shape`` (``auto``, ``straight``
