@@ -181,8 +181,9 @@ class Model:
             Single settings: ``method``, ``integrator``, ``step`` [s] (constant, or first of an adaptive run),
             ``rtol``, ``atol``, ``until`` [s], ``output_step`` [s] or ``times`` [s], ``parameters`` (values by name),
             ``inputs`` (by name a number, a formula of t, parameters and state, a pair of times and values, or a mapping
-            with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``),
-            ``options`` (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
+            with ``t`` and ``u``, or ``file`` and ``column``, and ``interpolation``), ``start`` (values of coordinates
+            and velocities that the start keeps, by name, or a result that is gone on from), ``options``
+            (``"method.alpha": 5``), ``stop_when`` and ``record_when`` (conditions such as
             ``"crank.theta > 2*pi"``, one or several, at which the run ends or which are noted), ``events`` (tables as
             in ``[events]`` of a file, by name), ``strict`` (refuse an inconsistent start), ``verify`` (estimate
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and

@@ -14,6 +14,7 @@ from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
+    from symgen.api import Model
     from symgen.result.result import Result
 
 
@@ -77,11 +78,13 @@ def command(
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
+    found = _proposals(loaded, settings, result)
     for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
         click.echo(f"symgen: {sentence}", err=True)
     chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
-        write_json(result.to_json() | ({"quantities": chosen} if quantities else {}))
+        told = {"proposals": list(found)} | ({"quantities": chosen} if quantities else {})
+        write_json(result.to_json() | told)
     else:
         from symgen.cli._tables import show_quantities, show_result
 
@@ -89,14 +92,29 @@ def command(
         if quantities:
             show_quantities(chosen)
     files = {save_path: lambda path: result.save(path, quantities), plot_path: result.plot}
-    return write_files(_exit_code(result), files, None if as_json else lambda path: click.echo(f"written: {path}"))
+    return write_files(
+        _exit_code(result, found), files, None if as_json else lambda path: click.echo(f"written: {path}")
+    )
 
 
-def _exit_code(result: Result) -> int:
+def _proposals(model: Model, settings: Settings, result: Result) -> tuple[str, ...]:
+    """Return what makes a run that failed come to its end."""
+    if result.status != "failed" or result.interrupted:
+        return ()
+    from symgen.result.proposals import proposals
+
+    try:
+        return proposals(model.mechanism, settings, result.outcome)
+    except KeyboardInterrupt:
+        return ()
+
+
+def _exit_code(result: Result, found: tuple[str, ...]) -> int:
     if result.interrupted:
         return complain(INTERRUPTED_AT.format(result.t[-1] if len(result.t) else 0.0), INTERRUPTED)
     if result.status == "failed":
-        return complain(f"failed: {result.reason}", FAILURE)
+        tried = f"; it ends as ok with {' or with '.join(found)}" if found else ""
+        return complain(f"failed: {result.reason}{tried}", FAILURE)
     if result.status == "unverified":
         return complain(f"warning: unverified: {result.reason}", OK)
     return OK

@@ -70,6 +70,7 @@ position = ["rod_length/2", 0.0]          # where the frame's origin starts; app
 angle = 0.0                               # how far the frame is turned
 angular_velocity = 0.0                    # left out: completed from the other velocities
 # velocity = [0.0, 0.0]                   # of the centre of mass
+# hold = "velocity"                       # kept while assembly moves the rest; or position, angle, a list, true
 
 # [bodies.bob]                            # a point mass has no inertia, angle or points
 # type = "point"
@@ -79,6 +80,7 @@ angular_velocity = 0.0                    # left out: completed from the other v
 type = "revolute"                         # or JOINTS
 between = ["ground", "rod"]
 at = [[0.0, 0.0], "top"]                  # a point of each body: a name, "centre" or coordinates in its frame
+# start = { angle = 0.5 }                 # the joint's coordinate at the start, kept as well; rate = 1.0 is its rate
 
 [forces.friction]
 type = "torsional-spring-damper"          # or FORCES
@@ -135,6 +137,7 @@ points = { top = ["-rod_length/2", 0.0, 0.0], tip = ["rod_length/2", 0.0, 0.0] }
 position = [0.3, 0.0, "-rod_length/2"]    # where the frame's origin starts; approximately: assembly closes the joints
 orientation = { x_axis = [0.0, 0.0, -1.0], y_axis = [0.0, 1.0, 0.0] }   # or quaternion, rotation_vector, euler_angles
 # velocity = [0.0, 0.0, 0.0]              # of the centre of mass
+# hold = "position"                       # kept while assembly moves the rest; or angle, velocity, a list, true
 
 # [bodies.bob]                            # a point mass has no inertia, orientation or points
 # type = "point"
@@ -153,6 +156,7 @@ type = "revolute"
 between = ["arm", "rod"]
 at = ["end", "top"]
 axis = [0.0, 1.0, 0.0]
+# start = { angle = 0.5 }                 # the joint's coordinate at the start, kept as well; rate = 1.0 is its rate
 
 [forces.friction]
 type = "torsional-spring-damper"          # or FORCES

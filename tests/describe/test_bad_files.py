@@ -224,7 +224,7 @@ CASES = [
     (
         "joints.pin.att",
         1,
-        "joints.pin: expected the keys type, between, at, axis, reference, got the unknown key",
+        "joints.pin: expected the keys type, start, between, at, axis, reference, got the unknown key",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.length", "-length", "joints.string.length: expected a value above 0, got -1.0"),

@@ -22,6 +22,7 @@ RUN_KEYS = {
         "status",
         "reason",
         "error_estimate",
+        "start",
         "warnings",
         "notes",
     ),
