@@ -58,6 +58,10 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
         If there are too many, or smooth data end before the run does.
     """
     tables = {table.name: table for table in driven.mechanism.tables}
+    for name, data in driven.curves.items():
+        if data.t[0] > 0.0 or data.t[-1] < until:
+            got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
+            raise InputError(f"input '{name}'", f"data from 0 to {until:g} s, as curves end where they do", got)
 
     def at(e: Expr, t: float) -> float:
         try:
@@ -102,6 +106,11 @@ def crossings(
         What it passes.
     until : float
         End [s].
+
+    Raises
+    ------
+    InputError
+        If it passes them too often to tell one time from the next.
     """
     if line is not None:
         value, slope = line
@@ -111,8 +120,11 @@ def crossings(
         times = [until * i / count for i in range(count + 1)]
         samples, before = [function(t) for t in times], len(found)
         found = [t for level in levels for t in _passed(function, times, samples, level)]
-        if count >= _MOST or (count > _FIRST and len(found) == before):
+        if count > _FIRST and len(found) == before:
             return found
+        if count >= _MOST:
+            got = "a formula that changes sides more often than can be told apart"
+            raise InputError("inputs", f"at most {MOST_PIECES} jumps", got)
         count *= 2
 
 
@@ -125,9 +137,11 @@ def _passed(
         a, b = samples[i] - level, samples[i + 1] - level
         if (a > 0.0) != (b > 0.0):
             found.append(_bisected(function, times[i], times[i + 1], level))
-        elif 0 < i and abs(a) <= abs(samples[i - 1] - level) and abs(a) <= abs(b):
+            continue
+        before, side = samples[i - 1] - level, a > 0.0
+        if 0 < i and (before > 0.0) == side and abs(a) <= min(abs(before), abs(b)):
             # nearest to the level among its neighbours: it may pass it twice there
-            low, high, side = times[i - 1], times[i + 1], a > 0.0
+            low, high = times[i - 1], times[i + 1]
             t = _nearest(lambda x: abs(function(x) - level), low, high)
             if (function(t) - level > 0.0) != side:
                 found += [_bisected(function, low, t, level), _bisected(function, t, high, level)]
