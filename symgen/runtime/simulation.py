@@ -116,6 +116,8 @@ class Simulation:
             if follow is not None:
                 follow()
             self.set_parameters(piece.values)
+            # a kink changes no number, but what multistep schemes know of the past ends there as well
+            self.state.control[abi.BEGUN] = max(abi.AFRESH, self.state.control[abi.BEGUN])
         return self.enter(outputs)
 
     def warm(self, outputs: Outputs) -> None:

@@ -160,8 +160,9 @@ def test_kinks_are_met_too(model):
     v = 10.0 * (1.0 - math.cos(OMEGA * end)) / STIFFNESS
     expected = held(x, v, 10.0 * end, 1.0 - end)
     sizes = np.array([0.02, 0.01, 0.005, 0.0025])
-    for formula in ("10*min(t, start + 0.00005)", "5*(t + 0.30005 - abs(t - 0.30005))"):
-        assert slope(model, "rk4", sizes, formula, expected) > 3.8
+    for integrator in ("rk4", "abm4"):
+        for formula in ("10*min(t, start + 0.00005)", "5*(t + 0.30005 - abs(t - 0.30005))"):
+            assert slope(model, integrator, sizes, formula, expected) > 3.8
 
 
 def test_a_grid_of_steps_that_meets_the_jump_stays_what_it_is(model):
