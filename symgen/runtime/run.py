@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from symgen.runtime.records import Observed, Outputs, Sizes
 
 Array = NDArray[np.float64]
+Progress = Callable[[float], None]
 
 #: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
 MAX_STEPS = 1e8
@@ -203,8 +204,7 @@ class Outcome:
         room = np.zeros(2 * sizes.ny + observed.rows.shape[1])
         w = self.w.copy()
         for first, last, p in self.parameters:
-            seen = _rows_of(observed, first, last)
-            here = _rows_of(outputs, first, last)
+            here, seen = _rows_of(outputs, first, last), _rows_of(observed, first, last)
             observe_rows(self.compiled.model.observe, sizes, here, last - first, p, w, seen, room)
         return np.asarray(observed.rows)
 
@@ -219,7 +219,7 @@ def integrate(
     integrator: Integrator,
     start: Start,
     spec: RunSpec,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Outcome:
     """Integrate from a consistent start.
 
@@ -313,11 +313,7 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 
 def _in_thread(
-    simulation: Simulation,
-    outputs: Outputs,
-    progress: Callable[[float], None] | None,
-    budget: int | None,
-    follow: Callable[[], None],
+    simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None, follow: Callable[[], None]
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 
