@@ -89,7 +89,16 @@ def describe(
         "notes": list(start.notes),
         "coordinates": [{"name": q.name, "unit": q.unit} for q in equations.coordinates],
         "velocities": [{"name": v.name, "unit": v.unit} for v in equations.velocities],
-        "parameters": [{"name": p.name, "unit": p.unit, "value": values[p.name]} for p in equations.parameters],
+        "parameters": [
+            {"name": p.name, "unit": p.unit, "value": values[p.name]}
+            for p in equations.parameters
+            if p.name not in equations.inputs
+        ],
+        "inputs": [
+            {"name": p.name, "unit": p.unit, "value": values[p.name]}
+            for p in equations.parameters
+            if p.name in equations.inputs
+        ],
         "rows": [
             {
                 "name": row.name,

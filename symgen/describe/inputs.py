@@ -60,6 +60,8 @@ class Driven:
         Inputs that are held.
     samples : mapping of str to Data
         Inputs that are held from one sample to the next.
+    curves : mapping of str to Data
+        Inputs that are smooth between samples, and nothing beyond them.
     jumps : tuple of Jump
         Of all formulas.
     told : mapping of str to str or float
@@ -69,6 +71,7 @@ class Driven:
     mechanism: Mechanism
     numbers: Mapping[str, float]
     samples: Mapping[str, Data]
+    curves: Mapping[str, Data]
     jumps: tuple[Jump, ...]
     told: Mapping[str, str | float]
 
@@ -91,7 +94,7 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
         If a name is no input, or what is given is none of these.
     """
     inputs = {p.name: p.value for p in mechanism.parameters if p.input}
-    numbers, samples, formulas = dict[str, float](), dict[str, Data](), dict[str, Expr]()
+    numbers, samples, curves, formulas = dict[str, float](), dict[str, Data](), dict[str, Data](), dict[str, Expr]()
     told: dict[str, str | float] = dict(inputs)
     tables, jumps = list(mechanism.tables), list[Jump]()
     for name, value in given.items():
@@ -114,18 +117,18 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
                 samples[name] = data
             else:
                 table = data.table(where, name)
+                if data.interpolation != "linear":
+                    curves[name] = data
                 tables.append(table)
                 formulas[name] = Call(table.function, (Name("t"),))
     known = msgspec.structs.replace(mechanism, tables=tuple(tables))
     changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
-        return Driven(mechanism, numbers, samples, (), told)
+        return Driven(mechanism, numbers, samples, curves, (), told)
     forces = replaced(known.forces, lambda e: changed.get(e.name, e))
-    parameters = (*known.parameters, *switches)
-    return Driven(
-        msgspec.structs.replace(known, forces=forces, parameters=parameters), numbers, samples, tuple(jumps), told
-    )
+    known = msgspec.structs.replace(known, forces=forces, parameters=(*known.parameters, *switches))
+    return Driven(known, numbers, samples, curves, tuple(jumps), told)
 
 
 def replaced(value: T, by: Callable[[Name], Expr]) -> T:

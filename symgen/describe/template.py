@@ -55,6 +55,9 @@ rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
 # rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
 
+# [inputs]                                # numbers from outside: symgen run FILE --input push="5*sin(t)"
+# push = { default = 0.0, unit = "N" }    # may stand in forces, torques and actuators
+
 # [tables.profile]                        # a function by interpolation, called as profile(t)
 # x = [0.0, 1.0, 2.0, 3.0]
 # y = [0.0, 0.5, 0.2, 0.0]
@@ -115,6 +118,9 @@ rod_mass = { value = 1.5, unit = "kg" }
 rod_length = { value = 0.8, unit = "m" }
 damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
 # rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
+
+# [inputs]                                # numbers from outside: symgen run FILE --input push="5*sin(t)"
+# push = { default = 0.0, unit = "N" }    # may stand in forces, torques and actuators
 
 # [tables.profile]                        # a function by interpolation, called as profile(t)
 # x = [0.0, 1.0, 2.0, 3.0]

@@ -22,6 +22,7 @@ MOST_PIECES = 100_000
 _FIRST, _MOST = 2048, 65536
 #: Jumps closer than this part of the run are one.
 _SAME = 1e-14
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,10 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
         If there are too many, or smooth data end before the run does.
     """
     tables = {table.name: table for table in driven.mechanism.tables}
+    for name, data in driven.curves.items():
+        if data.t[0] > 0.0 or data.t[-1] < until:
+            got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
+            raise InputError(f"input '{name}'", f"data from 0 to {until:g} s, as curves end where they do", got)
 
     def at(e: Expr, t: float) -> float:
         try:
@@ -102,17 +107,26 @@ def crossings(
         What it passes.
     until : float
         End [s].
+
+    Raises
+    ------
+    InputError
+        If it passes them too often to tell one time from the next.
     """
     if line is not None:
         value, slope = line
         return [t for level in levels if slope and 0.0 <= (t := (level - value) / slope) <= until]
     found, count = list[float](), _FIRST
     while True:
-        times = [until * i / count for i in range(count + 1)]
+        # not equidistant, so that what is faster than the looks is seen to be: doubling finds more then
+        times = [until * (i + 0.6 * (_GOLDEN * i % 1.0)) / count for i in range(count)] + [until]
         samples, before = [function(t) for t in times], len(found)
         found = [t for level in levels for t in _passed(function, times, samples, level)]
-        if count >= _MOST or (count > _FIRST and len(found) == before):
+        if count > _FIRST and len(found) == before:
             return found
+        if count >= _MOST:
+            got = "a formula that changes sides more often than can be told apart"
+            raise InputError("inputs", f"at most {MOST_PIECES} jumps", got)
         count *= 2
 
 
@@ -125,10 +139,12 @@ def _passed(
         a, b = samples[i] - level, samples[i + 1] - level
         if (a > 0.0) != (b > 0.0):
             found.append(_bisected(function, times[i], times[i + 1], level))
-        elif 0 < i and abs(a) <= abs(samples[i - 1] - level) and abs(a) <= abs(b):
+            continue
+        before, side = samples[i - 1] - level, a > 0.0
+        if 0 < i and (before > 0.0) == side and abs(a) <= min(abs(before), abs(b)):
             # nearest to the level among its neighbours: it may pass it twice there
-            low, high, side = times[i - 1], times[i + 1], a > 0.0
-            t = _nearest(lambda x: abs(function(x) - level), low, high)
+            low, high = times[i - 1], times[i + 1]
+            t = _lowest(function, 1.0 if side else -1.0, low, high)
             if (function(t) - level > 0.0) != side:
                 found += [_bisected(function, low, t, level), _bisected(function, t, high, level)]
     return found
@@ -145,12 +161,11 @@ def _bisected(function: Callable[[float], float], low: float, high: float, level
     return high
 
 
-def _nearest(distance: Callable[[float], float], low: float, high: float) -> float:
-    """Return where a distance is smallest, by golden sections."""
-    ratio = 0.5 * (math.sqrt(5.0) - 1.0)
+def _lowest(function: Callable[[float], float], sign: float, low: float, high: float) -> float:
+    """Return where a function, times a sign, is smallest, by golden sections."""
     for _ in range(60):
-        a, b = high - ratio * (high - low), low + ratio * (high - low)
-        if distance(a) < distance(b):
+        a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+        if sign * function(a) < sign * function(b):
             high = b
         else:
             low = a

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from symgen.runtime.records import Observed, Outputs, Sizes
 
 Array = NDArray[np.float64]
+Progress = Callable[[float], None]
 
 #: Attempts at an adaptive step that a run may take, unless it is asked for otherwise.
 MAX_STEPS = 1e8
@@ -250,7 +251,7 @@ def integrate(
     integrator: Integrator,
     start: Start,
     spec: RunSpec,
-    progress: Callable[[float], None] | None = None,
+    progress: Progress | None = None,
 ) -> Outcome:
     """Integrate from a consistent start.
 
@@ -362,11 +363,7 @@ def _shortest_row(compiled: CompiledModel, w: Array) -> str:
 
 
 def _in_thread(
-    simulation: Simulation,
-    outputs: Outputs,
-    progress: Callable[[float], None] | None,
-    budget: int | None,
-    follow: Callable[[], None],
+    simulation: Simulation, outputs: Outputs, progress: Progress | None, budget: int | None, follow: Callable[[], None]
 ) -> tuple[int, float, bool]:
     """Run the loop, which holds no lock, in a thread; an interrupt raises the flag that it polls.
 

@@ -185,6 +185,8 @@ class Simulation:
             if follow is not None:
                 follow()
             self.set_parameters(piece.values)
+            # a kink changes no number, but what multistep schemes know of the past ends there as well
+            self.state.control[abi.BEGUN] = max(abi.AFRESH, self.state.control[abi.BEGUN])
         return self.enter(outputs)
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:

@@ -19,7 +19,32 @@ INPUTS, OUTPUTS = 12, 8
 UNARY = ("neg", *"sqrt exp log sin cos tan asin acos atan sinh cosh tanh abs floor sign".split())
 BINARY = tuple("add sub mul div pow atan2 min max step".split())
 COMPARISONS = tuple("lt le gt ge".split())
-ALL = (*UNARY, *BINARY, *COMPARISONS, "and", "or", "not", "defined", "where", "table:bump")
+TABLES = ("table:bump", "table:~hump", "table:~hump''")
+ALL = (*UNARY, *BINARY, *COMPARISONS, "and", "or", "not", "defined", "where", *TABLES)
+#: Smooth pieces that repeat themselves, what they curve by, and straight lines.
+HUMP = '''
+def table_hump(x):
+    """Cubic pieces."""
+    at = x - 2.5 * math.floor((x - 0.5) / 2.5)
+    low = 0
+    high = 4
+    while high - low > 1:
+        middle = (low + high) // 2
+        if at < HUMP_X[middle]:
+            high = middle
+        else:
+            low = middle
+    u = at - HUMP_X[low]
+    low = 4 * low
+    return HUMP_Y[low] + u * (HUMP_Y[low + 1] + u * (HUMP_Y[low + 2] + u * HUMP_Y[low + 3]))
+'''
+SECOND = '''
+def second_hump(x):
+    """Second derivative."""
+    low = 1 if x > 1.25 else 0
+    u = x - HUMP_X[low]
+    return 2.0 * HUMP_Y[4 * low + 2] + u * (6.0 * HUMP_Y[4 * low + 3])
+'''
 TABLE = '''
 def table_bump(x):
     """Linear interpolation."""
@@ -45,6 +70,8 @@ from numba import njit
 
 BUMP_X = np.array([0.0, 0.5, 1.25, 3.0])
 BUMP_Y = np.array([1.0, 4.0, -0.5, -2.0])
+HUMP_X = np.array([0.5, 0.5, 1.25, 3.0])
+HUMP_Y = np.array([1.0, 0.5, 0.0, 0.0, 1.0, 0.5, -2.0, 0.7, 0.3, -1.0, 2.0, -0.6, 1.0, 0.5, 0.0, 0.0])
 
 """
 _counter = itertools.count()
@@ -61,7 +88,7 @@ def printed(graph: Graph, outputs: list[int], flag: int | None) -> str:
 
 def judged(tmp_path, *functions: str) -> list[str]:
     folder = tmp_path / f"operations{next(_counter)}"
-    direct, plain = load_twice(written(folder, TABLE, *functions, head=HEAD))
+    direct, plain = load_twice(written(folder, TABLE, HUMP, SECOND, *functions, head=HEAD))
     return differences(direct.f, plain.f, arguments_of(direct.f), 64, rounds=8)
 
 
@@ -94,7 +121,7 @@ def programs(draw):
         elif name == "where":
             numbers.append(graph.call(name, some(truths), some(numbers), some(numbers)))
         else:
-            count = 1 if name in UNARY or name == "table:bump" else 2
+            count = 1 if name in UNARY or name in TABLES else 2
             arguments = tuple(some(numbers) for _ in range(count))
             numbers.append(graph.rebuild(name, arguments) if ":" not in name else graph.call(name, *arguments))
     return graph, [some(numbers[-20:]) for _ in range(OUTPUTS)], some(truths) if draw(st.booleans()) else None
