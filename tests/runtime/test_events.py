@@ -12,12 +12,14 @@ from scipy.special import ellipkinc
 from support.emitted import mechanism_of
 
 import symgen
+from symgen.describe.toml import to_toml
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.plan import make_plan
 from symgen.run_setup import watching
 from symgen.runtime.simulation import Simulation
 from symgen.settings import Settings
+from symgen.study.stress.study import stress
 
 G, E = 9.81, 0.7
 FIRST = math.sqrt(2.0 / G)  # a fall of 1 m
@@ -448,3 +450,17 @@ def test_bad_conditions_of_a_run_are_refused():
         with pytest.raises(InputError) as caught:
             model.simulate(**settings)
         assert said in str(caught.value)
+
+
+def test_studies_refuse_events_that_they_do_not_look_for(tmp_path):
+    model, file = ball(**BOUNCE), tmp_path / "ball.toml"
+    file.write_text(to_toml({**BALL, "events": BOUNCE}))
+    said = "expected a mechanism whose motion has no events, got the event 'impact', which changes velocities"
+    with pytest.raises(InputError, match=f"sweep: {said}"):
+        symgen.sweep(model, {"ball.vx": [0.0, 1.0]}, method="lagrange")
+    with pytest.raises(InputError, match=f"compare: {said}"):
+        symgen.compare(model)
+    with pytest.raises(InputError, match=f"stress: {said}"):
+        stress([str(file)])
+    with pytest.raises(InputError, match="sweep: expected no events, got the event 't > 1', which ends runs"):
+        symgen.sweep(ball(), {"ball.vx": [0.0, 1.0]}, method="lagrange", stop_when="t > 1")
