@@ -274,7 +274,8 @@ def take_in(hunt: Any, n: int, h: float, following: float, hunting: int) -> None
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
         before = abs(hunt[at + _G_START * n + k])
-        if hunt[at + _GRAZING * n + k] != 0.0 and h * abs(hunt[at + _D_START * n + k]) < 4.0 * before:
+        near = h * abs(hunt[at + _D_START * n + k]) < 4.0 * before and abs(hunt[out + k]) < 8.0 * before
+        if near and hunt[at + _GRAZING * n + k] != 0.0:
             hunt[out + k] = hunt[at + _SIDE * n + k] * before  # has not come away from the event yet
     if hunting == _NOTHING:
         hunt[_DOING], hunt[_LOW], hunt[_HIGH], hunt[_WHOLE] = _LOOKING, 0.0, h, h
