@@ -6,19 +6,18 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from symgen.describe.evaluate import parameter_values
+from symgen.result.events import record, stopped
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.reactions import Forces
-from symgen.result.result import FAILED, EventRecord, Rank, Result, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.runtime import abi
-from symgen.runtime.events import STOP
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Happening
     from symgen.runtime.run import Outcome
     from symgen.settings import Settings
 
@@ -59,7 +58,7 @@ def build_result(
     parameters = parameter_values(mechanism, settings.parameters)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
@@ -105,7 +104,7 @@ def build_result(
         outcome=outcome,
         forces=forces,
         end=outcome.end,
-        events=tuple(_record(compiled, event) for event in outcome.happened),
+        events=tuple(record(compiled, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
     )
 
@@ -121,28 +120,6 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
-
-
-def _stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
-    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
-    if not names or outcome.code != abi.DONE:
-        return []
-    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
-
-
-def _record(compiled: CompiledModel, event: Happening) -> EventRecord:
-    """Label an event of a run."""
-    info = compiled.info
-    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
-    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
-    if event.after is None or event.impulses is None:
-        return EventRecord(event.t, event.name, event.action, q, v)
-    after = {c.name: float(x) for c, x in zip(info.velocities, event.after, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(event.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *event.given]
-    impulses = {name: float(s * x) for name, s, x in zip(names, signs, event.impulses, strict=True)}
-    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

@@ -150,7 +150,9 @@ class _Rewriting:
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
         )
-        key = kind.encode() + msgspec.json.encode(abstract)
+        # events are no part of what is emitted for a mechanism, so they give no kernel another name
+        fields = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name != "events"}
+        key = kind.encode() + msgspec.json.encode(fields)
         return Instance(kind, name, label, abstract, key, tuple(self.frames), tuple(self.constants))
 
     def frame(self, body: Any, alias: str) -> Any:
