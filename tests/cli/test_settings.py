@@ -25,9 +25,9 @@ COMMANDS = {"run": run, "compare": compare, "stress": stress, "sweep": sweep}
 #: Settings that a command goes without, since it has a list of them, or no use for them.
 WITHOUT = {
     "run": {"times"},
-    "compare": {"method", "integrator", "step", "rtol", "atol", "times", "strict", "verify"},
+    "compare": {"method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs"},
     "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps"},
-    "sweep": {"verify", "repeat", "shape"},
+    "sweep": {"verify", "repeat", "shape", "inputs"},
 }
 #: Defaults of commands that are not those of a single run.
 OTHER = {("compare", "repeat"): 3}
