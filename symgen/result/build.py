@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -110,11 +111,13 @@ def build_result(
         error_estimate=None if second is None or verdict.status == FAILED else second.error,
         outcome=outcome,
         forces=forces,
-        last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
+        ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )
 
 
-def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome, made: Mapping[str, Any]) -> LastState:
+def _last_state(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
+) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
     y, w = arrays["y"], arrays["w"]
@@ -133,7 +136,7 @@ def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome,
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made,
+        made=made_of(compiled, plan, parameters),
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )

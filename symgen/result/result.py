@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from os import PathLike
@@ -41,9 +41,19 @@ INTERRUPTED = "interrupted"
 
 
 #: What a copy does without, and what is worked out before.
-_OF_THE_RUN = ("outcome", "forces")
+_OF_THE_RUN = ("outcome", "forces", "ended")
 _DERIVED = (
-    *("a", "joint_coordinates", "violations", "lam", "reactions", "non_unique_reactions", "shape", "start"),
+    *(
+        "a",
+        "joint_coordinates",
+        "violations",
+        "lam",
+        "reactions",
+        "non_unique_reactions",
+        "shape",
+        "start",
+        "last_state",
+    ),
     "_final_multipliers",
 )
 
@@ -105,8 +115,6 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
-    last_state : LastState
-        Where the run ended, with all that it kept: what another one goes on from.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -114,7 +122,7 @@ class Result:
     Notes
     -----
     A result that was pickled or copied holds all of its tables, worked out when that was done, but neither the code
-    that ran nor `outcome` and `forces`, which belong to the process of the run.
+    that ran nor `outcome`, `forces` and `ended`, which belong to the process of the run.
     """
 
     mechanism: str
@@ -151,7 +159,7 @@ class Result:
     error_estimate: float | None
     outcome: Outcome
     forces: Forces
-    last_state: LastState
+    ended: Callable[[], LastState]
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 
@@ -275,6 +283,11 @@ class Result:
         raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def last_state(self) -> LastState:
+        """Where the run ended, with all that it kept: what another one goes on from."""
+        return self.ended()
 
     @cached_property
     def start(self) -> dict[str, Any]:
