@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -123,11 +124,13 @@ def build_result(
         events=tuple(record(compiled, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
-        last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
+        ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )
 
 
-def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome, made: Mapping[str, Any]) -> LastState:
+def _last_state(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
+) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
     y, w = arrays["y"], arrays["w"]
@@ -146,7 +149,7 @@ def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome,
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made,
+        made=made_of(compiled, plan, parameters),
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )
