@@ -11,7 +11,7 @@ from symgen.describe.mechanism import Mechanism, Table
 from symgen.describe.numbers import Scalars
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, nearest
-from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number
+from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, Reading
 
 
 def evaluate(
@@ -37,7 +37,7 @@ def evaluate(
     """
     if isinstance(expression, Number):
         return expression.value
-    if isinstance(expression, Name):
+    if isinstance(expression, Name | Reading):
         if expression.name not in values:
             hint = nearest(expression.name, values)
             raise InputError(where, "a value for every name", f"none for '{expression.name}'", hint)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from symgen.describe.mechanism import Mechanism
 from symgen.ir.expression import build
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Expr, call
+from symgen.vocabulary.expressions import Expr, Reading, call
 from symgen.vocabulary.measures import GROUND, Direction, Marker
 
 
@@ -39,7 +39,18 @@ class Formulas:
 
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
-        return build(self.graph, e, {**self.names, **placeholders} if placeholders else self.names)
+        names = {**self.names, **placeholders} if placeholders else self.names
+        return build(self.graph, e, names, self.reading)
+
+    def reading(self, r: Reading) -> int:
+        """Return the node of a measure's value or rate.
+
+        Raises
+        ------
+        KeyError
+            As measures are derived by `symgen.formulate`.
+        """
+        raise KeyError(r.name)
 
     def local(self, marker: Marker) -> list[int]:
         """Return the marker relative to the centre of mass (ground: to the origin)."""

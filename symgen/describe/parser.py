@@ -11,12 +11,16 @@ import keyword
 import math
 import re
 from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from symgen.describe.names import CALLABLE
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Expr, Name, Number, call, number
+
+if TYPE_CHECKING:
+    from symgen.describe.readings import Readings
 
 LONGEST_TEXT = 10_000
 DEEPEST = 100
@@ -61,6 +65,8 @@ class Names(msgspec.Struct, frozen=True):
         Tables that may be called.
     elsewhere : frozenset of str
         Names that exist, though not in this formula; only the message differs.
+    readings : Readings, optional
+        What else may be written with dots: points of bodies, coordinates of joints.
     """
 
     what: str
@@ -68,6 +74,7 @@ class Names(msgspec.Struct, frozen=True):
     coordinates: Mapping[str, tuple[str, ...]] = {}
     tables: Collection[str] = ()
     elsewhere: frozenset[str] = frozenset()
+    readings: Readings | None = None
 
 
 def parse(text: str, names: Names, where: str) -> Expr:
@@ -155,8 +162,8 @@ class _Reader:
                 return Number(float(value))
             case ast.Name(id=name):
                 return self.name(name)
-            case ast.Attribute(value=ast.Name(id=body), attr=coordinate):
-                return self.coordinate(body, coordinate)
+            case ast.Attribute() if (path := _path(node)) is not None:
+                return self.dotted(path)
             case ast.UnaryOp(op=ast.UAdd(), operand=operand):
                 return self.quantity(operand, depth)
             case ast.UnaryOp(op=ast.USub(), operand=operand):
@@ -212,15 +219,25 @@ class _Reader:
             raise self.fail(f"the body '{name}' in place of a number", f"it has {listed}")
         raise self.fail(f"the unknown name {quoted(name)}", nearest(name, [*self.names.plain, "pi"]))
 
-    def coordinate(self, body: str, coordinate: str) -> Expr:
-        if not self.names.coordinates:
-            raise self.fail(f"'{body}.{coordinate}', which has no meaning here")
-        if body not in self.names.coordinates:
-            raise self.fail(f"the unknown body {quoted(body)}", nearest(body, self.names.coordinates))
-        if coordinate not in self.names.coordinates[body]:
-            hint = f"it has {', '.join(self.names.coordinates[body])}"
-            raise self.fail(f"{quoted(coordinate)}, which body '{body}' has not", hint)
-        return Name(f"{body}.{coordinate}")
+    def dotted(self, path: tuple[str, ...]) -> Expr:
+        """Return a body's coordinate, or what else has a name with dots."""
+        owner, text, readings = path[0], ".".join(path), self.names.readings
+        own = self.names.coordinates.get(owner, ())
+        if len(path) == 2 and path[1] in own:
+            return Name(text)
+        if not self.names.coordinates and readings is None:
+            raise self.fail(f"'{text}', which has no meaning here")
+        owners = self.names.coordinates if readings is None else dict.fromkeys(readings.owners())
+        if owner not in owners:
+            what = "body" if readings is None else "body or joint"
+            raise self.fail(f"the unknown {what} {quoted(owner)}", nearest(owner, owners))
+        found = None if readings is None else readings.find(path, self.where)
+        if found is not None:
+            return found
+        known = (*own, *(() if readings is None else readings.known(owner, self.where)))
+        what = f"{quoted('.'.join(path[1:]))}, which {'body ' if own else ''}'{owner}' has not"
+        listed = f"it has {', '.join(known)}" if known else "it has nothing to read"
+        raise self.fail(what, listed if len(known) <= 20 else nearest(text, [f"{owner}.{k}" for k in known]))
 
     def binary(self, function: str, left: Expr, right: Expr) -> Expr:
         if function == "pow" and isinstance(right, Number) and abs(right.value) > LARGEST_EXPONENT:
@@ -276,6 +293,15 @@ class _Reader:
         for i in range(len(nodes) - 3, -1, -2):
             result = where(self.condition(nodes[i], depth), self.quantity(nodes[i + 1], depth), result)
         return result
+
+
+def _path(node: ast.expr) -> tuple[str, ...] | None:
+    """Return the parts of a name with dots, None where something else stands before a dot."""
+    parts: list[str] = []
+    while isinstance(node, ast.Attribute):
+        parts.append(node.attr)
+        node = node.value
+    return (node.id, *reversed(parts)) if isinstance(node, ast.Name) else None
 
 
 def _is_condition(node: ast.expr) -> bool:

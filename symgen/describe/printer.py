@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from symgen.vocabulary.expressions import Expr, Name, Number
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading
 
 _INFIX: Mapping[str, tuple[str, int]] = {
     "or": (" or ", 1),
@@ -35,7 +35,7 @@ def _print(expression: Expr) -> tuple[str, int]:
     """Return the text and how strongly its outermost operator binds."""
     if isinstance(expression, Number):
         return repr(expression.value), _SIGN if repr(expression.value).startswith("-") else _ATOM
-    if isinstance(expression, Name):
+    if isinstance(expression, Name | Reading):
         return expression.name, _ATOM
     function, arguments = expression.function, expression.arguments
     if function in _INFIX:

@@ -12,8 +12,9 @@ import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import AnyBody, Joint, Vec
+from symgen.describe.mechanism import AnyBody, Force, Joint, Vec
 from symgen.describe.parser import Names, parse
+from symgen.describe.readings import Readings
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call
@@ -35,6 +36,8 @@ class Model(msgspec.Struct, frozen=True, dict=True):
     bodies: Mapping[str, AnyBody]
     joint: Callable[[str, str], Joint]  # (name, where) -> the joint, resolved if it was not yet
     space: str = "planar"
+    joint_names: frozenset[str] = frozenset()
+    forces: Mapping[str, Force] = {}  # empty while forces are resolved
 
     @cached_property
     def coordinates(self) -> dict[str, tuple[str, ...]]:
@@ -274,15 +277,19 @@ class Scope:
         return self._expression(key, value, self.model.times)
 
     def of_state(self, key: str, value: float | str, words: Mapping[str, str] | None = None) -> Expr:
-        """Return a number or an expression of t, parameters, body coordinates and the element's own words.
+        """Return a number or an expression of t, parameters, the state and the element's own words.
 
-        Coordinates are those of the centre of mass, as in results.
+        Of the state: coordinates of bodies, which are those of the centre of mass, as in results, points of bodies,
+        coordinates of joints, and their rates (`symgen.describe.readings`).
         """
         own = self._own(key, value, words)
         listed = "".join(f", {word}" for word in own)
         what = f"a number or an expression of t{listed}, parameters and body coordinates"
         plain = ChainMap(own, self.model.times.plain)  # type: ignore[arg-type]  # the second one is only read
-        return self._expression(key, value, Names(what, plain, self.model.coordinates, self.model.times.elsewhere))
+        tables = self.model.times.elsewhere
+        return self._expression(
+            key, value, Names(what, plain, self.model.coordinates, tables, readings=Readings(self.model))
+        )
 
     def potential(self, key: str, value: float | str, words: Mapping[str, str]) -> Expr:
         """Return an expression of parameters and the element's own coordinate."""

@@ -77,6 +77,7 @@ class _Validator:
             {},
             self.joint,
             head.space,
+            frozenset(name for name, _ in self.entries("joints")),
         )
         scope = Scope(self.model, "mechanism")
         gravity = scope.vector("gravity", (0.0,) * scope.dimension if head.gravity is None else head.gravity)

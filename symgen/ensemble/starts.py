@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number
+from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading
 
 Array = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class Columns:
         """Return a formula's values."""
         if isinstance(expression, Number):
             return expression.value
-        if isinstance(expression, Name):
+        if isinstance(expression, Name | Reading):
             return self.values[expression.name]
         return self.apply(expression.function, *(self.value(a) for a in expression.arguments))
 

@@ -11,6 +11,7 @@ from symgen.formulate.frames import FRAME_SLOTS
 from symgen.formulate.kernels import derive
 from symgen.formulate.spatial import SPATIAL_SLOTS
 from symgen.ir.graph import Graph
+from symgen.vocabulary.expressions import Reading
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -131,6 +132,15 @@ class Model(Formulas):
             return [x, y, g.one, g.zero, vx, vy, g.zero]
         theta = g.input("q", i + 2)
         return [x, y, g.call("cos", theta), g.call("sin", theta), vx, vy, g.input("v", i + 2)]
+
+    def reading(self, r: Reading) -> int:
+        """Return the node of a measure's value, rate, or second derivative, which needs v'."""
+        derived, g = self.motion(r.measure), self.graph
+        if r.order == 0:
+            return derived.value
+        if r.order == 1:
+            return derived.rate(g, self.velocities)
+        return g.add(derived.rate(g, tuple(g.input("rates.v", i) for i in range(self.size))), derived.bias)
 
     # -- measures ----------------------------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ import sympy as sp
 from symgen.errors import InputError
 from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Call, Expr, Name, Number
+from symgen.vocabulary.expressions import Call, Expr, Name, Number, Reading
 from symgen.vocabulary.functions import ELEMENTARY
 
 _UNARY = {**{getattr(sp, name): name for name in ELEMENTARY}, sp.Abs: "abs", sp.sign: "sign"}
@@ -169,9 +169,9 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
             if expression.value != int_or_none(expression.value)
             else sp.Integer(int(expression.value))
         )
-    if isinstance(expression, Name):
+    if isinstance(expression, Name | Reading):
         return symbols[expression.name]
-    assert isinstance(expression, Call), "the tree has three node kinds"
+    assert isinstance(expression, Call), "the tree has four node kinds"
     arguments = [to_sympy(a, symbols) for a in expression.arguments]
     if expression.function.startswith("table:"):
         return _table(expression.function.removeprefix("table:"))(*arguments)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from symgen.ir.formula import Functions
 from symgen.ir.graph import Graph
-from symgen.vocabulary.expressions import Expr, Name, Number
+from symgen.vocabulary.expressions import Expr, Name, Number, Reading
 
 _ARITHMETIC = {"add": "add", "sub": "sub", "mul": "mul", "div": "div", "pow": "power", "neg": "neg"}
 
 
-def build(graph: Graph, expression: Expr, names: Mapping[str, int]) -> int:
+def build(
+    graph: Graph, expression: Expr, names: Mapping[str, int], reading: Callable[[Reading], int] | None = None
+) -> int:
     """Return the node of `expression`, its names replaced by the nodes in `names`.
 
     Parameters
@@ -22,6 +24,8 @@ def build(graph: Graph, expression: Expr, names: Mapping[str, int]) -> int:
         A validated formula.
     names : mapping of str to int
         Node of every name that may appear.
+    reading : callable, optional
+        Node of a measure's value or rate, where these may appear.
 
     Raises
     ------
@@ -35,6 +39,10 @@ def build(graph: Graph, expression: Expr, names: Mapping[str, int]) -> int:
             return graph.constant(e.value)
         if isinstance(e, Name):
             return names[e.name]
+        if isinstance(e, Reading):
+            if reading is None:
+                raise KeyError(e.name)
+            return reading(e)
         arguments = [node(a) for a in e.arguments]
         method = _ARITHMETIC.get(e.function)
         return functions.call(e.function, *arguments) if method is None else int(getattr(graph, method)(*arguments))

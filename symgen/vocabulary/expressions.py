@@ -1,6 +1,6 @@
 """The expression tree: what a formula in a mechanism file becomes after the whitelisting parser.
 
-Three node kinds only. Operators are calls too, so a consumer (SymPy translation, numeric evaluation, printing) is one
+Four node kinds only. Operators are calls too, so a consumer (SymPy translation, numeric evaluation, printing) is one
 table from function name to action.
 """
 
@@ -8,10 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from typing import TYPE_CHECKING
 
 import msgspec
 
 from symgen.vocabulary.functions import ELEMENTARY
+
+if TYPE_CHECKING:
+    from symgen.vocabulary.measures import Measure
 
 
 class Number(msgspec.Struct, frozen=True, tag="number"):
@@ -33,7 +37,19 @@ class Call(msgspec.Struct, frozen=True, tag="call"):
     arguments: tuple[Expr, ...]
 
 
-Expr = Number | Name | Call
+class Reading(msgspec.Struct, frozen=True, tag="reading"):
+    """What a measure shows in the course of a motion: a point's coordinate, a joint's angle, or a rate of these.
+
+    `name` is how a formula writes it (``arm.tip.vy``, ``motor.angle``); `order` is 0 for the value, 1 for the rate and
+    2 for the second derivative with respect to time.
+    """
+
+    name: str
+    measure: Measure
+    order: int = 0
+
+
+Expr = Number | Name | Call | Reading
 
 
 def _where(condition: float, yes: float, no: float) -> float:
@@ -66,14 +82,27 @@ FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
 
 
 def names(expression: Expr) -> Iterator[str]:
-    """Yield every name that `expression` refers to, in order of appearance (with repeats)."""
+    """Yield every name that `expression` refers to, those of readings too, in order of appearance (with repeats)."""
+    for node in _leaves(expression):
+        if not isinstance(node, Number):
+            yield node.name
+
+
+def readings(expression: Expr) -> Iterator[Reading]:
+    """Yield the readings in `expression`, in order of appearance (with repeats)."""
+    for node in _leaves(expression):
+        if isinstance(node, Reading):
+            yield node
+
+
+def _leaves(expression: Expr) -> Iterator[Number | Name | Reading]:
     stack: list[Expr] = [expression]
     while stack:
         node = stack.pop()
-        if isinstance(node, Name):
-            yield node.name
-        elif isinstance(node, Call):
+        if isinstance(node, Call):
             stack.extend(reversed(node.arguments))
+        else:
+            yield node
 
 
 def number(value: float) -> Number:

@@ -123,7 +123,7 @@ REFUSED = [
     ("()", "got '()', which is no formula"),
     ("sin(*a)", "got '*a', which is no formula"),
     ("sin(a)(b)", "got 'sin(a)(b)', which is no formula"),
-    ("crank.x.y", "got 'crank.x.y', which is no formula"),
+    ("crank.x.y", "got 'x.y', which body 'crank' has not; it has x, y, theta"),
     ("crank.x()", "got 'crank.x()', which is no formula"),
     ("1j", "got '1j', which is not a number, at column 1"),
     ("0x10", "got '0x10', which is not a number, at column 1"),

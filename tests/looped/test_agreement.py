@@ -56,7 +56,8 @@ def differences(module: str) -> dict[str, dict[str, float]]:
 
 
 @pytest.mark.parametrize(
-    "mechanism", [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "rough", "parallelogram", "spatial"]
+    "mechanism",
+    [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial"],
 )
 def test_every_function_of_every_method_agrees(plain, mechanism):
     cases = {case: found for case, found in plain.items() if case.split()[0] == mechanism}
@@ -80,7 +81,8 @@ def test_every_method_has_loops_or_says_why_not(plain):
 
 
 @pytest.mark.parametrize(
-    "mechanism", [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "rough", "parallelogram", "spatial"]
+    "mechanism",
+    [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial"],
 )
 def test_residuals_and_their_jacobians_agree(plain_forms, mechanism):
     cases = {case: found for case, found in plain_forms.items() if case.split()[0] == mechanism}

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from support.emitted import mechanism_of
-from support.models import EVERYTHING, ROUGH, parallelogram
+from support.models import EVERYTHING, READING, ROUGH, parallelogram
 from symgen import catalogue
 from symgen.api import Model, load
 from symgen.describe.builder import MechanismBuilder
@@ -38,13 +38,15 @@ def spatial() -> Model:
         )
     builder.joint("ball", "spherical", between=["ground", "a"], at=[[0.0, 0.0, 0.0], "O"])
     builder.joint("hinge", "revolute", between=["a", "b"], at=["P", "O"], axis=[1.0, 0.3, 0.0])
+    builder.force("aim", "force", body="c", force=["b.P.x*c.O.vz", "sin(hinge.angle)", "a.P.vy - 0.3*hinge.rate"])
+    builder.force("turn", "torque", body="c", torque=["hinge.angle", 0.0, "c.P.y"])
     return load(builder.build())
 
 
 def models() -> dict[str, Model]:
     """Return the mechanisms that are tried, by name."""
     found = {name: load(name) for name in (*catalogue.names(), "n-four-bar:3", "chain:3")}
-    for description in (EVERYTHING, ROUGH, parallelogram()):
+    for description in (EVERYTHING, READING, ROUGH, parallelogram()):
         mechanism = mechanism_of(description)
         found[mechanism.name] = load(mechanism)
     found["spatial"] = spatial()

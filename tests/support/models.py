@@ -89,6 +89,20 @@ EVERYTHING = {
     },
 }
 
+#: The same with a force that reads points and joint coordinates.
+READING = EVERYTHING | {
+    "mechanism": {"name": "reading", "gravity": ["0.3*k1", -9.81]},
+    "forces": EVERYTHING["forces"]
+    | {
+        "guide": {
+            "type": "force",
+            "body": "disc",
+            "at": [0.0, 0.1],
+            "force": ["0.2*arm.B.y - 0.3*knee.angle*rod.C.vx", "rail.rate*cos(push.displacement) - slide.x"],
+        },
+    },
+}
+
 #: A weld, and formulas that are not smooth: tables, conditions, minima.
 ROUGH = {
     "mechanism": {"name": "rough", "gravity": [0.0, -9.81]},

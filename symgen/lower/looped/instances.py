@@ -17,7 +17,7 @@ import msgspec
 from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Body, Force, Joint, Mechanism, Parameter
 from symgen.describe.repeats import without_repeats
-from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, call, names
+from symgen.vocabulary.expressions import ONE, ZERO, Call, Expr, Name, Number, Reading, call, names, readings
 from symgen.vocabulary.measures import GROUND, Bearing, Direction, Effort, Marker, Measure, Sum, Turn
 
 #: Fields of the vocabulary's structs that hold the name of a body.
@@ -88,7 +88,9 @@ def _angles(element: Joint | Force) -> tuple[Measure, ...]:
     if isinstance(element, Joint):
         measures = [getattr(row, "measure", None) for row in element.rows] + [m for _, m in element.coordinates]
     else:
-        measures = [effort.measure for effort in element.efforts]
+        measures = [
+            m for effort in element.efforts for m in (effort.measure, *(r.measure for r in readings(effort.magnitude)))
+        ]
     found: dict[Measure, None] = {}
     while measures:
         measure = measures.pop(0)
@@ -181,7 +183,7 @@ class _Rewriting:
 
     def walk(self, value: Any, field: str = "") -> Any:
         """Return a value of the vocabulary with bodies and numbers replaced."""
-        if isinstance(value, Number | Name | Call):
+        if isinstance(value, Number | Name | Call | Reading):
             return self.formula(value)
         if isinstance(value, str):
             if field == "unit":
@@ -243,6 +245,8 @@ class _Rewriting:
         if isinstance(e, Name):
             body, dot, coordinate = e.name.partition(".")
             return Name(f"{self.alias(body)}.{coordinate}") if dot else e
+        if isinstance(e, Reading):
+            return Reading("", self.walk(e.measure), e.order)
         assert isinstance(e, Call), "a literal is constant"
         if e.function.startswith("table:"):
             name = e.function.removeprefix("table:")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import evaluate, interpolate
 from symgen.describe.mechanism import Body, Mechanism, Table
 from symgen.formulate.translate import to_sympy
-from symgen.vocabulary.expressions import ZERO, Expr, names
+from symgen.vocabulary.expressions import ZERO, Expr, Reading, names, readings
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
@@ -144,7 +144,13 @@ class IndependentEquations:
         return sp.Float(self.mass[i] * evaluate(gravity, self.parameters, "gravity"))
 
     def _expression(self, e: Expr, **placeholders: Any) -> Any:
-        return to_sympy(e, {**self.known, **placeholders})
+        seen = {r.name: self._reading(r) for r in readings(e)}
+        return to_sympy(e, {**self.known, **seen, **placeholders})
+
+    def _reading(self, r: Reading) -> Any:
+        """Return a measure's value, or its rate."""
+        value = self._measure(r.measure)
+        return self._along(value) if r.order else value
 
     def _masses(self) -> Array:
         values = []
