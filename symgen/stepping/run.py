@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 #: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.
 PATIENCE, FIRST_STEPS = 0.05, 100
+#: Times closer than this part of them are the same to adaptive steps: what loops take for lost in rounding.
+RESOLVED = 4e-16
 
 # looked up at every step
 _TIME, _STEPS, _BEGUN, _DONE = abi.TIME, abi.STEPS, abi.BEGUN, abi.DONE
@@ -164,7 +166,7 @@ class SteppedRun:
         """
         until = arguments.number("until", until)
         self._ready("run")
-        if until < self.t - self._slack:
+        if until < self.t - max(self._slack, RESOLVED * abs(until)):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
             self._take_steps_of(self._plan.spec.step or 0.0)
@@ -303,13 +305,20 @@ class SteppedRun:
         loop.span = loop.span._replace(step=step)
         self._begin_grid()
         if self._control[abi.BEGUN] == 1 and self._control[abi.STEPS] == 0:
-            begin_anew(loop)  # schemes may prepare for the first step's length
+            code = begin_anew(loop)  # schemes may prepare for the first step's length
+            if code != _DONE:
+                self._fail(code)
 
     def _go(self, until: float) -> None:
         """Go on to a time, with the controllers called on the way."""
-        while until - self.t > self._slack:
+        while self._is_ahead(until):
             self._call()
             self._advance(min([until, *(clock.due for clock in self._clocks)]))
+
+    def _is_ahead(self, moment: float) -> bool:
+        """Whether a time is far enough from the present one for a step between the two."""
+        least = RESOLVED * max(abs(moment), abs(self.t)) if self._adaptive else self._slack
+        return moment - self.t > least
 
     def _call(self) -> None:
         """Call the controllers whose time has come."""
@@ -332,6 +341,8 @@ class SteppedRun:
         if control[_BEGUN] == 0:
             self._begin()
         if self._adaptive:
+            if not self._is_ahead(until):
+                return
             self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
         began = 0.0
         try:
@@ -348,7 +359,7 @@ class SteppedRun:
                 now = time.perf_counter()
                 if began > 0.0:
                     more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)
-                    self._steps_at_once = int(min(max(more, FIRST_STEPS), 1e7))
+                    self._steps_at_once = int(min(max(more, 1), 1e7))
                 began = now
         except KeyboardInterrupt:  # which may come before it is known how the loop ended
             self._recover()
