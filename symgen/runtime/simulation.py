@@ -10,15 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
-from symgen.errors import InputError, nearest
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.blocks import padded
-from symgen.runtime.ensemble_abi import PREPARE
+from symgen.runtime.changes import Changes
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
-from symgen.runtime.probe import Ready
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
@@ -184,7 +181,7 @@ class Simulation:
                 return code
             if follow is not None:
                 follow()
-            self.set_parameters(piece.values)
+            self.changes.give(piece.values)
             # a kink changes no number, but what multistep schemes know of the past ends there as well
             self.state.control[abi.BEGUN] = max(abi.AFRESH, self.state.control[abi.BEGUN])
         return self.enter(outputs)
@@ -232,6 +229,11 @@ class Simulation:
         return None
 
     @cached_property
+    def changes(self) -> Changes:
+        """What gives parameters other values while the run goes on."""
+        return Changes(self)
+
+    @cached_property
     def _nothing(self) -> Outputs:
         return self.outputs(np.zeros(0))
 
@@ -254,41 +256,11 @@ class Simulation:
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
         kept = self.save()
+        if len(self.spec.pieces) > 1:
+            self.changes.prepare()
         self.state.control[abi.STOP] = 1
         self.enter(type(outputs)(*(array[:0] for array in outputs)))
         self.restore(kept)
-
-    def set_parameters(self, values: Mapping[str, float]) -> None:
-        """Give parameters other values from where the run stands; what depends on them alone is prepared again.
-
-        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. Where others than
-        inputs are changed, the state is corrected for the new values, and the change of its energy is in no balance.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            By the names of the model's parameters; where all are what they were, nothing is done.
-
-        Raises
-        ------
-        InputError
-            If a name is no parameter, a value is not finite, or some formula is not with these values, or a mass is
-            not positive; nothing is changed then.
-        """
-        places = {q.name: i for i, q in enumerate(self.compiled.info.parameters)}
-        p, w = self.state.p.copy(), self.state.w.copy()
-        for name, value in arguments.mapping("parameters", values, "numbers by the names of parameters").items():
-            if name not in places:
-                expected = f"a parameter of {self.compiled.info.name}"
-                raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, places))
-            p[places[name]] = arguments.number(f"parameter '{name}'", value)
-        if np.array_equal(p, self.state.p):
-            return
-        self._prepare(p, w)
-        self.state.p[:], self.state.w[:] = p, w
-        if self.state.control[abi.BEGUN] != 0:
-            asked = abi.AFRESH if all(name in self.compiled.info.inputs for name in values) else abi.ALTERED
-            self.state.control[abi.BEGUN] = max(asked, self.state.control[abi.BEGUN])
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
@@ -307,29 +279,6 @@ class Simulation:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
             self.events.forget_after(float(self.state.clock[abi.TIME]))
-
-    def _prepare(self, p: Array, w: Array) -> None:
-        """Work out what depends on parameters alone."""
-        prepare, masses = self._prepared_by
-        with np.errstate(all="ignore"):
-            try:
-                for function in prepare:
-                    function(p)
-                masses(p, w)
-            except (ArithmeticError, ValueError):  # where nothing is compiled
-                p[:] = np.nan
-        info, mass = self.compiled.info, self.compiled.section(w, "mass")
-        if not (np.all(np.isfinite(p)) and np.all(np.isfinite(mass))):
-            raise InputError("parameters", "values for which every formula is finite", "others")
-        for i in np.flatnonzero(~(mass > 0.0)):
-            if i not in info.massless:
-                body = info.velocities[i].name.split(".")[0]
-                raise InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{mass[i]:g}")
-
-    @cached_property
-    def _prepared_by(self) -> tuple[tuple[Ready, ...], Ready]:
-        modules = self.compiled.model, self.compiled.law_module
-        return tuple(Ready(m.prepare, PREPARE) for m in modules), Ready(self.compiled.model.masses, abi.MOVE)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
