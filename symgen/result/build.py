@@ -14,9 +14,10 @@ from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, EventRecord, Rank, Result, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run_setup import made_of
 from symgen.runtime import abi
+from symgen.runtime.event_records import record_of
 from symgen.runtime.events import STOP
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Happening
     from symgen.runtime.run import Outcome
     from symgen.settings import Settings
 
@@ -121,7 +121,7 @@ def build_result(
         forces=forces,
         measured=measured,
         end=outcome.end,
-        events=tuple(_record(compiled, event) for event in outcome.happened),
+        events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
         last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
@@ -172,20 +172,6 @@ def _stopped(outcome: Outcome) -> list[str]:
     if not names or outcome.code != abi.DONE:
         return []
     return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
-
-
-def _record(compiled: CompiledModel, event: Happening) -> EventRecord:
-    """Label an event of a run."""
-    info = compiled.info
-    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
-    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
-    if event.after is None or event.impulses is None:
-        return EventRecord(event.t, event.name, event.action, q, v)
-    after = {c.name: float(x) for c, x in zip(info.velocities, event.after, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(event.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *event.given]
-    impulses = {name: float(s * x) for name, s, x in zip(names, signs, event.impulses, strict=True)}
-    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from symgen.result.measured import Measured
     from symgen.result.reactions import Forces
+    from symgen.runtime.event_records import EventRecord
     from symgen.runtime.last_state import LastState
     from symgen.runtime.run import Outcome, RankEvent
 
@@ -68,44 +69,6 @@ class Seconds:
     compile: float
     run: float
     run_spread: float = 0.0
-
-
-@dataclass(frozen=True)
-class EventRecord:
-    """An event that happened during a run.
-
-    Attributes
-    ----------
-    t : float
-        When [s].
-    name, action : str
-        Which one, and what was done: ``record``, ``stop`` or ``reset``.
-    q, v : mapping
-        Coordinates and velocities there, before a reset.
-    v_after : mapping or None
-        Velocities after a reset.
-    impulses : mapping
-        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that were given
-        values.
-    work : float
-        What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
-    """
-
-    t: float
-    name: str
-    action: str
-    q: Mapping[str, float]
-    v: Mapping[str, float]
-    v_after: Mapping[str, float] | None = None
-    impulses: Mapping[str, float] = field(default_factory=dict)
-    work: float = 0.0
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it as JSON has it."""
-        after = None if self.v_after is None else dict(self.v_after)
-        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
-        numbers = {"impulses": dict(self.impulses), "work": self.work}
-        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
 
 
 @dataclass(frozen=True, repr=False)

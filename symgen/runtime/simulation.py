@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -33,7 +34,10 @@ Array = NDArray[np.float64]
 #: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
 #: differ in the last bit from the state that a multistep scheme goes on with.
 SHOWN = ("shown_state", "shown_status")
-_EVENTS = abi.EVENTS
+_EVENTS, _TIME = abi.EVENTS, abi.TIME
+#: Times are the same that are closer than this part of a constant step, or, where steps vary, of the time: loops take
+#: steps below that for lost in rounding.
+SAME, RESOLVED = 1e-9, 4e-16
 
 
 class Simulation:
@@ -64,6 +68,8 @@ class Simulation:
         What it had counted where it was taken up: zeros for one that begins.
     events : Events or None
         What happens in it, where events are looked for.
+    changes : Changes
+        What gives parameters other values while it goes on.
 
     Notes
     -----
@@ -84,12 +90,13 @@ class Simulation:
             self._watch(spec.events)
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
-        self._counts = memoryview(self.state.control)
+        self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
         self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        self.iterations_before = 0
+        self.iterations_before, self._pieces_taken = 0, 0
+        self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
             self._take_up(start.saved)
@@ -173,18 +180,42 @@ class Simulation:
         follow : callable, optional
             Called at the end of each piece but the last, before the numbers of the next one are set.
         """
-        for piece in self.spec.pieces[1:]:
-            if piece.begin <= self.state.clock[abi.TIME]:
-                continue
-            code = self.enter(outputs, until=piece.begin)
+        self.take_pieces()
+        while (begin := self.next_piece) < self.spec.until:
+            code = self.enter(outputs, until=begin)
             if code != abi.DONE:
                 return code
             if follow is not None:
                 follow()
-            self.changes.give(piece.values)
-            # a kink changes no number, but what multistep schemes know of the past ends there as well
-            self.state.control[abi.BEGUN] = max(abi.AFRESH, self.state.control[abi.BEGUN])
+            self.take_pieces(begin)
         return self.enter(outputs)
+
+    def is_ahead(self, moment: float) -> bool:
+        """Whether a time is far enough from the present one for a step between the two."""
+        return moment - self._clock[_TIME] > self.same(moment)
+
+    def same(self, moment: float) -> float:
+        """Return how far times may be apart that count as the same near a time [s]."""
+        if self.spec.adaptive:
+            return RESOLVED * max(abs(moment), abs(self._clock[_TIME]))
+        return SAME * self.span.step
+
+    @property
+    def next_piece(self) -> float:
+        """Where the next piece of the run begins [s]; infinity behind the last one."""
+        pieces = self.spec.pieces
+        return pieces[self._pieces_taken].begin if self._pieces_taken < len(pieces) else math.inf
+
+    def take_pieces(self, reached: float = -math.inf) -> None:
+        """Set the numbers of all pieces that have begun where the run stands, or at a time that it has reached [s]."""
+        values, last = dict[str, float](), -math.inf
+        while (begin := self.next_piece) < math.inf and (begin <= reached or not self.is_ahead(begin)):
+            values |= self.spec.pieces[self._pieces_taken].values
+            self._pieces_taken, last = self._pieces_taken + 1, begin
+        self.changes.give(values)
+        # a kink changes no number, but what multistep schemes know of the past ends there as well
+        if self._clock[_TIME] - last <= self.same(self._clock[_TIME]) and self.state.control[abi.BEGUN] == 1:
+            self.state.control[abi.BEGUN] = abi.AFRESH
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:
         """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
@@ -209,8 +240,10 @@ class Simulation:
                 return ended
 
     def go_back(self) -> None:
-        """Take up what was remembered when `go` was called last."""
+        """Take up what was remembered when `go` was called last, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
+        if self.events is not None:
+            self.events.forget_after(self._clock[_TIME])
 
     def _ended(self, code: int) -> int | None:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
@@ -227,11 +260,6 @@ class Simulation:
         elif code != abi.NOTED:
             return code
         return None
-
-    @cached_property
-    def changes(self) -> Changes:
-        """What gives parameters other values while the run goes on."""
-        return Changes(self)
 
     @cached_property
     def _nothing(self) -> Outputs:
@@ -278,7 +306,10 @@ class Simulation:
             else:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
-            self.events.forget_after(float(self.state.clock[abi.TIME]))
+            self.events.forget_after(self._clock[_TIME])
+        if self.spec.pieces:
+            self._pieces_taken = 0
+            self.take_pieces()
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
