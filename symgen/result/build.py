@@ -11,7 +11,6 @@ import numpy as np
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
-from symgen.result.events import record, stopped
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
@@ -19,6 +18,8 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run_setup import made_of
 from symgen.runtime import abi
+from symgen.runtime.event_records import record_of
+from symgen.runtime.events import STOP
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -74,7 +75,7 @@ def build_result(
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
@@ -121,7 +122,7 @@ def build_result(
         forces=forces,
         measured=measured,
         end=outcome.end,
-        events=tuple(record(compiled, event) for event in outcome.happened),
+        events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
         ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
@@ -166,6 +167,14 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
+
+
+def _stopped(outcome: Outcome) -> list[str]:
+    """Return at which event a run ended, where it did."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

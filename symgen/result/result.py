@@ -16,7 +16,6 @@ from symgen.arguments import path as argument_path
 from symgen.arguments import shown, words
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
-from symgen.result.events import EventRecord
 from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
     from symgen.result.measured import Measured
     from symgen.result.reactions import Forces
+    from symgen.runtime.event_records import EventRecord
     from symgen.runtime.last_state import LastState
     from symgen.runtime.run import Outcome, RankEvent
 
