@@ -174,6 +174,23 @@ def events_asked(mechanism: Mechanism, s: Settings) -> tuple[Event, ...]:
     )
 
 
+def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
+    """Refuse events where runs do not look for them; those of a mechanism that are only recorded change nothing.
+
+    Raises
+    ------
+    InputError
+        If there are others.
+    """
+    own = len(mechanism.events)
+    for i, event in enumerate(events_asked(mechanism, s)):
+        if event.action != RECORD or i >= own:
+            expected = "a mechanism whose motion has no events" if i < own else "no events"
+            does = {RECORD: "is recorded", STOP: "ends runs"}.get(event.action, "changes velocities")
+            hint = "single runs look for events"
+            raise InputError(where, expected, f"the event '{event.name}', which {does}", hint)
+
+
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:
     """Return about how many evaluations a run takes, to choose the shape of its code by."""
     if adaptive or step is None:

@@ -9,6 +9,7 @@ import msgspec
 
 from symgen.describe.fields import Condition, NewVelocities, found, read
 from symgen.describe.mechanism import Event, Mechanism
+from symgen.describe.names import check_identifier
 from symgen.describe.scope import Model, Scope
 from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
@@ -71,7 +72,7 @@ def read_event(scope: Scope, name: str, raw: object) -> Event:
     reset = tuple(_velocity(scope, key, value) for key, value in (section.reset or {}).items())
     if action == RESET and not reset:
         raise scope.error("reset", "at least one new velocity", "an empty table")
-    when, condition = _switching(scope, section.when)
+    when, condition = _switching(scope, "when", section.when)
     direction = section.direction or (RISING if condition else ANY)
     return Event(name, when, direction, action, reset, " ".join(section.when.split()))
 
@@ -90,25 +91,28 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     action : {"record", "stop"}
         What is done.
     """
+    switching, condition = _switching(Scope(Model.of(mechanism), settings), "", when)
     text = " ".join(when.split())
-    return read_event(Scope(Model.of(mechanism, settings), ""), text, {"when": when, "action": action})
+    return Event(text, switching, RISING if condition else ANY, action, (), text)
 
 
 def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
     """Return events that are given in Python as tables by name, in the words of a file."""
     result = []
     for name, table in tables.items():
+        check_identifier(name, f"{mechanism.name}: events", "event")
         if any(name == event.name for event in mechanism.events):
-            raise InputError(f"events '{name}'", "a name that no event of the mechanism has", f"'{name}' again")
-        result.append(read_event(Scope(Model.of(mechanism, f"events '{name}'"), ""), name, table))
+            where = f"{mechanism.name}: events.{name}"
+            raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
+        result.append(read_event(Scope(Model.of(mechanism), f"events.{name}", name), name, table))
     return tuple(result)
 
 
-def _switching(scope: Scope, text: str) -> tuple[Expr, bool]:
+def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function that is above 0 where the condition holds, and whether there is one."""
-    expression = scope.of_state("when", text, conditions=True)
+    expression = scope.of_state(key, text, conditions=True)
     if not any(name == "t" or "." in name for name in names(expression)):
-        raise scope.error("when", "a condition that time or motion changes", quoted(text))
+        raise scope.error(key, "a condition that time or motion changes", quoted(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive(expression), True) if condition else (expression, False)
 

@@ -23,7 +23,7 @@ from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
-from symgen.plan import Plan, make_plan
+from symgen.plan import Plan, make_plan, refuse_events
 from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
@@ -188,6 +188,7 @@ def make_ensemble(
         raise InputError("shape", "straight code for an ensemble", "'looped'")
     chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
     plan = make_plan(model.mechanism, chosen)
+    refuse_events("sweep", model.mechanism, chosen)
     # before anything is derived
     parameters = model.parameters(chosen.parameters)
     for name in (*vary, *runs):

@@ -10,14 +10,14 @@ import numpy as np
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
+from symgen.result.events import record, stopped
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, EventRecord, Rank, Result, Seconds
+from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run_setup import made_of
 from symgen.runtime import abi
-from symgen.runtime.events import STOP
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.events import Happening
     from symgen.runtime.run import Outcome
     from symgen.settings import Settings
 
@@ -74,7 +73,7 @@ def build_result(
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
@@ -121,7 +120,7 @@ def build_result(
         forces=forces,
         measured=measured,
         end=outcome.end,
-        events=tuple(_record(compiled, event) for event in outcome.happened),
+        events=tuple(record(compiled, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
         last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
@@ -164,28 +163,6 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
-
-
-def _stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
-    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
-    if not names or outcome.code != abi.DONE:
-        return []
-    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
-
-
-def _record(compiled: CompiledModel, event: Happening) -> EventRecord:
-    """Label an event of a run."""
-    info = compiled.info
-    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
-    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
-    if event.after is None or event.impulses is None:
-        return EventRecord(event.t, event.name, event.action, q, v)
-    after = {c.name: float(x) for c, x in zip(info.velocities, event.after, strict=True)}
-    signs = [-1.0] * info.m + [1.0] * len(event.given)  # D^T lambda stands on the left of the equations of motion
-    names = [*(row.name for row in info.rows), *event.given]
-    impulses = {name: float(s * x) for name, s, x in zip(names, signs, event.impulses, strict=True)}
-    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

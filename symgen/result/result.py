@@ -16,6 +16,7 @@ from symgen.arguments import path as argument_path
 from symgen.arguments import shown, words
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
+from symgen.result.events import EventRecord
 from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
@@ -68,44 +69,6 @@ class Seconds:
     compile: float
     run: float
     run_spread: float = 0.0
-
-
-@dataclass(frozen=True)
-class EventRecord:
-    """An event that happened during a run.
-
-    Attributes
-    ----------
-    t : float
-        When [s].
-    name, action : str
-        Which one, and what was done: ``record``, ``stop`` or ``reset``.
-    q, v : mapping
-        Coordinates and velocities there, before a reset.
-    v_after : mapping or None
-        Velocities after a reset.
-    impulses : mapping
-        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that were given
-        values.
-    work : float
-        What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
-    """
-
-    t: float
-    name: str
-    action: str
-    q: Mapping[str, float]
-    v: Mapping[str, float]
-    v_after: Mapping[str, float] | None = None
-    impulses: Mapping[str, float] = field(default_factory=dict)
-    work: float = 0.0
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it as JSON has it."""
-        after = None if self.v_after is None else dict(self.v_after)
-        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
-        numbers = {"impulses": dict(self.impulses), "work": self.work}
-        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
 
 
 @dataclass(frozen=True, repr=False)

@@ -23,8 +23,10 @@ Array = NDArray[np.float64]
 RECORD, STOP, RESET = "record", "stop", "reset"
 #: What is left of a run until its events accumulate counts as nothing below this part of its length.
 NOTHING_LEFT = 1e-9
-#: Intervals between events that must have shrunk in the same ratio, nearly; and in which nothing happened otherwise.
-_SHRINKING, _CROWDED, _STEADY = 4, 50, 0.2
+#: So many intervals between events must have shrunk, in ratios that differ by no more than this.
+_SHRINKING, _STEADY = 4, 0.2
+#: So many resets in this part of a run are a heap as well.
+_CROWDED, _HEAP = 50, 1e-7
 
 
 @dataclass(frozen=True)
@@ -195,8 +197,12 @@ class Events:
         blow = strike(mass, np.concatenate(rows), np.concatenate(values), v)
         if blow.contradictory or not np.all(np.isfinite(blow.v)):
             raise self._refusal(numbers, labels, blow.v, np.concatenate(rows), np.concatenate(values), now)
-        energy = 0.5 * float((blow.v - v) @ mass @ (blow.v + v))
-        state.y[info.nq : info.nq + info.nv] = blow.v
+        after = blow.v.copy()
+        for row, value in zip(np.concatenate(rows)[info.m :], np.concatenate(values)[info.m :], strict=True):
+            if np.count_nonzero(row) == 1 and row.max() == 1.0:
+                after[np.argmax(row)] = value  # a velocity itself: exactly, so that one at rest is at rest
+        energy = 0.5 * float((after - v) @ mass @ (after + v))
+        state.y[info.nq : info.nq + info.nv] = after
         state.y[info.work] += energy  # done by the impulses: the balance goes on behind it
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
@@ -205,7 +211,7 @@ class Events:
         for i, event in enumerate(self.happened):
             if event.t == now and event.action == RESET and event.name in names:
                 self.happened[i] = Happening(
-                    *(event.t, event.name, event.action, event.state, blow.v.copy(), blow.impulses, given),
+                    *(event.t, event.name, event.action, event.state, after, blow.impulses, given),
                     energy if first else 0.0,
                 )
                 first = False
@@ -259,7 +265,7 @@ class Events:
                         self.accumulation = float(times[-1]) + rest
                         return True
         resets = [event.t for event in self.happened[-4 * _CROWDED :] if event.action == RESET]
-        if len(resets) > _CROWDED and resets[-1] - resets[-1 - _CROWDED] < least:
+        if len(resets) > _CROWDED and resets[-1] - resets[-1 - _CROWDED] < _HEAP * self.until:
             self.accumulation = resets[-1]
             return True
         return False

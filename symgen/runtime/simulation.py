@@ -106,7 +106,8 @@ class Simulation:
     def _watch(self, watched: Watched) -> None:
         """Look for events."""
         from symgen.runtime.events import Events
-        from symgen.runtime.hunting import decide, with_events
+        from symgen.runtime.hunting import with_events
+        from symgen.runtime.searching import decide
 
         functions = *self.setup.functions[:-2], watched.function, decide
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)

@@ -16,7 +16,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, SimulationError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import Plan, make_plan, multiples, output_size
+from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events
 from symgen.result.points import Points
 from symgen.runtime import abi
 from symgen.runtime.timing import timed
@@ -235,6 +235,7 @@ def compare_all(
         base = replace(asked, output_step=None, shape="straight" if shape == "auto" and small else shape)
         settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
+        refuse_events("compare", chosen.mechanism, asked)
         works.append(
             _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
         )

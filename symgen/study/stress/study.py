@@ -14,6 +14,7 @@ from symgen.auto import AUTO
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
+from symgen.plan import refuse_events
 from symgen.settings import Settings
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
 from symgen.study.runner import Cell, Status, run_cells
@@ -122,6 +123,8 @@ def stress(
         arguments.of_kind("journal", journal, Journal, "a symgen.study.journal.Journal")
     models = arguments.listed("models", [models] if isinstance(models, str) else models, "a list of models")
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
+    for base in bases:
+        refuse_events("stress", base.mechanism, asked)
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
     wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in wanted:

@@ -1,0 +1,466 @@
+"""Events of runs: where they are found, what resets do, when they accumulate. References share no code with symgen."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.special import ellipkinc
+from support.emitted import mechanism_of
+
+import symgen
+from symgen.describe.toml import to_toml
+from symgen.errors import InputError
+from symgen.integrators import INTEGRATORS
+from symgen.plan import make_plan
+from symgen.run_setup import watching
+from symgen.runtime.simulation import Simulation
+from symgen.settings import Settings
+from symgen.study.stress.study import stress
+
+G, E = 9.81, 0.7
+FIRST = math.sqrt(2.0 / G)  # a fall of 1 m
+BALL = {
+    "mechanism": {"name": "ball", "gravity": [0.0, -G]},
+    "run": {"until": 5.0, "step": 1e-2},
+    "bodies": {"ball": {"type": "point", "mass": 1.3, "position": [0.0, 1.0]}},
+}
+BOUNCE = {"impact": {"when": "ball.y < 0", "reset": {"ball.vy": f"-{E}*ball.vy"}}}
+
+
+def ball(**events):
+    return symgen.load(mechanism_of({**BALL, "events": events}))
+
+
+def times_of(result, name):
+    return np.array([event.t for event in result.events if event.name == name])
+
+
+# -- where events are --------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("integrator", "step"), [("rk4", 1e-2), ("rk4", 0.3), ("dop853", None)])
+def test_a_ball_bounces_until_its_impacts_accumulate(integrator, step):
+    result = ball(**BOUNCE).simulate(method="lagrange", integrator=integrator, step=step)
+    found = times_of(result, "impact")
+    flights = 2.0 * FIRST * E ** np.arange(len(found))
+    expected = FIRST + np.concatenate([[0.0], np.cumsum(flights[1:])])
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(found[:2], [0.4515236409857, 1.083656738366], rtol=0.0, atol=1e-12)
+    end = FIRST * (1.0 + 2.0 * E / (1.0 - E))
+    assert abs(end - 2.558633965586) < 1e-12
+    assert abs(result.accumulation - end) < 1e-9
+    assert result.status == "failed" and result.reason.startswith("events of 'impact' accumulate at t = 2.5586339655")
+    assert result.end < end and end - result.end < 1e-8 and result.t[-1] == result.end
+
+
+def test_energy_that_impacts_take_is_work():
+    result = ball(**BOUNCE).simulate(method="lagrange", until=2.0)
+    assert result.ok and len(result.events) == 4
+    lost = sum(event.work for event in result.events)
+    m, height = 1.3, 1.0
+    np.testing.assert_allclose(lost, -m * G * height * (1.0 - E**8), rtol=1e-12)
+    np.testing.assert_allclose(result.work[-1], lost, rtol=1e-12)
+    assert np.abs(result.energy_error).max() < 1e-12
+    first = result.events[0]
+    assert first.action == "reset" and first.v_after["ball.vy"] == pytest.approx(E * math.sqrt(2.0 * G), rel=1e-12)
+    np.testing.assert_allclose(first.impulses["ball.vy"], m * (1.0 + E) * math.sqrt(2.0 * G), rtol=1e-12)
+
+
+def spinning():
+    rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.0, -0.5], "angle": "-pi/2"}
+    return symgen.load(
+        mechanism_of(
+            {
+                "mechanism": {"name": "rod", "gravity": [0.0, -G]},
+                "run": {"until": 3.0, "step": 1e-3},
+                "bodies": {"rod": rod | {"angular_velocity": 9.0}},
+                "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "A"]}},
+            }
+        )
+    )
+
+
+def test_a_rod_passes_a_turn_where_the_elliptic_integral_says():
+    # (I + m l^2) th'' = -m g l sin th: t = (2 / w0) F(th / 2, k^2), k = 2 W / w0
+    square = 1.2 * G * 0.5 / (0.1 + 1.2 * 0.25)
+    whole = 2.0 / 9.0 * ellipkinc(math.pi, 4.0 * square / 81.0)
+    settings = {"integrator": "dop853", "rtol": 1e-13, "atol": 1e-13, "times": [1.0]}
+    result = spinning().simulate(stop_when="rod.theta > 1.5*pi", **settings)
+    assert result.ok and result.end == result.t[-1] == result.events[0].t
+    np.testing.assert_allclose(result.end, whole, rtol=0.0, atol=1e-12)
+    assert result["rod.theta"][-1] > 1.5 * math.pi > result["rod.theta"][-1] - 1e-13
+    assert result.notes[-1] == f"stopped at t = {result.end:.13g} s by the event 'rod.theta > 1.5*pi'"
+
+
+@pytest.mark.parametrize("when", ["t > 0.1234", "sin(t) > sin(0.1234)", "not t < 0.1234", "t > 0.1 and t > 0.1234"])
+def test_a_run_stops_inside_a_constant_step(when):
+    result = spinning().simulate(step=1e-2, stop_when=when)
+    assert result.ok and abs(result.end - 0.1234) < 1e-15
+    np.testing.assert_array_equal(result.t, [*(1e-2 * np.arange(13)), result.end])
+    whole = spinning().simulate(step=1e-2)
+    np.testing.assert_array_equal(result.q.values[:-1], whole.q.values[:13])  # as if nothing had been asked for
+    short = spinning().simulate(step=1e-2, until=result.end)
+    np.testing.assert_allclose(result.q.values[-1], short.q.values[-1], rtol=1e-15)  # one digit of the step apart
+
+
+def test_outputs_behind_an_event_are_those_behind_it():
+    settings = {"method": "lagrange", "step": 0.3, "output_step": 0.01}  # many outputs inside a step
+    found = ball(**BOUNCE).simulate(until=1.0, **settings)
+    after = found.t > FIRST
+    speed = E * math.sqrt(2.0 * G)
+    expected = speed * (found.t - FIRST) - 0.5 * G * (found.t - FIRST) ** 2
+    np.testing.assert_allclose(found["ball.y"][after], expected[after], rtol=0.0, atol=1e-12)
+    stopped = ball(low={"when": "ball.y < 0", "action": "stop"}).simulate(**settings)
+    np.testing.assert_allclose(stopped.t, [*np.arange(0.0, FIRST, 0.01), FIRST], rtol=0.0, atol=1e-12)
+
+
+#: Loops that are sampled; the others stand in the slow test.
+SAMPLED = ("rk4", "dop853", "generalized-alpha")
+
+
+def settings_of(integrator):
+    method = {"generalized-alpha": "generalized-alpha", "trapezoidal": "index3-augmented-lagrangian"}
+    settings = {"method": method.get(integrator, "lagrange"), "integrator": integrator}
+    return settings if INTEGRATORS.get(integrator).adaptive else settings | {"step": 2e-3}
+
+
+def check_integrator(integrator):
+    # constant acceleration is integrated exactly by all but Euler's scheme, and steps of order 1 at the start of abm
+    tolerance = {"euler": 2e-3, "abm": 1e-9}.get(integrator, 1e-11)
+    found = ball(**BOUNCE).simulate(until=1.2, max_energy_error=10.0, **settings_of(integrator))
+    np.testing.assert_allclose(times_of(found, "impact"), [FIRST, FIRST * (1 + 2 * E)], rtol=0.0, atol=tolerance)
+    # what is only noted changes nothing, to the last bit
+    conditions = ["rod.theta > 0", "rod.omega < 7 + 2*sin(60*t)"]
+    settings = {**settings_of(integrator), "until": 0.5, "max_violation": 1e-2, "max_energy_error": 1.0}
+    plain, noted = spinning().simulate(**settings), spinning().simulate(record_when=conditions, **settings)
+    assert len(times_of(noted, conditions[0])) == 1 and len(times_of(noted, conditions[1])) >= 2
+    for table in ("q", "v"):
+        np.testing.assert_array_equal(getattr(noted, table).values, getattr(plain, table).values)
+    for event in noted.events:
+        speed = 7.0 + 2.0 * math.sin(60.0 * event.t) - event.v["rod.omega"]
+        value = event.q["rod.theta"] if event.name == conditions[0] else speed
+        assert 0.0 <= value < 1e-12
+
+
+@pytest.mark.parametrize("integrator", SAMPLED)
+def test_integrators_find_events(integrator):
+    check_integrator(integrator)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("integrator", [name for name in INTEGRATORS.names if name not in SAMPLED])
+def test_all_integrators_find_events(integrator):
+    check_integrator(integrator)
+
+
+def crossings(functions, until, samples):
+    """Return all sign changes of functions of time, in order, by dense sampling."""
+    t = np.linspace(0.0, until, samples)
+    found = []
+    for k, g in enumerate(functions):
+        values = g(t)
+        for i in np.flatnonzero(values[:-1] * values[1:] < 0.0):
+            found.append((brentq(g, t[i], t[i + 1], xtol=1e-14), k, values[i] < 0.0))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_no_crossing_that_is_wider_than_a_step_is_missed(seed):
+    rng, h, until = np.random.default_rng(seed), 0.02, 6.0
+    texts, functions = [], []
+    for _ in range(6):
+        (a, b), (u, v) = rng.uniform(5.0, 60.0, 2), rng.uniform(0.0, 6.0, 2)
+        c = rng.uniform(-1.0, 1.0)
+        texts.append(f"sin({a}*ball.x + {u}) + 0.8*sin({b}*ball.x + {v}) - {c}".replace("- -", "+ "))
+        functions.append(lambda t, a=a, b=b, u=u, v=v, c=c: np.sin(a * t + u) + 0.8 * np.sin(b * t + v) - c)
+    moving = {**BALL, "bodies": {"ball": {"type": "point", "mass": 1.0, "velocity": [1.0, 0.0]}}}
+    events = {f"g{k}": {"when": text} for k, text in enumerate(texts)}
+    model = symgen.load(mechanism_of({**moving, "events": events}))
+    result = model.simulate(method="lagrange", step=h, until=until)
+    expected = crossings(functions, until, 200_000)
+    found = {k: times_of(result, f"g{k}") for k in range(6)}
+    wide = 0
+    for k in range(6):
+        own = np.array([t for t, j, _ in expected if j == k])
+        gaps = np.diff(np.concatenate([[-1.0], own, [until + 1.0]]))
+        lonely = own[(gaps[:-1] > h) & (gaps[1:] > h)]
+        assert all(np.abs(found[k] - t).min() < 1e-11 for t in lonely)
+        assert all(np.abs(own - t).min() < 1e-11 for t in found[k])  # and none that is not there
+        wide += len(lonely)
+    assert wide > 300
+    total = sum(len(x) for x in found.values())
+    assert total >= 0.98 * len(expected)  # most of those that lie both inside one step are found by their extremum
+
+
+def test_an_excursion_inside_one_step_is_found():
+    # up 5 m at most at t = 1; 1 mm below that for 29 ms, in the middle of a step of 0.8 s
+    thrown = {**BALL, "bodies": {"ball": {"type": "point", "mass": 1.0, "velocity": [0.0, G]}}}
+    event = {"when": f"ball.y - {0.5 * G - 1e-3}"}
+    model = symgen.load(mechanism_of({**thrown, "events": {"high": event}}))
+    half = math.sqrt(2e-3 / G)
+    for direction, expected in (("any", [1 - half, 1 + half]), ("rising", [1 - half]), ("falling", [1 + half])):
+        result = model.simulate(
+            *(),
+            **{"method": "lagrange", "step": 0.8, "until": 1.6},
+            **{"events": {direction: event | {"direction": direction}}},
+        )
+        np.testing.assert_allclose(times_of(result, direction), expected, rtol=0.0, atol=1e-12)
+
+
+def test_conditions_are_put_together():
+    events = {
+        "both": {"when": "t > 0.2 and ball.y < 0.7"},
+        "either": {"when": "t > 0.3 or ball.y < 0.7"},
+        "neither": {"when": "not (t > 0.3 or ball.y < 0.7)"},
+        "ends": {"when": "t < 0.31", "direction": "falling"},
+    }
+    result = ball(**events).simulate(method="lagrange", until=0.4)
+    low = math.sqrt(0.6 / G)
+    assert [event.name for event in result.events] == ["both", "either", "ends"]
+    np.testing.assert_allclose([event.t for event in result.events], [low, low, 0.31], rtol=0.0, atol=1e-12)
+
+
+# -- what resets do ----------------------------------------------------------------------------------------------------
+
+#: Lengths, masses, inertias about the centres of mass in the middle, and where the bars of the four-bar stand.
+BARS = {"crank": (0.4, 1.0, 0.02), "coupler": (1.1, 2.0, 0.2), "rocker": (0.8, 1.5, 0.1)}
+
+
+def four_bar(**events):
+    bodies = {}
+    for name, (length, mass, inertia) in BARS.items():
+        points = {"A": [-0.5 * length, 0.0], "B": [0.5 * length, 0.0]}
+        bodies[name] = {"mass": mass, "inertia": inertia, "points": points}
+    bodies["crank"] |= {"position": [0.1, 0.17], "angle": 1.0, "angular_velocity": 5.0}
+    bodies["coupler"] |= {"position": [0.7, 0.55], "angle": 0.35}
+    bodies["rocker"] |= {"position": [1.1, 0.37], "angle": 1.8}
+    pins = {
+        "a": ("ground", "crank", [0.0, 0.0], "A"),
+        "b": ("crank", "coupler", "B", "A"),
+        "c": ("coupler", "rocker", "B", "B"),
+        "d": ("ground", "rocker", [1.0, 0.0], "A"),
+    }
+    joints = {n: {"type": "revolute", "between": [i, j], "at": [p, q]} for n, (i, j, p, q) in pins.items()}
+    return symgen.load(
+        mechanism_of(
+            {
+                "mechanism": {"name": "struck", "gravity": [0.0, -G]},
+                "run": {"until": 0.5, "step": 1e-3},
+                "bodies": bodies,
+                "joints": joints,
+                "events": events,
+            }
+        )
+    )
+
+
+def jacobian(q):
+    """Return D of the four pins by hand; a point at s along a bar moves by (-s sin th, s cos th) times th'."""
+    turned = {name: q[3 * i + 2] for i, name in enumerate(BARS)}
+    ends = {name: 0.5 * BARS[name][0] * np.array([-math.sin(x), math.cos(x)]) for name, x in turned.items()}
+    d = np.zeros((8, 9))
+    for row, (first, second) in enumerate(
+        (
+            (None, ("crank", -1)),
+            (("crank", 1), ("coupler", -1)),
+            (("coupler", 1), ("rocker", 1)),
+            (None, ("rocker", -1)),
+        )
+    ):
+        for sign, point in ((-1.0, first), (1.0, second)):
+            if point is not None:
+                at = 3 * list(BARS).index(point[0])
+                d[2 * row : 2 * row + 2, at : at + 2] += sign * np.eye(2)
+                d[2 * row : 2 * row + 2, at + 2] += sign * point[1] * ends[point[0]]
+    return d
+
+
+def test_a_blow_on_a_four_bar_is_that_of_the_equations_of_impact():
+    event = {"when": "t > 0.2", "reset": {"coupler.omega": "1.5 - 0.4*coupler.omega"}}
+    result = four_bar(blow=event).simulate(integrator="rk4", until=0.4)
+    assert result.ok
+    blow = result.events[0]
+    q, v, after = (np.array(list(x.values())) for x in (blow.q, blow.v, blow.v_after))
+    mass = np.diag([x for _, m, i in BARS.values() for x in (m, m, i)])
+    rows = np.vstack([jacobian(q), np.eye(9)[5]])
+    kkt = np.block([[mass, rows.T], [rows, np.zeros((9, 9))]])
+    solved = np.linalg.solve(kkt, np.concatenate([mass @ v, np.zeros(8), [1.5 - 0.4 * v[5]]]))
+    np.testing.assert_allclose(after, solved[:9], rtol=0.0, atol=1e-12 * np.abs(v).max())
+    impulses = np.array(list(blow.impulses.values()))
+    np.testing.assert_allclose(impulses[:8], solved[9:17], rtol=0.0, atol=1e-11)  # D^T Lambda on the left, as lambda
+    np.testing.assert_allclose(impulses[8], -solved[17], rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(blow.work, 0.5 * (after @ mass @ after - v @ mass @ v), rtol=0.0, atol=1e-12)
+    assert result.velocity_violation_max < 1e-12
+    assert np.abs(result.energy_error).max() < 1e-6 and abs(blow.work) > 0.1
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+def test_a_body_in_space_is_struck_about_one_of_its_axes(shape):
+    tensor = np.array([[0.02, 0.001, 0.002], [0.001, 0.03, -0.0015], [0.002, -0.0015, 0.015]])
+    spin = [3.0, -1.0, 2.0]
+    raw = {
+        "mechanism": {"name": "stone", "space": "spatial"},
+        "run": {"until": 0.4, "step": 1e-3},
+        "bodies": {"stone": {"mass": 2.0, "inertia": tensor.tolist(), "angular_velocity": spin}},
+        "events": {"blow": {"when": "t > 0.1", "reset": {"stone.wx": "0.5*stone.wx + 1", "stone.vy": "2"}}},
+    }
+    result = symgen.load(mechanism_of(raw)).simulate(method="lagrange", shape=shape)
+    blow = result.events[0]
+    before = np.array([blow.v[f"stone.w{axis}"] for axis in "xyz"])
+    # no moment but one about x acts: I (w+ - w) = (mu, 0, 0)
+    change = np.linalg.solve(tensor, [1.0, 0.0, 0.0])
+    expected = before + change * (0.5 * before[0] + 1.0 - before[0]) / change[0]
+    after = np.array([blow.v_after[f"stone.w{axis}"] for axis in "xyz"])
+    np.testing.assert_allclose(after, expected, rtol=0.0, atol=1e-13)
+    assert [blow.v_after[f"stone.v{axis}"] for axis in "xyz"] == pytest.approx([0.0, 2.0, 0.0], abs=1e-15)
+    assert result.ok and np.abs(result.energy_error).max() < 1e-9
+
+
+def test_methods_with_memory_begin_anew_behind_a_reset():
+    # a pendulum that a wall throws back, against SciPy's integrator with its own events
+    event = {"when": "rod.theta > 0.9", "reset": {"rod.omega": "-0.3*rod.omega"}}
+    model, square = spinning(), 1.2 * G * 0.5 / (0.1 + 1.2 * 0.25)
+
+    def rate(t, y):
+        return [y[1], -square * math.cos(y[0])]
+
+    def wall(t, y):
+        return y[0] - 0.9
+
+    wall.terminal, wall.direction = True, 1.0
+    t, y, expected = 0.0, [-0.5 * math.pi, 9.0], []
+    for _ in range(2):
+        found = solve_ivp(rate, (t, 10.0), y, method="DOP853", rtol=1e-13, atol=1e-13, events=wall)
+        t, y = found.t[-1], [0.9, -0.3 * found.y[1, -1]]
+        expected.append(t)
+    for settings, tolerance in (
+        ({"integrator": "abm4", "step": 2e-4}, 1e-9),
+        ({"integrator": "abm", "rtol": 1e-11, "atol": 1e-11}, 1e-8),
+        ({"integrator": "rk4", "step": 2e-4}, 1e-10),
+    ):
+        result = model.simulate(until=expected[-1] + 0.1, events={"wall": event}, **settings)
+        np.testing.assert_allclose(times_of(result, "wall"), expected, rtol=0.0, atol=tolerance)
+
+
+def test_a_reset_may_make_another_event_happen_at_once():
+    events = {**BOUNCE, "up": {"when": "ball.vy > 0", "action": "stop"}}
+    result = ball(**events).simulate(method="lagrange")
+    assert result.ok and [event.name for event in result.events] == ["impact", "up"]
+    assert abs(result.end - FIRST) < 1e-12 and result["ball.vy"][-1] == pytest.approx(E * G * FIRST)
+
+
+def test_a_ball_that_does_not_come_up_again_gathers_at_once():
+    result = ball(stuck={"when": "ball.y < 0", "reset": {"ball.vy": "0"}}).simulate(method="lagrange")
+    assert result.status == "failed" and result.reason.startswith("events of 'stuck' accumulate at t = 0.45152364098")
+
+
+def test_contradictory_velocities_are_refused_with_amounts():
+    event = {"when": "t > 0.2", "reset": {"crank.omega": "2", "rocker.omega": "50"}}
+    with pytest.raises(InputError) as caught:
+        four_bar(blow=event).simulate()
+    said = str(caught.value)
+    assert said.startswith("event 'blow': reset: expected velocities that the joints and each other allow, got ")
+    assert "crank.omega = 2, rocker.omega = 50 at t = 0.2 s; the nearest are crank.omega = " in said
+
+
+# -- runs with events --------------------------------------------------------------------------------------------------
+
+
+def test_a_run_with_events_is_left_saved_and_gone_on_with():
+    model = ball(**BOUNCE, top={"when": "ball.vy", "direction": "falling"})
+    plan = make_plan(model.mechanism, Settings(method="lagrange", step=1e-2, until=2.0))
+    compiled, start = model.ready(plan)
+    plan = watching(model.mechanism, plan, compiled)
+    whole, first, second = (Simulation(compiled, plan.tableau, start, plan.spec) for _ in range(3))
+    nothing = whole.outputs(np.zeros(0))
+    whole.enter(nothing)
+    first.enter(nothing, pause=70)
+    second.restore(first.save())
+    second.enter(nothing)
+    np.testing.assert_array_equal(second.state.y, whole.state.y)
+    together = [e.t for e in first.events.happened] + [e.t for e in second.events.happened]
+    assert together == [e.t for e in whole.events.happened] and len(together) > 5
+
+
+def test_many_events_are_kept():
+    result = ball(often={"when": "sin(400*t)"}).simulate(method="lagrange", step=1e-3, until=5.0)
+    found = times_of(result, "often")
+    expected = np.arange(1, math.floor(2000 / math.pi) + 1) * math.pi / 400
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-14)
+
+
+def test_both_shapes_find_the_same_events():
+    event = {"blow": {"when": "crank.theta > 1.7", "reset": {"rocker.omega": "-0.5*rocker.omega"}}}
+    settings = {"integrator": "rk4", "until": 0.5, "record_when": "sin(30*t) < coupler.y"}
+    straight, looped = (four_bar(**event).simulate(shape=shape, **settings) for shape in ("straight", "looped"))
+    assert [e.name for e in looped.events] == [e.name for e in straight.events] and len(straight.events) >= 2
+    np.testing.assert_allclose([e.t for e in looped.events], [e.t for e in straight.events], rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(looped.q.values, straight.q.values, rtol=0.0, atol=1e-10)
+
+
+def test_a_second_run_vouches_for_one_that_stops():
+    result = spinning().simulate(stop_when="rod.theta > 0", verify=True)
+    assert result.ok and result.error_estimate < 1e-9
+    assert any(note.startswith("verified") for note in result.notes)
+
+
+def test_json_has_the_events():
+    found = ball(**BOUNCE).simulate(method="lagrange", until=1.0, stop_when="ball.vy < -4").to_json()
+    assert found["end"] == pytest.approx(4.0 / G) and found["status"] == "ok" and found["accumulation"] is None
+    (event,) = found["events"]
+    assert (event["name"], event["action"], event["t"]) == ("ball.vy < -4", "stop", found["end"])
+    assert event["v"]["ball.vy"] == pytest.approx(-4.0) and found["final"]["t"] == found["end"]
+
+
+@pytest.mark.parametrize(
+    ("event", "said"),
+    [
+        ({"when": "ball.q < 1"}, "events.x.when: expected a condition or an expression of t"),
+        ({"when": "1 < 2"}, "events.x.when: expected a condition that time or motion changes, got '1 < 2'"),
+        ({"when": "ball.y == 0"}, "conditions are written with <, <=, > and >="),
+        ({"action": "stop"}, "events.x.when: expected a condition such as 'ball.y < 0.1'"),
+        ({"when": "t > 1", "action": "jump"}, "events.x.action: expected 'record' or 'stop' or 'reset', got 'jump'"),
+        ({"when": "t > 1", "direction": "up"}, "events.x.direction: expected 'rising' or 'falling' or 'any', got 'up'"),
+        ({"when": "t > 1", "action": "reset"}, "events.x.reset: expected new velocities"),
+        ({"when": "t > 1", "action": "stop", "reset": {"ball.vy": "1"}}, "events.x.action: expected 'reset'"),
+        ({"when": "t > 1", "reset": {}}, "events.x.reset: expected at least one new velocity"),
+        ({"when": "t > 1", "reset": {"ball.y": "1"}}, "events.x.reset.ball.y: expected the name of a velocity"),
+        ({"when": "t > 1", "reset": {"ball.vy": "1 <"}}, "events.x.reset.ball.vy: expected a number or an expression"),
+        ({"when": "t > 1", "set": {}}, "got the unknown key 'set'; did you mean 'reset'?"),
+    ],
+)
+def test_bad_events_are_refused_in_one_sentence(event, said):
+    with pytest.raises(InputError) as caught:
+        ball(x=event)
+    assert said in str(caught.value) and "\n" not in str(caught.value)
+
+
+def test_bad_conditions_of_a_run_are_refused():
+    model = ball()
+    for settings, said in (
+        ({"stop_when": "ball.z < 1"}, "ball: stop_when: expected a condition"),
+        ({"stop_when": 3}, "stop_when: expected a list of names, got 3"),
+        ({"events": {"a": "t > 1"}}, "events 'a': expected tables by the names of events"),
+        ({"events": {"a": {"when": "t > "}}}, "ball: events.a.when: expected a condition"),
+    ):
+        with pytest.raises(InputError) as caught:
+            model.simulate(**settings)
+        assert said in str(caught.value)
+
+
+def test_studies_refuse_events_that_they_do_not_look_for(tmp_path):
+    model, file = ball(**BOUNCE), tmp_path / "ball.toml"
+    file.write_text(to_toml({**BALL, "events": BOUNCE}))
+    said = "expected a mechanism whose motion has no events, got the event 'impact', which changes velocities"
+    with pytest.raises(InputError, match=f"sweep: {said}"):
+        symgen.sweep(model, {"ball.vx": [0.0, 1.0]}, method="lagrange")
+    with pytest.raises(InputError, match=f"compare: {said}"):
+        symgen.compare(model)
+    with pytest.raises(InputError, match=f"stress: {said}"):
+        stress([str(file)])
+    with pytest.raises(InputError, match="sweep: expected no events, got the event 't > 1', which ends runs"):
+        symgen.sweep(ball(), {"ball.vx": [0.0, 1.0]}, method="lagrange", stop_when="t > 1")
