@@ -207,6 +207,8 @@ def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]
         "rtol": spec.rtol if spec.adaptive else None,
         "atol": spec.atol if spec.adaptive else None,
         "parameters": {key: float(value) for key, value in parameters.items()},
+        # sides and past values of switching functions are kept for these events only
+        "events": ", ".join(f"{event.action} when {event.text} ({event.direction})" for event in plan.events) or None,
         "shape": compiled.shape,
         "symgen": f"{__version__}, format {FORMAT}",
     }

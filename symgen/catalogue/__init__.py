@@ -1,7 +1,8 @@
 """The mechanisms that come with symgen: TOML files, and modules for those that come in sizes.
 
 A file ``name.toml`` is the entry ``name``. A module ``n_four_bar.py`` is the sized entry ``n-four-bar``, its `KIND` a
-`Sized` that makes the description for a size.
+`Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied, with every
+method, in the gallery and in ``generated/``; those of the folder ``machines`` are to start from, with a motor and a load.
 """
 
 from __future__ import annotations
@@ -27,6 +28,8 @@ def _folder() -> Path:
 
 
 _FOLDER = _folder()
+#: Groups of entries: what studies, the gallery and tests of every method take, and machines to start from.
+STUDIED, MACHINES = "studied", "machines"
 
 
 class Sized(msgspec.Struct, frozen=True):
@@ -53,19 +56,32 @@ class Entry(msgspec.Struct, frozen=True):
     source: str
     sized: bool = False
     default_size: int | None = None
+    group: str = STUDIED
 
 
 SIZED: Registry[Sized] = Registry(__name__, "sized mechanism")
 
 
-def _files() -> dict[str, Path]:
-    found = sorted(_FOLDER.iterdir(), key=lambda path: path.name)
+def _files(group: str) -> dict[str, Path]:
+    folder = _FOLDER / MACHINES if group == MACHINES else _FOLDER
+    found = sorted(folder.iterdir(), key=lambda path: path.name)
     return {path.name.removesuffix(".toml"): path for path in found if path.name.endswith(".toml")}
 
 
-def names() -> tuple[str, ...]:
-    """Return all names in alphabetical order."""
-    return tuple(sorted({*_files(), *SIZED.names}))
+def names(group: str = STUDIED) -> tuple[str, ...]:
+    """Return all names of a group in alphabetical order.
+
+    Parameters
+    ----------
+    group : {"studied", "machines"}
+        Which entries.
+    """
+    return tuple(sorted({*_files(group), *(SIZED.names if group == STUDIED else ())}))
+
+
+def known() -> tuple[str, ...]:
+    """Return the names of all groups in alphabetical order."""
+    return tuple(sorted((*names(STUDIED), *names(MACHINES))))
 
 
 def raw(name: str, size: int | None = None) -> dict[str, Any]:
@@ -74,7 +90,7 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
     Parameters
     ----------
     name : str
-        One of `names`.
+        One of `known`.
     size : int, optional
         Only for sized entries.
     """
@@ -88,16 +104,22 @@ def raw(name: str, size: int | None = None) -> dict[str, Any]:
         raise InputError("model", f"'{name}' without a size", f"'{name}:{size}'")
     from symgen.describe.load import read_toml
 
-    return read_toml(_files()[name])
+    return read_toml((_files(STUDIED) | _files(MACHINES))[name])
 
 
-def entries() -> tuple[Entry, ...]:
-    """Return every entry with its title and source, in alphabetical order."""
+def entries(group: str = STUDIED) -> tuple[Entry, ...]:
+    """Return the entries of a group with title and source, in alphabetical order.
+
+    Parameters
+    ----------
+    group : {"studied", "machines"}
+        Which entries.
+    """
     result = []
-    for name in names():
+    for name in names(group):
         head = raw(name)["mechanism"]
         default = SIZED.get(name).default if name in SIZED else None
-        result.append(Entry(name, head["title"], head["source"], default is not None, default))
+        result.append(Entry(name, head["title"], head["source"], default is not None, default, group))
     return tuple(result)
 
 

@@ -15,13 +15,14 @@ def command(as_json: bool) -> int:
     from symgen import catalogue
 
     rows = []
-    for entry in catalogue.entries():
+    for entry in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES)):
         run = catalogue.raw(entry.name).get("run", {})
         rows.append(
             {
                 "name": entry.name,
                 "title": entry.title,
                 "source": entry.source,
+                "group": entry.group,
                 "sized": entry.sized,
                 "default_size": entry.default_size,
                 "until": run.get("until"),

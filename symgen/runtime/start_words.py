@@ -101,7 +101,7 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
         what = (
             ""
             if largest is None
-            else (f"; {largest.name} changed from {largest.before:.6g} to {largest.after:.6g} {largest.unit}")
+            else f"; {largest.name} changed from {_from_to(largest)}"
         )
         notes.append(
             f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix{what}"
@@ -111,8 +111,17 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
 
 def _told(changes: Sequence[Change]) -> str:
     """Return the first changes one by one, and how many more there are."""
-    told = "; ".join(f"{c.name} from {c.before:.6g} to {c.after:.6g} {c.unit}" for c in changes[:_TOLD])
+    told = "; ".join(f"{c.name} from {_from_to(c)}" for c in changes[:_TOLD])
     return told + (f"; and {len(changes) - _TOLD} more" if len(changes) > _TOLD else "")
+
+
+def _from_to(change: Change) -> str:
+    """Return both values with as many digits as tell them apart."""
+    for digits in range(6, 18):
+        before, after = f"{change.before:.{digits}g}", f"{change.after:.{digits}g}"
+        if before != after:
+            break
+    return f"{before} to {after} {change.unit}"
 
 
 def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:

@@ -69,6 +69,16 @@ def test_the_wiper_starts_at_half_a_radian(hold):
     assert "arm.theta from 0 to -0.579327 rad" in start.warnings[0]
 
 
+def test_a_small_move_is_told_with_the_digits_that_show_it():
+    tables = {
+        "mechanism": {"name": "hung-rod"},
+        "bodies": {"rod": {"mass": 1.0, "inertia": 0.1, "points": {"top": [-0.5, 0.0]}, "position": [0.500000002, 0.0]}},
+        "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "top"]}},
+    }
+    _, start = started(tables)
+    assert start.notes == ("initial positions were closed by the shortest changes: rod.x from 0.500000002 to 0.5 m",)
+
+
 def test_what_is_held_is_the_first_output_to_the_last_bit():
     found = model(raw()).simulate(start={"crank.theta": 0.5}, integrator="dop853", until=0.01)
     assert found["crank.theta"][0] == 0.5 and found.start["q"]["crank.theta"] == 0.5
