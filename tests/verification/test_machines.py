@@ -135,14 +135,28 @@ def jansen(p, theta):
     hip = meet(pivot, p["d"], shoulder, p["e"], 1)
     knee = meet(pivot, p["c"], tip, p["k"], -1)
     end = meet(hip, p["f"], knee, p["g"], -1)
-    return {"upper.shoulder": shoulder, "upper.hip": hip, "leg.knee": knee, "leg.foot": meet(end, p["h"], knee, p["i"], -1)}
+    return {
+        "upper.shoulder": shoulder,
+        "upper.hip": hip,
+        "leg.knee": knee,
+        "leg.foot": meet(end, p["h"], knee, p["i"], -1),
+    }
 
 
 def klann(p, theta):
     """Points of Klann's leg: the lengths are distances of the patent's coordinates."""
     nine, eleven, fifteen, elbow, pin, foot, knee, hip = (
         p["scale"] * np.array(c)
-        for c in ((1.366, 1.366), (1.009, 0.574), (1.599, 0.75), (0.741, 0.75), (1.331, 0.75), (0, 0), (0.232, 0.866), (0.866, 1.5))
+        for c in (
+            (1.366, 1.366),
+            (1.009, 0.574),
+            (1.599, 0.75),
+            (0.741, 0.75),
+            (1.331, 0.75),
+            (0, 0),
+            (0.232, 0.866),
+            (0.866, 1.5),
+        )
     )
 
     def length(a, b):
@@ -152,7 +166,12 @@ def klann(p, theta):
     e = meet(c, length(pin, elbow), fixed(*eleven, theta), length(eleven, elbow), -1)
     k = meet(c, length(pin, knee), e, length(elbow, knee), -1)
     h = meet(fixed(*nine, theta), length(nine, hip), k, length(knee, hip), -1)
-    return {"connecting.elbow": e, "leg.knee": k, "leg.hip": h, "leg.foot": meet(k, length(knee, foot), h, length(hip, foot), -1)}
+    return {
+        "connecting.elbow": e,
+        "leg.knee": k,
+        "leg.hip": h,
+        "leg.foot": meet(k, length(knee, foot), h, length(hip, foot), -1),
+    }
 
 
 LEGS = {"jansen-leg": (jansen, 0.0), "klann-leg": (klann, math.pi)}
@@ -246,7 +265,9 @@ def test_the_piston_stands_where_the_crank_puts_it():
     result = run("engine")
     p, theta = result.parameters, result["crank.theta"]
     r = p["stroke"] / 2
-    assert_allclose(result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-13)
+    assert_allclose(
+        result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-13
+    )
 
 
 def test_the_gas_gives_in_a_cycle_what_is_enclosed_in_its_diagram():
@@ -291,7 +312,10 @@ def test_the_pendulum_comes_upright_as_its_equation_says():
     def rates(_, y):
         asked = -p["stiffness"] * y[0] - p["damping"] * y[1]
         torque = max(-p["limit"], min(p["limit"], asked))
-        return [y[1], (torque + p["mass"] * GRAVITY * p["length"] / 2 * math.sin(y[0])) * 3 / (p["mass"] * p["length"] ** 2)]
+        return [
+            y[1],
+            (torque + p["mass"] * GRAVITY * p["length"] / 2 * math.sin(y[0])) * 3 / (p["mass"] * p["length"] ** 2),
+        ]
 
     found = solve_ivp(rates, (0, 2), [p["lean"], 0.0], "DOP853", rtol=1e-11, atol=1e-12, t_eval=result.t).y
     assert_allclose(result["rod.theta"], found[0], atol=1e-9)
