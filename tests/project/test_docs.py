@@ -20,9 +20,9 @@ from benchmarks import gallery
 from symgen.api import load
 from symgen.catalogue import entries
 from symgen.describe.digest import digest
+from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
 from symgen.describe.names import CALLABLE
-from symgen.describe.events import EventSection
 from symgen.describe.sections import (
     BodySection,
     MechanismSection,
