@@ -128,7 +128,14 @@ def opened(sizes: Any, state: Any) -> Any:
     s, width = bare(state), sizes.width
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
-    return Run(*kept, s.share, s.metric, s.scales, s.hunt, room)
+    return Run(*kept, s.share, s.metric, s.scales, room)
+
+
+def joined(
+    sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, happens: Any, decide: Any
+) -> Any:
+    """Return the model as schemes see it."""
+    return System(sizes, rhs, confirm, accept, turn, residual, tangent)
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
@@ -218,7 +225,7 @@ def integrate(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = System(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
+    system = joined(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
     run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width

@@ -17,11 +17,11 @@ from numba import types
 from numpy.typing import NDArray
 
 from symgen.runtime import abi, frame
-from symgen.runtime.bare import part
+from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import evaluate
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, HuntingRun, HuntingSystem
 from symgen.runtime.searching import (
     COLUMNS,
     COUNT,
@@ -52,6 +52,21 @@ _EVALUATIONS, _TIME = abi.EVALUATIONS, abi.TIME
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
+
+
+def opened(sizes: Any, state: Any) -> Any:
+    """Return what a run keeps, its working memory in parts, and what it keeps of events."""
+    s, width = bare(state), sizes.width
+    trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
+    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
+    return HuntingRun(*kept, s.share, s.metric, s.scales, room, s.hunt)
+
+
+def joined(
+    sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, happens: Any, decide: Any
+) -> Any:
+    """Return the model with the functions of events."""
+    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
 
 
 @called
@@ -135,7 +150,15 @@ def notes_at(n: int, width: int, nw: int, ni: int) -> int:
 
 
 _MEANINGS: dict[str, Any] = {
-    **{"EVENTS": True, "happened": happened, "look": look, "remember": remember, "recall": recall},
+    **{
+        "EVENTS": True,
+        "opened": opened,
+        "joined": joined,
+        "happened": happened,
+        "look": look,
+        "remember": remember,
+        "recall": recall,
+    },
 }
 _loops: dict[Any, Any] = {}
 

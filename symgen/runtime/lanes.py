@@ -68,7 +68,7 @@ def opened(sizes: Any, state: Any) -> Any:
     s = bare(state)
     trial = part(s.p, 0, sizes.width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
-    return Run(*kept, s.share, s.metric, s.scales, s.hunt, s.room)
+    return Run(*kept, s.share, s.metric, s.scales, s.room)
 
 
 def settle(sizes: Any, span: Any, run: Any) -> None:

@@ -140,8 +140,27 @@ class Run(NamedTuple):
     share: Any
     metric: Any
     scales: Any
-    hunt: Any
     room: Any
+
+
+class HuntingRun(NamedTuple):
+    """A `Run` with what is kept of events; loops that look for none do without, as a record is handed on whole."""
+
+    y: Any
+    trial: Any
+    p: Any
+    w: Any
+    iw: Any
+    clock: Any
+    gauges: Any
+    control: Any
+    events: Any
+    memory: Any
+    share: Any
+    metric: Any
+    scales: Any
+    room: Any
+    hunt: Any
 
 
 class Outputs(NamedTuple):
@@ -224,6 +243,18 @@ class Kept(NamedTuple):
 
 class System(NamedTuple):
     """A model as schemes see it: its sizes and its functions, 0 in place of those that the scheme does not call."""
+
+    sizes: Any
+    rhs: Any
+    confirm: Any
+    accept: Any
+    turn: Any
+    residual: Any
+    tangent: Any
+
+
+class HuntingSystem(NamedTuple):
+    """A `System` with the functions of events."""
 
     sizes: Any
     rhs: Any
