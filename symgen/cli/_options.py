@@ -52,7 +52,7 @@ def _option(name: str, text: str | None, otherwise: Any) -> Callable[[F], F]:
     if known.kind is bool:
         extra["is_flag"] = True
     elif known.kind in (dict, list):
-        extra |= {"multiple": True, "metavar": known.metavar}
+        extra |= {"multiple": True, "metavar": known.metavar} | ({"default": value} if known.kind is list else {})
     else:
         extra |= {"type": str if known.kind is tuple else known.kind, "default": value}
         extra |= {"metavar": known.metavar or None, "show_default": words.strip("()") if words else value is not None}

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,8 +18,7 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run_setup import made_of
 from symgen.runtime import abi
-from symgen.runtime.event_records import record_of
-from symgen.runtime.events import STOP
+from symgen.runtime.event_records import record_of, stopped
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -74,7 +74,7 @@ def build_result(
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
@@ -124,11 +124,13 @@ def build_result(
         events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
-        last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
+        ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )
 
 
-def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome, made: Mapping[str, Any]) -> LastState:
+def _last_state(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
+) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
     y, w = arrays["y"], arrays["w"]
@@ -147,7 +149,7 @@ def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome,
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made,
+        made=made_of(compiled, plan, parameters),
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )
@@ -164,14 +166,6 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
-
-
-def _stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
-    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
-    if not names or outcome.code != abi.DONE:
-        return []
-    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

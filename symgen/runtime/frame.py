@@ -44,7 +44,7 @@ _PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, ab
 _DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
 _NOT_FINITE, _CORRECTION, _TINY_STEP, _NEWTON = abi.NOT_FINITE, abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
 _MET, _NOTED = abi.MET, abi.NOTED
-#: Where the step to try stands in what is kept of events (`symgen.runtime.hunting`).
+#: Where the step to try stands in what is kept of events (`symgen.runtime.searching`).
 TRY = 0
 _TRY = TRY
 
@@ -201,8 +201,7 @@ def integrate(
     rhs, confirm, accept, turn, residual, tangent : emitted functions
         Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
     happens, decide : emitted function, function
-        Switching functions of events, behind them their rates, and `symgen.runtime.hunting.decide`; 0 where there are
-        no events.
+        Switching functions of events with their rates, and `symgen.runtime.searching.decide`; 0 without events.
     scheme : record
         The scheme.
     sizes : Sizes

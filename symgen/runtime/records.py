@@ -103,7 +103,7 @@ class State(NamedTuple):
         What makes lengths and speeds of coordinates and velocities, and what makes numbers of order 1 of them; see
         `symgen.runtime.scales.settle`.
     hunt : Array
-        What it keeps of events, see `symgen.runtime.hunting`; empty where there are none.
+        What it keeps of events, see `symgen.runtime.searching`; empty where there are none.
     room : Array
         Working memory: nothing in it outlives a step. A state that is tried stands first.
     """

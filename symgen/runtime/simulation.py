@@ -99,7 +99,7 @@ class Simulation:
         self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
-            self._take_up(start.saved)
+            self._take_up(start.saved, start.p)
 
     def set_limits(self) -> None:
         """Have the limits of this run, as after the state of another one was taken up."""
@@ -110,7 +110,8 @@ class Simulation:
     def _watch(self, watched: Watched) -> None:
         """Look for events."""
         from symgen.runtime.events import Events
-        from symgen.runtime.hunting import decide, with_events
+        from symgen.runtime.hunting import with_events
+        from symgen.runtime.searching import decide
 
         functions = *self.setup.functions[:-2], watched.function, decide
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
@@ -124,10 +125,13 @@ class Simulation:
         kept = abi.N_STATUS + self.compiled.info.windings
         return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
 
-    def _take_up(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Go on from what another run has kept, with the limits and outputs of this one."""
-        state = self.state
+    def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
+        """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
+        state, info = self.state, self.compiled.info
         self.restore({name: array for name, array in saved.items() if name not in SHOWN})
+        varying = {name for piece in self.spec.pieces for name in piece.values}
+        numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
+        self.changes.give({name: x for name, x in numbers.items() if name not in varying})
         self._shown = tuple(saved[name] for name in SHOWN)
         self.set_limits()
         state.control[[abi.STOP, abi.OUTPUTS]] = 0

@@ -22,12 +22,14 @@ from symgen.study.stress.study import stress as stress_study
 
 PAGES = Path(__file__).resolve().parents[2] / "docs"
 COMMANDS = {"run": run, "compare": compare, "stress": stress, "sweep": sweep}
+#: Settings of runs that look for events.
+EVENTS = ("stop_when", "record_when", "events")
 #: Settings that a command goes without, since it has a list of them, or no use for them.
 WITHOUT = {
-    "run": {"times"},
-    "compare": {"method", "integrator", "step", "rtol", "atol", "times", "strict", "verify"},
+    "run": {"times", "events"},
+    "compare": {"method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", *EVENTS},
     "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps"},
-    "sweep": {"verify", "repeat", "shape"},
+    "sweep": {"verify", "repeat", "shape", "inputs", *EVENTS},
 }
 #: Defaults of commands that are not those of a single run.
 OTHER = {("compare", "repeat"): 3}

@@ -99,6 +99,10 @@ def settings_rows():
         yield name, {"x": True}, f"{name} 'x': expected a finite number, got True"
     yield "parameters", {"x": "1"}, "parameters 'x': expected a finite number, got '1'"
     yield "parameters", {"x": 1.0}, "parameter 'x': expected a parameter of pendulum, got none of that name"
+    for shown, value in NO_MAPPING.items():
+        yield "inputs", value, f", got {shown}"
+    yield "inputs", {3: 1.0}, "named by texts, got 3"
+    yield "inputs", {"x": 1.0}, "input 'x': expected an input of pendulum, got none of that name; it declares none"
     yield "options", {"alpha": 1.0}, "option alpha: expected method.NAME or integrator.NAME"
     yield "options", {"method.weight": "long"}, "expected one of identity, mass, got 'long'"
     for name in ("strict", "verify"):
@@ -316,10 +320,9 @@ def rows():
             lambda x, v=value: symgen.MechanismBuilder(v).body("a", mass=1).build(),
             "mechanism.name",
         )
-        for part in ("parameter", "table", "body", "joint", "force"):
-            extra = {"parameter": (1.0,), "table": ([0, 1], [0, 1]), "joint": ("rigid",), "force": ("torque",)}.get(
-                part, ()
-            )
+        for part in ("parameter", "input", "table", "body", "joint", "force"):
+            numbers = {"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1])}
+            extra = {**numbers, "joint": ("rigid",), "force": ("torque",)}.get(part, ())
             yield (
                 f"{part} {shown}",
                 lambda x, v=value, p=part, e=extra: getattr(symgen.MechanismBuilder("a"), p)(v, *e),
@@ -413,7 +416,7 @@ def test_no_function_with_arguments_is_left_out():
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
-        *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "table", "body", "joint", "force")),
+        *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
     }
     # what only the package makes or calls
     inner = {

@@ -129,9 +129,9 @@ def settings_of(integrator):
 
 
 def check_integrator(integrator):
-    # constant acceleration is integrated exactly by all of them but Euler's scheme
-    tolerance = 2e-3 if integrator == "euler" else 1e-11
-    found = ball(**BOUNCE).simulate(until=1.2, **settings_of(integrator))
+    # constant acceleration is integrated exactly by all but Euler's scheme, and steps of order 1 at the start of abm
+    tolerance = {"euler": 2e-3, "abm": 1e-9}.get(integrator, 1e-11)
+    found = ball(**BOUNCE).simulate(until=1.2, max_energy_error=10.0, **settings_of(integrator))
     np.testing.assert_allclose(times_of(found, "impact"), [FIRST, FIRST * (1 + 2 * E)], rtol=0.0, atol=tolerance)
     # what is only noted changes nothing, to the last bit
     conditions = ["rod.theta > 0", "rod.omega < 7 + 2*sin(60*t)"]

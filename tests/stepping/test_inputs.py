@@ -106,7 +106,9 @@ def test_jumps_and_kinks_are_those_of_the_run_in_one_piece(model, push, integrat
 def test_what_an_input_is_told_is_not_set_as_well(model):
     sim = model.start(inputs={"push": "cos(t)"}, **SETTINGS)
     sim.step(0.1, u={"side": 1.0})
-    with pytest.raises(InputError, match=r"set: 'push': expected an input that is a number in this run, got 'cos\(t\)'"):
+    with pytest.raises(
+        InputError, match=r"set: 'push': expected an input that is a number in this run, got 'cos\(t\)'"
+    ):
         sim.step(0.1, u={"push": 1.0})
     with pytest.raises(InputError, match="input 'side'"):
         sim.set(side=math.nan)

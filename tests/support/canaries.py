@@ -34,7 +34,7 @@ CANARIES = (
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
 #: Sections whose entries are all of one kind.
-_ALIKE = ("parameters", "tables", "bodies")
+_ALIKE = ("parameters", "inputs", "tables", "bodies")
 
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -63,10 +63,11 @@ def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> It
 SMALL: dict[str, Any] = {
     "mechanism": {"name": "small", "gravity": [0.0, "-g"]},
     "parameters": {"g": {"value": 9.81, "unit": "m/s^2"}, "k": 2.0},
+    "inputs": {"u": {"default": 0.5, "unit": "N m"}},
     "tables": {"tab": {"x": [0.0, 1.0], "y": [1.0, 3.0]}},
     "bodies": {"rod": {"mass": "k", "inertia": 1.0, "points": {"P": ["k", 0.0]}}},
     "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "P"]}},
-    "forces": {"push": {"type": "torque", "body": "rod", "torque": "k*tab(rod.omega) + g"}},
+    "forces": {"push": {"type": "torque", "body": "rod", "torque": "k*tab(rod.omega) + g + u"}},
 }
 
 

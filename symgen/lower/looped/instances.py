@@ -26,6 +26,8 @@ _BODY_FIELDS = frozenset(("body", "a", "b"))
 #: Fields that are names for people; of a unit only counts whether it is that of an angle.
 _LABELS = frozenset(("label",))
 _UNITS = (0.0, 1.0, -1.0)
+#: What a mechanism says that is no part of its equations, so that it gives no kernel another name.
+_BESIDE = frozenset(("holds", "events", "outputs", "seats"))
 
 
 @dataclass(frozen=True)
@@ -150,8 +152,8 @@ class _Rewriting:
             joints=(content,) if isinstance(content, Joint) else (),
             forces=(content,) if isinstance(content, Force) else (),
         )
-        said = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name != "holds"}
-        key = kind.encode() + msgspec.json.encode(said)  # what is held at the start changes no equation
+        said = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
+        key = kind.encode() + msgspec.json.encode(said)
         return Instance(kind, name, label, abstract, key, tuple(self.frames), tuple(self.constants))
 
     def frame(self, body: Any, alias: str) -> Any:
