@@ -14,8 +14,9 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
+from symgen.result.parts import Rank, Seconds
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.result.result import FAILED, Result
 from symgen.run_setup import made_of
 from symgen.runtime import abi
 from symgen.runtime.event_records import record_of, stopped
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
     from symgen.settings import Settings
 
 

@@ -12,7 +12,7 @@ from symgen.runtime.events import STOP
 if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Happening
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
 
 
 @dataclass(frozen=True)

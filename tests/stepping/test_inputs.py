@@ -1,4 +1,4 @@
-"""Inputs of runs that go on step by step: numbers that are held, formulas, data and jumps; against runs in one piece."""
+"""Inputs of runs that go on step by step: numbers that are held, formulas, data, jumps; against runs in one piece."""
 
 import math
 
@@ -115,7 +115,7 @@ def test_what_an_input_is_told_is_not_set_as_well(model):
     with pytest.raises(InputError, match="none of that name"):
         sim.set(sidle=1.0)
     before = sim.save()
-    with pytest.raises(InputError, match="expected (values for which every formula is finite|a finite number)"):
+    with pytest.raises(InputError, match=r"expected (values for which every formula is finite|a finite number)"):
         sim._loop.changes.give({"side": math.inf})
     np.testing.assert_array_equal(sim.save().arrays["p"], before.arrays["p"])
     sim.set({"stiffness": 10.0, "side": 2.0})
