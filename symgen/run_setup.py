@@ -14,6 +14,7 @@ from symgen.compiling.events import compile_events
 from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.events import in_words
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.inputs import driven
 from symgen.describe.moved import moved
@@ -192,7 +193,7 @@ def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]
     plan : Plan
         How it is run.
     parameters : mapping
-        Values of all parameters.
+        Values of all parameters; those of inputs are of no account.
     """
     law, spec = compiled.law, plan.spec
     own = {name: float(plan.method_parameters.get(name, default)) for name, default in law.parameters}
@@ -206,9 +207,8 @@ def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]
         "step": spec.step,
         "rtol": spec.rtol if spec.adaptive else None,
         "atol": spec.atol if spec.adaptive else None,
-        "parameters": {key: float(value) for key, value in parameters.items()},
-        # sides and past values of switching functions are kept for these events only
-        "events": ", ".join(f"{event.action} when {event.text} ({event.direction})" for event in plan.events) or None,
+        "parameters": {key: float(x) for key, x in parameters.items() if key not in compiled.info.inputs},
+        "events": in_words(plan.events) or None,
         "shape": compiled.shape,
         "symgen": f"{__version__}, format {FORMAT}",
     }
@@ -231,7 +231,8 @@ def _going_on(
     if not other and last.arrays is not None:
         y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
         redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
-        kept = (y[: info.ny].copy(), p.copy(), w.copy())
+        own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
+        kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy())
         return compiled, Start(
             *kept, last.rank, redundant, (whence,), t=last.t, work=last.work_before, saved=last.arrays
         )

@@ -19,7 +19,7 @@ from symgen.ir.program import TARGETS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.blocks import padded
-from symgen.runtime.simulation import metric_of, share_of, sizes_of
+from symgen.runtime.new_state import metric_of, share_of, sizes_of
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel

@@ -18,8 +18,8 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.integrator import Integrator, Setup
+from symgen.runtime.new_state import new_state, sizes_of, span_of
 from symgen.runtime.run import RunSpec
-from symgen.runtime.simulation import new_state, sizes_of, span_of
 from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:

@@ -14,7 +14,8 @@ from symgen.result.judge import JUMP_FAILURE, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.run import RankEvent, end_reason
+from symgen.runtime.outcome import RankEvent
+from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
 
 if TYPE_CHECKING:

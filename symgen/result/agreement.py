@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
 
 Array = NDArray[np.float64]
 

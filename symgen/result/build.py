@@ -14,12 +14,12 @@ from symgen.describe.evaluate import parameter_values
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
+from symgen.result.parts import Rank, Seconds
 from symgen.result.reactions import Forces, seats
-from symgen.result.result import FAILED, Rank, Result, Seconds
+from symgen.result.result import FAILED, Result
 from symgen.run_setup import made_of
 from symgen.runtime import abi
 from symgen.runtime.event_records import record_of
-from symgen.runtime.events import STOP
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
     from symgen.settings import Settings
 
 
@@ -167,14 +167,6 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
-
-
-def _stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
-    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
-    if not names or outcome.code != abi.DONE:
-        return []
-    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import Outcome, RankEvent
+    from symgen.runtime.outcome import Outcome, RankEvent
 
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
 JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3

@@ -15,7 +15,7 @@ from symgen.result.labelled import Array, labelled
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.labelled import Labelled
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from symgen.settings import Settings, flag
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
 
 #: A trial may take so many operations, about a second of the processor; what would take more is not tried.
 BUDGET = 2.5e9

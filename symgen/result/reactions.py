@@ -17,7 +17,7 @@ from symgen.vocabulary.measures import GROUND
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.run import Outcome
+    from symgen.runtime.outcome import Outcome
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
 CUTOFF = 1e-6

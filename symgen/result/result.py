@@ -23,10 +23,11 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.result.measured import Measured
+    from symgen.result.parts import Rank, Seconds
     from symgen.result.reactions import Forces
     from symgen.runtime.event_records import EventRecord
     from symgen.runtime.last_state import LastState
-    from symgen.runtime.run import Outcome, RankEvent
+    from symgen.runtime.outcome import Outcome, RankEvent
 
 #: What a run can end as.
 OK, UNVERIFIED, FAILED = "ok", "unverified", "failed"
@@ -48,27 +49,6 @@ _DERIVED = (
     *("points", "elements", "outputs", "non_unique_reactions", "shape", "start", "last_state"),
     "_final_multipliers",
 )
-
-
-@dataclass(frozen=True)
-class Rank:
-    """Rank of D at the start, and rows that were left out because they repeat another row for all q."""
-
-    rows: int
-    rank: int
-    identical_rows_dropped: int
-    redundant_rows: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
-class Seconds:
-    """Wall-clock times [s]; `run` is the integration loop alone, the best of several where repeated."""
-
-    derive: float
-    emit: float
-    compile: float
-    run: float
-    run_spread: float = 0.0
 
 
 @dataclass(frozen=True, repr=False)

@@ -6,9 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from symgen.runtime import abi
+from symgen.runtime.events import STOP
+
 if TYPE_CHECKING:
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Happening
+    from symgen.runtime.outcome import Outcome
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,14 @@ class EventRecord:
         state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
         numbers = {"impulses": dict(self.impulses), "work": self.work}
         return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
+
+
+def stopped(outcome: Outcome) -> list[str]:
+    """Return at which event a run ended, where it did."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
 def record_of(info: ModelInfo, event: Happening) -> EventRecord:

@@ -13,19 +13,19 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
-from symgen.runtime.blocks import padded
 from symgen.runtime.changes import Changes
 from symgen.runtime.exact import compiled_form
-from symgen.runtime.model_arrays import entries_of, lengths_of
+from symgen.runtime.model_arrays import entries_of
+from symgen.runtime.new_state import new_state, sizes_of, span_of
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.entry import Entry
     from symgen.runtime.events import Events, Watched
-    from symgen.runtime.integrator import Integrator, Setup
-    from symgen.runtime.records import Outputs, Sizes, Span, State
+    from symgen.runtime.integrator import Integrator
+    from symgen.runtime.records import Outputs
     from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]
@@ -99,7 +99,7 @@ class Simulation:
         self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
-            self._take_up(start.saved)
+            self._take_up(start.saved, start.p)
 
     def set_limits(self) -> None:
         """Have the limits of this run, as after the state of another one was taken up."""
@@ -125,10 +125,13 @@ class Simulation:
         kept = abi.N_STATUS + self.compiled.info.windings
         return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
 
-    def _take_up(self, saved: Mapping[str, NDArray[Any]]) -> None:
-        """Go on from what another run has kept, with the limits and outputs of this one."""
-        state = self.state
+    def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
+        """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
+        state, info = self.state, self.compiled.info
         self.restore({name: array for name, array in saved.items() if name not in SHOWN})
+        varying = {name for piece in self.spec.pieces for name in piece.values}
+        numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
+        self.changes.give({name: x for name, x in numbers.items() if name not in varying})
         self._shown = tuple(saved[name] for name in SHOWN)
         self.set_limits()
         state.control[[abi.STOP, abi.OUTPUTS]] = 0
@@ -336,66 +339,6 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
         return bool(choose(info.m, info.nv, kept, entries, constants, *places, w, room))
 
     return chosen
-
-
-def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
-    """Return how far a loop goes, to the end of the run unless given, and by which steps."""
-    from symgen.runtime.records import Span
-
-    end = spec.until if until is None else until
-    numbers = setup.step, spec.largest_step, end, spec.scale_time, spec.rtol, spec.atol, spec.relative
-    return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, pause)))
-
-
-def sizes_of(compiled: CompiledModel) -> Sizes:
-    """Return what loops have to know of a model."""
-    from symgen.runtime.records import Sizes
-
-    info, sections = compiled.info, compiled.info.sections
-    names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
-    pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
-    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
-    auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
-    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, auxiliary)
-
-
-def share_of(sizes: Sizes) -> Array:
-    """Return 1 for elements of a state that take part in error control, else 0."""
-    share = np.zeros(sizes.width)
-    share[: sizes.nq + sizes.nv] = 1.0
-    return share
-
-
-def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
-    """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
-    metric = np.zeros(sizes.width)
-    metric[: sizes.nq] = lengths_of(info)
-    return metric
-
-
-def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
-    """Return what a run keeps, before it has a start.
-
-    Parameters
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    sizes : Sizes
-        From `sizes_of`.
-    memory, room : int
-        As in `symgen.runtime.integrator.Setup`.
-    """
-    from symgen.runtime.records import State
-
-    law = compiled.law
-    control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
-    p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
-    return State(
-        *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
-        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
-        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
-        *(np.zeros(0), np.zeros(sizes.width + room)),
-    )
 
 
 def _with_room(scheme: Any) -> Any:

@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.integrator import Integrator
-    from symgen.runtime.run import Outcome, RunSpec
+    from symgen.runtime.outcome import Outcome
+    from symgen.runtime.run import RunSpec
 
 #: Timed runs at most, unless more are asked for.
 MOST = 30

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
@@ -13,13 +12,12 @@ from symgen import __version__, arguments
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import in_words
-from symgen.errors import InputError, SimulationError, StepError
+from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
-from symgen.runtime.changes import begin, begin_anew, begin_with_step
+from symgen.runtime.changes import begin_with_step
 from symgen.runtime.event_records import EventRecord, record_of
-from symgen.runtime.events import STOP
-from symgen.runtime.run import reason_of
 from symgen.runtime.simulation import RESOLVED, Simulation
+from symgen.stepping.advance import Advance
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
@@ -30,11 +28,8 @@ if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel, Quantity
 
-#: A loop is left after about so long, so that Ctrl-C is heard [s]; and after so many steps as long as nothing is known.
-PATIENCE, FIRST_STEPS = 0.05, 100
-
 # looked up at every step
-_TIME, _STEPS, _BEGUN, _DONE = abi.TIME, abi.STEPS, abi.BEGUN, abi.DONE
+_TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE
 
 
 class SteppedRun:
@@ -86,20 +81,19 @@ class SteppedRun:
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
         state = self._loop.state
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
-        self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
+        self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         self._given = {name: words for name, words in (inputs or {}).items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in (inputs or {}).items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
         self._hidden = set(mechanism.inputs).difference(inputs or {})  # parts of formulas
-        self._until, self._most, self._calling, self._unsure = 0.0, plan.spec.max_steps, False, False
         both = *info.coordinates, *info.velocities
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
         self.state = _view(state.y, 0, both)
         self.warnings, self.notes = (*plan.warnings, *start.warnings), start.notes
         if not self._free:  # else the first step says how long it is
-            self._begin()
+            self._advance.begin()
 
     # -- what can be read ----------------------------------------------------------------------------------------------
 
@@ -157,15 +151,15 @@ class SteppedRun:
         """
         if type(dt) is not float or not 0.0 < dt < math.inf:  # the rest of it is for what seldom happens
             dt = arguments.number("dt", dt, positive=True)
-        if self._calling or self._unsure:
+        if self._calling or self._advance.unsure:
             self._ready("step")
         if u is not None:
             self.set(u)
         if self._free:
-            self._take_steps_of(dt)
+            self._advance.take_steps_of(dt)
         if self._clocks or self._loop.spec.pieces:
             return self._go(self._clock[_TIME] + dt)
-        return self._advance(self._clock[_TIME] + dt)
+        return self._advance.to(self._clock[_TIME] + dt)
 
     def run(self, until: float) -> EventRecord | None:
         """Go on to a time, or to an event that ends runs.
@@ -194,7 +188,7 @@ class SteppedRun:
         if until < self.t - max(self._loop.same(until), RESOLVED * abs(until)):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
-            self._take_steps_of(self._plan.spec.step or 0.0)
+            self._advance.take_steps_of(self._plan.spec.step or 0.0)
         return self._go(until)
 
     def every(self, interval: float, controller: Controller) -> None:
@@ -247,12 +241,12 @@ class SteppedRun:
                 raise InputError(f"set: '{name}'", "an input that is a number in this run", f"'{self._given[name]}'")
         changed = {**self._changed, **asked}
         found = parameter_values(self._mechanism, changed)
-        self._recover()
+        self._advance.recover()
         loop, count = self._loop, len(found)
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
-            self._begin()
+            self._advance.begin()
             loop.changes.set(p[:count])
         self._changed = {name: found[name] for name in changed}
 
@@ -262,19 +256,19 @@ class SteppedRun:
             name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
             for name, value in asked.items()
         }
-        self._recover()
+        self._advance.recover()
         loop = self._loop
         if self._adaptive:
-            self._begin()
+            self._advance.begin()
         if loop.changes.give(numbers) and self._adaptive and (code := begin_with_step(loop)) != _DONE:
-            self._fail(code)
+            self._advance.fail(code)
         self._changed |= numbers
 
     # -- keeping -------------------------------------------------------------------------------------------------------
 
     def save(self) -> Saved:
         """Return all that the run remembers, as a value that can be pickled."""
-        self._recover()
+        self._advance.recover()
         clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
         found = self._loop.events
         happened = () if found is None else tuple(found.happened)
@@ -301,7 +295,7 @@ class SteppedRun:
         if self._free:
             loop.span = loop.span._replace(step=saved.step)
         elif saved.step != loop.span.step and not self._adaptive:
-            self._begin_grid()
+            self._advance.begin_grid()
         if loop.events is not None:
             loop.events.happened = list(saved.happened)
         self._changed = dict(saved.parameters)
@@ -326,34 +320,7 @@ class SteppedRun:
         """Refuse a call from inside a controller, and have an accepted state."""
         if self._calling:
             raise SimulationError(f"a controller cannot call `{what}`: it is called while the run goes on")
-        self._recover()
-
-    def _recover(self) -> None:
-        """Go back to an accepted state, where an interrupt came between a failure and what is done about it."""
-        if self._unsure:
-            self._replay()
-
-    def _begin(self) -> None:
-        """Accept the first state, if that has not happened."""
-        if self._control[abi.BEGUN] == 0:
-            code = begin(self._loop)
-            if code != abi.DONE:
-                self._fail(code)
-
-    def _begin_grid(self) -> None:
-        self._clock[abi.ORIGIN], self._control[abi.INDEX] = self._clock[abi.TIME], 0
-
-    def _take_steps_of(self, step: float) -> None:
-        """Go on by constant steps of another length, on a grid that begins here."""
-        loop = self._loop
-        if step == loop.span.step:
-            return
-        loop.span = loop.span._replace(step=step)
-        self._begin_grid()
-        if self._control[abi.BEGUN] == 1 and self._control[abi.STEPS] == 0:
-            code = begin_anew(loop)  # schemes may prepare for the first step's length
-            if code != _DONE:
-                self._fail(code)
+        self._advance.recover()
 
     def _go(self, until: float) -> EventRecord | None:
         """Go on to a time, with the controllers called and the jumps of inputs made on the way."""
@@ -363,7 +330,7 @@ class SteppedRun:
             raise InputError("until", where, f"{until:g}")
         while event is None and loop.is_ahead(until):
             self._call()
-            event = self._advance(min([until, loop.next_piece, *(clock.due for clock in self._clocks)]))
+            event = self._advance.to(min([until, loop.next_piece, *(clock.due for clock in self._clocks)]))
             loop.take_pieces()
         return event
 
@@ -371,7 +338,7 @@ class SteppedRun:
         """Call the controllers whose time has come."""
         now = self.t
         slack = 0.0 if self._adaptive else self._loop.same(now)
-        self._begin()
+        self._advance.begin()
         self._calling = True
         try:
             for clock in self._clocks:
@@ -382,69 +349,6 @@ class SteppedRun:
                     clock.beat += 1
         finally:
             self._calling = False
-
-    def _advance(self, until: float) -> EventRecord | None:
-        """Go on to a time without a look at controllers, in pieces between which an interrupt is heard.
-
-        Returns the event that has ended it before, if one has.
-        """
-        loop, control = self._loop, self._control
-        if control[_BEGUN] == 0:
-            self._begin()
-        if self._adaptive:
-            if not loop.is_ahead(until):
-                return None
-            self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
-        began = 0.0
-        try:
-            while True:
-                self._until = until
-                self._unsure = True
-                code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most)
-                if code == _DONE:
-                    self._unsure = False
-                    return None
-                if code == abi.MET:
-                    self._unsure = False
-                    return next(event for event in reversed(self.events) if event.action == STOP)
-                if code != abi.PAUSED:
-                    self._fail(code)
-                self._unsure = False
-                now = time.perf_counter()
-                if began > 0.0:
-                    more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)
-                    self._steps_at_once = int(min(max(more, 1), 1e7))
-                began = now
-        except (KeyboardInterrupt, InputError):  # which may come before it is known how the loop ended
-            self._recover()
-            raise
-
-    def _fail(self, code: int) -> None:
-        """Go back to the last accepted state, and raise what happened."""
-        moment = self.t
-        reason = reason_of(self._loop, code, moment)
-        self._replay()
-        raise StepError(reason, moment)
-
-    def _replay(self) -> None:
-        """Have the last accepted state, as a failed step leaves numbers behind that are of no use.
-
-        The steps from what is remembered on are done once more. Whether a failed one was counted depends on where it
-        failed.
-        """
-        loop, steps = self._loop, int(self._control[abi.STEPS])
-        for accepted in (steps, steps - 1):
-            loop.go_back()
-            if self._control[abi.BEGUN] == 0:
-                break
-            try:
-                if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED, abi.MET):
-                    break
-            except InputError:  # the last step ends in an event that asks for what cannot be
-                continue
-        else:
-            loop.go_back()
-        self._unsure = False
 
 
 def _view(y: np.ndarray, first: int, quantities: Iterable[Quantity]) -> Named:

@@ -10,7 +10,8 @@ from symgen.plan import make_plan
 from symgen.result.agreement import settle
 from symgen.result.judge import JUMP_FAILURE, JUMP_WARNING, judge
 from symgen.result.points import Points
-from symgen.runtime.run import RankEvent, integrate
+from symgen.runtime.outcome import RankEvent
+from symgen.runtime.run import integrate
 from symgen.settings import Settings
 from symgen.study.references.reference import reference
 

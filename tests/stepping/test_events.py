@@ -143,3 +143,17 @@ def test_what_was_saved_belongs_to_runs_with_the_same_events():
     for run, saved in ((one, other.save()), (ball().start(method="lagrange", step=1e-2), one.save())):
         with pytest.raises(InputError, match="restore: expected a state of "):
             run.restore(saved)
+
+
+def test_a_run_goes_on_with_events_of_another_kind():
+    """From coordinates and velocities alone, as what was kept of the events is another thing."""
+    model, settings = ball(), {"method": "lagrange", "integrator": "rk4", "step": 1e-2}
+    first = model.simulate(until=0.2, **settings)
+    rest = model.simulate(until=1.0, start=first, stop_when="ball.y < 0.5", **settings)
+    assert rest.ok and rest.end == pytest.approx(math.sqrt(1.0 / G), abs=1e-12)
+    assert "events stop_when" in rest.notes[0] or "events ball.y < 0.5 (stop)" in rest.notes[0]
+    whole = model.simulate(until=0.6, record_when="ball.y < 0.5", **settings)
+    first = model.simulate(until=0.3, record_when="ball.y < 0.5", **settings)
+    rest = model.simulate(until=0.6, record_when="ball.y < 0.5", start=first, **settings)
+    np.testing.assert_array_equal(rest.q.values[-1], whole.q.values[-1])
+    assert [e.t for e in rest.events] == [e.t for e in whole.events]

@@ -4,7 +4,8 @@ import numpy as np
 
 from symgen.api import Model
 from symgen.plan import make_plan
-from symgen.runtime.run import Outcome, integrate
+from symgen.runtime.outcome import Outcome
+from symgen.runtime.run import integrate
 from symgen.settings import Settings
 
 

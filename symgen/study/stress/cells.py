@@ -24,7 +24,8 @@ from symgen.result.judge import judge
 from symgen.result.points import Points
 from symgen.result.result import INTERRUPTED
 from symgen.runtime import abi
-from symgen.runtime.run import Outcome, integrate
+from symgen.runtime.outcome import Outcome
+from symgen.runtime.run import integrate
 from symgen.settings import Settings, default
 from symgen.study.stress import outcome as judged
 from symgen.study.stress.bench import Level

@@ -1,0 +1,74 @@
+"""What a run keeps before it has a start: its arrays, the sizes that loops have to know, how far it goes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import abi
+from symgen.runtime.blocks import padded
+from symgen.runtime.model_arrays import lengths_of
+from symgen.runtime.records import Sizes, Span, State
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.integrator import Setup
+    from symgen.runtime.run import RunSpec
+
+Array = NDArray[np.float64]
+
+
+def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
+    """Return how far a loop goes, to the end of the run unless given, and by which steps."""
+    end = spec.until if until is None else until
+    numbers = setup.step, spec.largest_step, end, spec.scale_time, spec.rtol, spec.atol, spec.relative
+    return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, pause)))
+
+
+def sizes_of(compiled: CompiledModel) -> Sizes:
+    """Return what loops have to know of a model."""
+    info, sections = compiled.info, compiled.info.sections
+    names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
+    pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
+    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
+    auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
+    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, auxiliary)
+
+
+def share_of(sizes: Sizes) -> Array:
+    """Return 1 for elements of a state that take part in error control, else 0."""
+    share = np.zeros(sizes.width)
+    share[: sizes.nq + sizes.nv] = 1.0
+    return share
+
+
+def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
+    """Return 1 for coordinates that are lengths, else 0; see `symgen.runtime.scales.settle` for the velocities."""
+    metric = np.zeros(sizes.width)
+    metric[: sizes.nq] = lengths_of(info)
+    return metric
+
+
+def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:
+    """Return what a run keeps, before it has a start.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    sizes : Sizes
+        From `sizes_of`.
+    memory, room : int
+        As in `symgen.runtime.integrator.Setup`.
+    """
+    law = compiled.law
+    control, counters = np.zeros(abi.N_CONTROL, dtype=np.int64), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+    p = np.zeros(max(1, law.parameter_offset + len(law.parameters) + law.hoisted))
+    return State(
+        *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
+        *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
+        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
+        *(np.zeros(0), np.zeros(sizes.width + room)),
+    )

@@ -1,0 +1,166 @@
+"""What a run gave: what its loop left behind, and what is evaluated at its outputs when it is first asked for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import abi
+from symgen.runtime.assembly import Start
+from symgen.runtime.new_state import sizes_of
+from symgen.runtime.simulation import Simulation, row_chooser
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Happening
+    from symgen.runtime.records import Observed, Outputs, Sizes
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RankEvent:
+    """A passage near a singular position, or a change of rank."""
+
+    t_in: float
+    t_out: float
+    rank: int
+    smallest_pivot: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a run gave; arrays have one row an output.
+
+    `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
+    evaluations at the outputs is computed when it is first asked for. `held` are the parameters of earlier pieces, each
+    with the time of its last output; an output where an input jumps shows what held before.
+    A run that an event has ended has its last output there.
+    """
+
+    code: int
+    reason: str
+    end: float
+    times: Array
+    states: Array
+    status_columns: Array
+    steps: int
+    rejected: int
+    evaluations: int
+    counters: dict[str, int]
+    position_violation_max: float
+    velocity_violation_max: float
+    energy_start: float
+    energy_drift_max: float
+    energy_scale: float
+    energy_jump: float
+    smallest_pivot: float
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    interrupted: bool
+    run_seconds: float
+    compile_seconds: float
+    compiled: CompiledModel = field(repr=False)
+    start: Start = field(repr=False)
+    p: Array = field(repr=False)
+    w: Array = field(repr=False)
+    simulation: Simulation = field(repr=False)
+    happened: tuple[Happening, ...] = ()
+    accumulation: float | None = None
+    held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
+
+    @property
+    def accelerations(self) -> Array:
+        """Return v' at the outputs, shape (k, nv)."""
+        return np.asarray(self._rates.accelerations)
+
+    @property
+    def multipliers(self) -> Array:
+        """Return lambda at the outputs, shape (k, m)."""
+        return np.asarray(self._rates.multipliers)
+
+    @property
+    def acceleration_violations(self) -> Array:
+        """Return |D v' - gamma| at the outputs, shape (k,)."""
+        return np.asarray(np.linalg.norm(self._rows[:, : self.compiled.info.m], axis=1))
+
+    @property
+    def joint_coordinates(self) -> Array:
+        """Return value and rate of every joint coordinate in turns at the outputs, shape (k, 2 n)."""
+        return self._rows[:, self.compiled.info.m :]
+
+    @cached_property
+    def _seen(self) -> tuple[Sizes, Outputs, Observed]:
+        """The outputs as compiled functions take them, and room for what is observed at them."""
+        from symgen.runtime.records import Observed, Outputs
+
+        info, k = self.compiled.info, len(self.times)
+        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, 0)))
+        return sizes_of(self.compiled), Outputs(self.times, self.states, self.status_columns), observed
+
+    @cached_property
+    def _rates(self) -> Observed:
+        from symgen.runtime.observe import observe_rates
+
+        (sizes, outputs, observed), law = self._seen, self.compiled.law_module
+        rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
+        functions, iw = (rates, getattr(law, "confirm", rates), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
+        choose = row_chooser(self.compiled) if self.start.redundant_rows else None
+        for first, last, p in self.parameters:
+            # the rows that stand for all follow the position
+            for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
+                here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
+                observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                if choose is not None and choose(w):
+                    observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+        return observed
+
+    @property
+    def parameters(self) -> list[tuple[int, int, Array]]:
+        """First and last output (exclusive) of each piece, and its parameters."""
+        found, first = list[tuple[int, int, Array]](), 0
+        for until, p in (*self.held, (np.inf, self.p)):
+            last = int(np.searchsorted(self.times, until, side="right"))
+            if last > first:
+                found.append((first, last, p))
+            first = last
+        return found
+
+    @cached_property
+    def _rows(self) -> Array:
+        info = self.compiled.info
+        return self.observed(self.compiled.model.observe, info.m + 2 * len(info.joint_coordinates))
+
+    def observed(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
+        """Return what a function of the motion gives at the outputs, shape (k, length).
+
+        Parameters
+        ----------
+        function : compiled function
+            Of type `symgen.runtime.abi.OBSERVE`.
+        length : int
+            How many numbers it writes.
+        multipliers : Array, shape (k, m), optional
+            What it shall see in place of those that the law left.
+        """
+        from symgen.runtime.observe import observe_rows
+
+        (sizes, outputs, _), rates = self._seen, self._rates
+        found = rates._replace(rows=np.zeros((len(self.times), length)))
+        if multipliers is not None:
+            found = found._replace(multipliers=np.ascontiguousarray(multipliers))
+        room, w = np.zeros(2 * sizes.ny + length), self.w.copy()
+        for first, last, p in self.parameters:
+            here, seen = _rows_of(outputs, first, last), _rows_of(found, first, last)
+            observe_rows(function, sizes, here, last - first, p, w, seen, room)
+        return np.asarray(found.rows)
+
+
+def _rows_of(arrays: Any, first: int, last: int) -> Any:
+    """Return a record of arrays with some of their rows."""
+    return type(arrays)(*(array[first:last] for array in arrays))
