@@ -98,11 +98,7 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
     if summary[_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
-        what = (
-            ""
-            if largest is None
-            else f"; {largest.name} changed from {_from_to(largest)}"
-        )
+        what = "" if largest is None else f"; {largest.name} changed from {_from_to(largest)}"
         notes.append(
             f"initial velocities contradicted the constraints and were projected in the metric of the mass matrix{what}"
         )

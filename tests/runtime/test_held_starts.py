@@ -72,7 +72,9 @@ def test_the_wiper_starts_at_half_a_radian(hold):
 def test_a_small_move_is_told_with_the_digits_that_show_it():
     tables = {
         "mechanism": {"name": "hung-rod"},
-        "bodies": {"rod": {"mass": 1.0, "inertia": 0.1, "points": {"top": [-0.5, 0.0]}, "position": [0.500000002, 0.0]}},
+        "bodies": {
+            "rod": {"mass": 1.0, "inertia": 0.1, "points": {"top": [-0.5, 0.0]}, "position": [0.500000002, 0.0]}
+        },
         "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "top"]}},
     }
     _, start = started(tables)

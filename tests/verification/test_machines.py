@@ -5,7 +5,10 @@ equations of one or two coordinates, tables are SciPy's splines.
 """
 
 import math
+import re
 from functools import cache
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +19,12 @@ from scipy.linalg import solve_continuous_are
 
 import symgen
 from symgen import catalogue
+from symgen.describe.load import parse_toml
+from symgen.describe.validate import validate
 
 NAMES = (
     *("cam-follower", "cart-pole", "engine", "inverted-pendulum", "jansen-leg"),
-    *("klann-leg", "quick-return", "scissor-lift", "wiper"),
+    *("klann-leg", "scissor-lift", "shaper", "wiper"),
 )
 GRAVITY = 9.81
 
@@ -80,6 +85,13 @@ def test_machines_stand_beside_the_studied_entries(capsys):
     assert all(entry.title and entry.source and not entry.sized for entry in catalogue.entries(catalogue.MACHINES))
 
 
+@pytest.mark.parametrize("name", ["wiper", "scissor-lift"])
+def test_the_file_of_a_page_is_the_entry(name):
+    page = Path(__file__).parents[2] / "docs" / "tutorials" / f"{name}.md"
+    (text,) = re.findall(r"^```toml\n(.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    assert validate(parse_toml(text, name), name) == model(name).mechanism
+
+
 # -- wiper -------------------------------------------------------------------------------------------------------------
 
 
@@ -135,14 +147,28 @@ def jansen(p, theta):
     hip = meet(pivot, p["d"], shoulder, p["e"], 1)
     knee = meet(pivot, p["c"], tip, p["k"], -1)
     end = meet(hip, p["f"], knee, p["g"], -1)
-    return {"upper.shoulder": shoulder, "upper.hip": hip, "leg.knee": knee, "leg.foot": meet(end, p["h"], knee, p["i"], -1)}
+    return {
+        "upper.shoulder": shoulder,
+        "upper.hip": hip,
+        "leg.knee": knee,
+        "leg.foot": meet(end, p["h"], knee, p["i"], -1),
+    }
 
 
 def klann(p, theta):
     """Points of Klann's leg: the lengths are distances of the patent's coordinates."""
     nine, eleven, fifteen, elbow, pin, foot, knee, hip = (
         p["scale"] * np.array(c)
-        for c in ((1.366, 1.366), (1.009, 0.574), (1.599, 0.75), (0.741, 0.75), (1.331, 0.75), (0, 0), (0.232, 0.866), (0.866, 1.5))
+        for c in (
+            (1.366, 1.366),
+            (1.009, 0.574),
+            (1.599, 0.75),
+            (0.741, 0.75),
+            (1.331, 0.75),
+            (0, 0),
+            (0.232, 0.866),
+            (0.866, 1.5),
+        )
     )
 
     def length(a, b):
@@ -152,7 +178,12 @@ def klann(p, theta):
     e = meet(c, length(pin, elbow), fixed(*eleven, theta), length(eleven, elbow), -1)
     k = meet(c, length(pin, knee), e, length(elbow, knee), -1)
     h = meet(fixed(*nine, theta), length(nine, hip), k, length(knee, hip), -1)
-    return {"connecting.elbow": e, "leg.knee": k, "leg.hip": h, "leg.foot": meet(k, length(knee, foot), h, length(hip, foot), -1)}
+    return {
+        "connecting.elbow": e,
+        "leg.knee": k,
+        "leg.hip": h,
+        "leg.foot": meet(k, length(knee, foot), h, length(hip, foot), -1),
+    }
 
 
 LEGS = {"jansen-leg": (jansen, 0.0), "klann-leg": (klann, math.pi)}
@@ -178,7 +209,7 @@ def test_klann_has_the_stride_that_the_patent_says():
 
 @pytest.mark.parametrize("name", LEGS)
 def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
-    """Weights and inertia give back in a turn what they take; what is left is the ground's pull along the foot's way."""
+    """Weights and inertia give back in a turn what they take; the ground's pull along the foot's way is left."""
     result, (points, start) = run(name), LEGS[name]
     p = result.parameters
     theta = start + np.linspace(0, 2 * np.pi, 20001)
@@ -221,8 +252,8 @@ def test_the_cylinder_of_the_lift_gives_what_virtual_work_says():
 
 
 def test_the_ram_returns_in_half_the_turn_of_its_cut():
-    """The lever turns back where it touches the crank's circle: 30 degrees on either side, at crank angles -30 and 210."""
-    events = model("quick-return").simulate(until=2.2, output_step=1.1).events
+    """The lever turns back where it touches the crank's circle, at crank angles of -30 and 210 degrees."""
+    events = model("shaper").simulate(until=2.2, output_step=1.1).events
     angles = np.array([event.q["crank.theta"] for event in events if event.name == "turned"])
     assert len(angles) >= 3
     expected = np.array([-np.pi / 6, 7 * np.pi / 6, 11 * np.pi / 6])
@@ -230,7 +261,7 @@ def test_the_ram_returns_in_half_the_turn_of_its_cut():
 
 
 def test_the_ram_is_where_the_lever_puts_it():
-    result = run("quick-return")
+    result = run("shaper")
     p, theta = result.parameters, result["crank.theta"]
     pin = polar(p["crank_length"], theta) + fixed(0.0, p["distance"], theta)
     tip = p["lever_length"] * pin / np.hypot(*pin)
@@ -246,7 +277,9 @@ def test_the_piston_stands_where_the_crank_puts_it():
     result = run("engine")
     p, theta = result.parameters, result["crank.theta"]
     r = p["stroke"] / 2
-    assert_allclose(result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-13)
+    assert_allclose(
+        result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-13
+    )
 
 
 def test_the_gas_gives_in_a_cycle_what_is_enclosed_in_its_diagram():
@@ -262,7 +295,7 @@ def test_the_gas_gives_in_a_cycle_what_is_enclosed_in_its_diagram():
         slope = -r * math.sin(theta) - r**2 * math.sin(theta) * math.cos(theta) / root
         return -1e5 * area * pressure(theta) * slope
 
-    work = sum(quad(power, a, b, epsrel=1e-10)[0] for a, b in zip(x[:-1], x[1:], strict=True))
+    work = sum(quad(power, a, b, epsrel=1e-10)[0] for a, b in pairwise(x))
     assert result.outputs["work"][-1] == pytest.approx(work, rel=1e-6)
 
 
@@ -291,7 +324,10 @@ def test_the_pendulum_comes_upright_as_its_equation_says():
     def rates(_, y):
         asked = -p["stiffness"] * y[0] - p["damping"] * y[1]
         torque = max(-p["limit"], min(p["limit"], asked))
-        return [y[1], (torque + p["mass"] * GRAVITY * p["length"] / 2 * math.sin(y[0])) * 3 / (p["mass"] * p["length"] ** 2)]
+        return [
+            y[1],
+            (torque + p["mass"] * GRAVITY * p["length"] / 2 * math.sin(y[0])) * 3 / (p["mass"] * p["length"] ** 2),
+        ]
 
     found = solve_ivp(rates, (0, 2), [p["lean"], 0.0], "DOP853", rtol=1e-11, atol=1e-12, t_eval=result.t).y
     assert_allclose(result["rod.theta"], found[0], atol=1e-9)
