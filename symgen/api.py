@@ -249,6 +249,7 @@ class Model:
             If the start violates a limit of the run.
         """
         from symgen.auto import resolve
+        from symgen.runtime.hunting import with_events
         from symgen.stepping.run import SteppedRun
         from symgen.store import ahead
 
@@ -257,13 +258,13 @@ class Model:
             if getattr(asked, name) != default(name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         given = give_inputs(self.mechanism, asked)
-        if len(given.pieces) > 1:
-            hint = "`step(dt, u=...)` and `set` give inputs other values on the way"
-            raise InputError("start: inputs", "inputs without jumps", "one that jumps", hint)
         mechanism = given.mechanism
         chosen, reasons = resolve(mechanism, given.settings)
         plan = make_plan(mechanism, replace(chosen, times=()))
-        ahead.start(plan.tableau.loop(plan.spec.adaptive))
+        plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
+        loop = plan.tableau.loop(plan.spec.adaptive)
+        ahead.start(with_events(loop) if plan.events else loop)
         compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
+        plan = watching(mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
-        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None)
+        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None, given.told)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, Literal
 
 import msgspec
@@ -10,6 +10,7 @@ import msgspec
 from symgen.describe.fields import Condition, NewVelocities, found, read
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
+from symgen.describe.printer import to_text
 from symgen.describe.scope import Model, Scope
 from symgen.errors import InputError, quoted
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
@@ -106,6 +107,15 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
             raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
         result.append(read_event(Scope(Model.of(mechanism), f"events.{name}", name), name, table))
     return tuple(result)
+
+
+def in_words(events: Iterable[Event]) -> str:
+    """Return events in words that are others where the events are."""
+    return "; ".join(
+        f"{e.name} ({', '.join([e.action, *(f'{to_text(v)} = {to_text(x)}' for v, x in e.reset)])}) "
+        f"where {to_text(e.when)} passes 0, {e.direction}"
+        for e in events
+    )
 
 
 def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:

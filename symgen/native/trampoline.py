@@ -11,12 +11,16 @@ from __future__ import annotations
 import ctypes
 import functools
 import hashlib
+import inspect
 from collections.abc import Callable, Iterator
 from typing import Any
 
 from numba import types
+from numba.core.datamodel import default_manager
 from numba.core.registry import cpu_target
+from numba.experimental import function_type
 
+from symgen.native import internals
 from symgen.native.machine import compiled, load
 
 #: Slots before the arguments: address of the function, its result, where it would put an exception; then memory that is
@@ -26,7 +30,42 @@ FUNCTION, RESULT, EXCEPTION, COPY, SOURCE, BYTES, FIRST = range(7)
 ARRAY = ("ptr", "ptr", "i64", "i64", "ptr")
 #: Slots of a first-class function: its address in C's convention, its object, its address in Numba's convention.
 REFERENCE = ("ptr", "ptr", "ptr")
+#: What the values behind these slots are called in Numba.
+_FIELDS = {
+    types.float64[::1]: ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides"),
+    types.FunctionType(types.float64(types.float64)): ("c_addr", "py_addr", "jit_addr"),
+}
 _NUMBERS = {types.float64: "double", types.int64: "i64"}
+
+
+def changed() -> list[str]:
+    """Return a sentence for everything of Numba that is not as expected; empty if all is well."""
+    found = internals.changed()
+    for name in ("_get_wrapper_address", "_get_jit_address"):
+        function = getattr(function_type, name, None)
+        if function is None or list(inspect.signature(function).parameters) != ["func", "sig"]:
+            found.append(f"numba.experimental.function_type should have {name}(func, sig)")
+    for kind, fields in _FIELDS.items():
+        model = default_manager.lookup(kind)
+        if (given := tuple(getattr(model, "_fields", ()))) != fields:
+            found.append(f"values of type {kind} should hold {fields}, but hold {given}")
+    return found
+
+
+@functools.cache
+def usable() -> bool:
+    """Whether compiled functions may be called with blocks of arguments here."""
+    return internals.usable() and not changed()
+
+
+def addresses(function: Any, kind: types.FunctionType) -> tuple[int, int, int]:
+    """Return what stands in the slots of a first-class function."""
+    signature = kind.signature
+    return (
+        function_type._get_wrapper_address(function, signature),
+        id(function),
+        function_type._get_jit_address(function, signature),
+    )
 
 
 def slots(kind: Any) -> Iterator[str]:
@@ -71,6 +110,8 @@ def trampoline(returned: Any, arguments: tuple[Any, ...]) -> Callable[[int], int
         Takes the address of a block and returns 0, or what Numba returns where an exception was raised. The
         interpreter's lock is not held meanwhile.
     """
+    if not usable():
+        return None
     try:
         kinds = tuple(kind for argument in arguments for kind in slots(argument))
     except TypeError:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
-from symgen.result.events import record, stopped
 from symgen.result.judge import judge
 from symgen.result.labelled import labelled
 from symgen.result.measured import Measured
@@ -18,6 +18,8 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Rank, Result, Seconds
 from symgen.run_setup import made_of
 from symgen.runtime import abi
+from symgen.runtime.event_records import record_of
+from symgen.runtime.events import STOP
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -73,7 +75,7 @@ def build_result(
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
@@ -120,14 +122,16 @@ def build_result(
         forces=forces,
         measured=measured,
         end=outcome.end,
-        events=tuple(record(compiled, event) for event in outcome.happened),
+        events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
-        last_state=_last_state(mechanism, compiled, outcome, made_of(compiled, plan, parameters)),
+        ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )
 
 
-def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome, made: Mapping[str, Any]) -> LastState:
+def _last_state(
+    mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
+) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
     y, w = arrays["y"], arrays["w"]
@@ -146,7 +150,7 @@ def _last_state(mechanism: Mechanism, compiled: CompiledModel, outcome: Outcome,
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made,
+        made=made_of(compiled, plan, parameters),
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )
@@ -163,6 +167,14 @@ def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> li
     if forces.non_unique:
         notes.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return notes
+
+
+def _stopped(outcome: Outcome) -> list[str]:
+    """Return at which event a run ended, where it did."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
 
 
 def _dense(compiled: CompiledModel, outcome: Outcome) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
@@ -16,7 +16,6 @@ from symgen.arguments import path as argument_path
 from symgen.arguments import shown, words
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
-from symgen.result.events import EventRecord
 from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
@@ -25,6 +24,7 @@ if TYPE_CHECKING:
 
     from symgen.result.measured import Measured
     from symgen.result.reactions import Forces
+    from symgen.runtime.event_records import EventRecord
     from symgen.runtime.last_state import LastState
     from symgen.runtime.run import Outcome, RankEvent
 
@@ -42,10 +42,10 @@ INTERRUPTED = "interrupted"
 
 
 #: What a copy does without, and what is worked out before.
-_OF_THE_RUN = ("outcome", "forces", "measured")
+_OF_THE_RUN = ("outcome", "forces", "measured", "ended")
 _DERIVED = (
     *("a", "joint_coordinates", "violations", "lam", "reactions", "body_reactions", "magnitudes"),
-    *("points", "elements", "outputs", "non_unique_reactions", "shape", "start"),
+    *("points", "elements", "outputs", "non_unique_reactions", "shape", "start", "last_state"),
     "_final_multipliers",
 )
 
@@ -109,8 +109,6 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
-    last_state : LastState
-        Where the run ended, with all that it kept: what another one goes on from.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -118,7 +116,7 @@ class Result:
     Notes
     -----
     A result that was pickled or copied holds all of its tables, worked out when that was done, but neither the code
-    that ran nor `outcome` and `forces`, which belong to the process of the run.
+    that ran nor `outcome`, `forces` and `ended`, which belong to the process of the run.
     """
 
     mechanism: str
@@ -156,7 +154,7 @@ class Result:
     outcome: Outcome
     forces: Forces
     measured: Measured
-    last_state: LastState
+    ended: Callable[[], LastState]
     inputs: Mapping[str, str | float] = field(default_factory=dict)
     end: float = math.nan
     events: tuple[EventRecord, ...] = ()
@@ -308,6 +306,11 @@ class Result:
         raise InputError("result", "the name of a column", quoted(name), nearest(name, known))
 
     # -- leaving Python ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def last_state(self) -> LastState:
+        """Where the run ended, with all that it kept: what another one goes on from."""
+        return self.ended()
 
     @cached_property
     def start(self) -> dict[str, Any]:

@@ -64,7 +64,7 @@ N_COUNTERS = len(COUNTERS)
     LAST_RANK,
     JACOBIANS,
     NEWTON_ITERATIONS,
-    BEGUN,  # 1 once the first state is accepted, `AFRESH` or `ALTERED` where something was changed since
+    BEGUN,  # 1 once the first state is accepted, `AFRESH` where inputs or velocities were changed since
     INDEX,  # steps of the grid that began at `ORIGIN`
     REFUSED,  # 1 where the last attempt was
     BARRED,  # 1 where a zone is not to be crossed in one step: an attempt to do so has failed
@@ -75,9 +75,8 @@ N_COUNTERS = len(COUNTERS)
     MASKED,  # rows that are left out because they depend on others for ever
 ) = range(19)
 N_CONTROL = 19
-#: What ``control[BEGUN]`` says of a run whose parameters were changed where it stands: the scheme begins anew; where
-#: others than inputs were, from a state that is corrected for them and whose energies the balance goes on from.
-AFRESH, ALTERED = 2, 3
+#: What ``control[BEGUN]`` says of a run whose rates were changed where it stands: the scheme begins anew.
+AFRESH = 2
 
 # -- clock: floating-point numbers that a run keeps of its time and steps ----------------------------------------------
 (

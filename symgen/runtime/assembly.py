@@ -164,7 +164,7 @@ def assemble(
         light=bool(summary[_LIGHT]),
         warnings=()
         if start.asked_far(q, p, w)
-        else warnings_of(changes, info, float(w[abi.LENGTH]), () if moved is None else moved(q, y[: info.nq])),
+        else warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved and changes else ()),
         t=instant[0],
     )
 

@@ -1,9 +1,13 @@
-"""A run from outside: its first state accepted without a step, and parameters that change while it goes on."""
+"""A run from outside: its first state accepted without a step, and parameters that change while it goes on.
+
+There are two kinds of parameters. Inputs stand in functions of state alone: other values of them need nothing but
+`prepare`, and a scheme that begins anew. Whatever else changes may move masses and joints: the state is accepted again.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -42,22 +46,27 @@ def begin_anew(simulation: Simulation) -> int:
     The state is accepted once more. What a run has found out so far stays: its largest violations, passages, and the
     step that an adaptive one would try next. What the change has added to the energy counts as work.
     """
-    state, span, place = simulation.state, simulation.span, simulation.compiled.info.work
+    state, place = simulation.state, simulation.compiled.info.work
     w, gauges, watched = state.w, state.gauges.copy(), state.control[_WATCHED]
     work = float(state.y[place])
-    if state.control[abi.STEPS] > 0 and simulation.spec.adaptive:
-        simulation.span = span._replace(step=float(state.clock[abi.NEXT]))
     state.control[abi.BEGUN] = 0
     state.y[place] = 0.0  # the balance begins with none
-    try:
-        before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
-        code = begin(simulation)
-    finally:
-        simulation.span = span
+    before = float(w[abi.KINETIC] + w[abi.POTENTIAL])
+    code = begin_with_step(simulation)
     state.y[place] = work + float(w[abi.KINETIC] + w[abi.POTENTIAL]) - before
     state.gauges[:], state.control[_WATCHED] = gauges, watched
-    state.clock[abi.ALLOWED] = 0.0
     return code
+
+
+def begin_with_step(simulation: Simulation) -> int:
+    """Begin as `begin` does; an adaptive run that has taken steps keeps the one that it would try next."""
+    state, span = simulation.state, simulation.span
+    if state.control[abi.STEPS] > 0 and simulation.spec.adaptive:
+        simulation.span = span._replace(step=float(state.clock[abi.NEXT]))
+    try:
+        return begin(simulation)
+    finally:
+        simulation.span = span
 
 
 class Changes:
@@ -71,6 +80,45 @@ class Changes:
 
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
+
+    def give(self, values: Mapping[str, float]) -> bool:
+        """Give inputs other values from where the run stands; the scheme begins anew where it goes on.
+
+        Parameters
+        ----------
+        values : mapping of str to float
+            By the names of inputs; finite.
+
+        Returns
+        -------
+        bool
+            Whether any of them is another than before; else nothing is done.
+
+        Raises
+        ------
+        InputError
+            If some formula is not finite with these values. Nothing is changed then.
+        """
+        state, places = self.simulation.state, self._inputs
+        p, kept = state.p, None
+        for name, value in values.items():
+            place = places[name]
+            if p[place] != value:
+                kept = p.copy() if kept is None else kept
+                p[place] = value
+        if kept is None:
+            return False
+        try:
+            with np.errstate(all="ignore"):
+                self.prepare()
+            if not np.isfinite(p).all():
+                raise InputError("inputs", "values for which every formula is finite", "others")
+        except BaseException:
+            p[:] = kept
+            raise
+        if state.control[abi.BEGUN] == 1:
+            state.control[abi.BEGUN] = abi.AFRESH
+        return True
 
     def set(self, p: Array) -> None:
         """Go on with other parameters from the present state.
@@ -109,13 +157,12 @@ class Changes:
         compiled, state = self.simulation.compiled, self.simulation.state
         w, info = state.w, compiled.info
         t, sections = float(state.clock[abi.TIME]), [compiled.section(w, name) for name in ("jacobian", "nu")]
-        prepare, masses, geometry = self._functions
+        masses, geometry = self._functions
         geometry(t)
         before = [section.copy() for section in sections]
         state.p[: len(p)] = p
+        self.prepare()
         try:
-            for function in prepare:
-                function()
             masses()
             geometry(t)
         except (ArithmeticError, ValueError):  # where nothing is compiled
@@ -154,10 +201,28 @@ class Changes:
         lengths = np.where([row.unit == "rad" for row in info.rows], state.w[abi.LENGTH], 1.0)
         return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))
 
+    def prepare(self) -> None:
+        """Work out what depends on parameters alone; numbers that are not defined become NaN."""
+        try:
+            for function in self._preparing:
+                function()
+        except (ArithmeticError, ValueError):  # where nothing is compiled
+            self.simulation.state.p[-1] = math.nan
+
     @cached_property
-    def _functions(self) -> tuple[tuple[Callable[..., Any], ...], Callable[..., Any], Callable[..., Any]]:
-        """Both ``prepare``, ``masses`` and ``geometry`` on the arrays of the run; the last one takes the time."""
-        (y, p, w), compiled = self.simulation.state[:3], self.simulation.compiled
-        prepare = tuple(direct(m.prepare, e.PREPARE, p) for m in (compiled.model, compiled.law_module))
-        geometry = direct(compiled.model.geometry, abi.MEASURE, 0.0, y, p, w)
-        return prepare, direct(compiled.model.masses, abi.MOVE, p, w), geometry
+    def _inputs(self) -> dict[str, int]:
+        """Places of inputs among the parameters."""
+        info = self.simulation.compiled.info
+        return {q.name: i for i, q in enumerate(info.parameters) if q.name in info.inputs}
+
+    @cached_property
+    def _preparing(self) -> tuple[Callable[..., Any], ...]:
+        """Both ``prepare`` on the parameters of the run."""
+        modules = self.simulation.compiled.model, self.simulation.compiled.law_module
+        return tuple(direct(module.prepare, e.PREPARE, self.simulation.state.p) for module in modules)
+
+    @cached_property
+    def _functions(self) -> tuple[Callable[..., Any], Callable[..., Any]]:
+        """``masses`` and ``geometry`` on the arrays of the run; the latter takes the time."""
+        (y, p, w), model = self.simulation.state[:3], self.simulation.compiled.model
+        return direct(model.masses, abi.MOVE, p, w), direct(model.geometry, abi.MEASURE, 0.0, y, p, w)

@@ -7,12 +7,10 @@ from typing import Any, Self
 
 import numpy as np
 from numba import types
-from numba.experimental.function_type import _get_jit_address, _get_wrapper_address
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
-from symgen.native import internals
-from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, slots, trampoline
+from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots, trampoline
 
 Array = NDArray[np.float64]
 #: A trampoline.
@@ -61,7 +59,7 @@ class Block:
             What it takes.
         """
         signature = compiled.signature
-        if not internals.usable() or len(signature.args) != len(arguments):
+        if len(signature.args) != len(arguments):
             return None
         call = trampoline(signature.return_type, signature.args)
         try:
@@ -167,8 +165,7 @@ def _numbers(kind: Any, value: Any) -> Iterator[int | float]:
         for part, item in zip(kind, value, strict=True):
             yield from _numbers(part, item)
     elif isinstance(kind, types.FunctionType):
-        signature = kind.signature
-        yield from (_get_wrapper_address(value, signature), id(value), _get_jit_address(value, signature))
+        yield from addresses(value, kind)
     elif isinstance(kind, types.Array):
         if not (isinstance(value, np.ndarray) and value.flags.c_contiguous and value.ndim == kind.ndim):
             raise TypeError("an array of another kind")

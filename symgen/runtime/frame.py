@@ -10,7 +10,7 @@ so does what runs it: a processor, vector lanes, a CUDA device.
 | `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
-| `look`, `remember`, `recall` | system, run, again; run; run | what events need (`symgen.runtime.hunting`) |
+| `look`, `remember`, `recall` | system, run; run; run | what events need (`symgen.runtime.hunting`) |
 
 `attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
 the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
@@ -36,8 +36,7 @@ from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, wa
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
 _BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
-_ALTERED, _KNOWN, _KINETIC, _POTENTIAL = abi.ALTERED, abi.KNOWN, abi.KINETIC, abi.POTENTIAL
-_ENERGY_START, _POTENTIAL_START = abi.ENERGY_START, abi.POTENTIAL_START
+_KNOWN = abi.KNOWN
 _TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
 _MARK, _MARKED, _NO_PROGRESS = abi.MARK, abi.MARKED, abi.NO_PROGRESS
 _FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
@@ -109,7 +108,7 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return _NOTHING
 
 
-def look(system: Any, run: Any, again: bool) -> None:
+def look(system: Any, run: Any) -> None:
     """Do nothing: where events are looked for, see on which side of each of them a run begins."""
 
 
@@ -144,27 +143,6 @@ def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
     bits = system.accept(t, y, run.p, run.w, run.iw)
     run.iw[_PROBING] = 0
     return int(bits)
-
-
-@called
-def begin_anew(system: Any, run: Any) -> int:
-    """Have a scheme forget the steps before; return whether the state could not be corrected for other parameters.
-
-    Where others than inputs were changed, its energies are what the balance goes on from: the work of who changed them
-    is in none.
-    """
-    run.clock[_ALLOWED] = 0.0
-    run.control[_REFUSED] = run.control[_BARRED] = run.control[_KNOWN] = 0
-    if run.control[_BEGUN] != _ALTERED:
-        return 0
-    kinetic, potential = run.w[_KINETIC], run.w[_POTENTIAL]
-    copied(system.sizes.width, run.y, run.trial)
-    failed = correct(system, run, run.clock[_TIME], run.trial, False) & 1
-    copied(system.sizes.width, run.trial, run.y)
-    potential = run.w[_POTENTIAL] - potential
-    run.gauges[_ENERGY_START] += run.w[_KINETIC] - kinetic + potential
-    run.gauges[_POTENTIAL_START] += potential
-    return failed
 
 
 def note_step(run: Any, h: float) -> None:
@@ -260,13 +238,13 @@ def integrate(
             store(sizes, run.w, outputs, out, run.y)
             out += 1
         control[_OUTPUTS] = out
-    elif control[_BEGUN] != 1 and begin_anew(system, run) != 0:
-        return _CORRECTION
-    if control[_BEGUN] != 1:
+    if control[_BEGUN] != 1:  # a scheme begins, or forgets the steps before
+        clock[_ALLOWED] = 0.0
+        control[_REFUSED] = control[_BARRED] = control[_KNOWN] = 0
         if ADAPTIVE:
             clock[_NEXT] = span.step
         prepare(system, scheme, span, run)
-        look(system, run, control[_BEGUN] != 0)
+        look(system, run)
         control[_BEGUN] = 1
     t, out = clock[_TIME], control[_OUTPUTS]
     hunting, crossing, whole, whole_following = _NOTHING, False, 0.0, 0.0

@@ -89,15 +89,15 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
 
 
 @called
-def look(system: Any, run: Any, again: bool) -> None:
-    """See on which side of each event a run begins, or goes on after its velocities were changed."""
+def look(system: Any, run: Any) -> None:
+    """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
     hunt = run.hunt
     n, at = int(hunt[COUNT]), N_HEAD
     evaluate_events(system, run, run.clock[_TIME], run.y)
     out = at + N_COLUMNS * n
     for k in range(n):
         g, rate = hunt[out + k], hunt[out + n + k]
-        if not again:
+        if hunt[at + SIDE * n + k] == 0.0:  # not known yet: the run begins
             hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
         elif hunt[at + FIRED * n + k] != 0.0:
             # the state lies on the event up to rounding, so the rate says where it goes to; at rest it may happen again

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -10,15 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen import arguments
-from symgen.errors import InputError, nearest
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.blocks import padded
-from symgen.runtime.ensemble_abi import PREPARE
+from symgen.runtime.changes import Changes
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.model_arrays import entries_of, lengths_of
-from symgen.runtime.probe import Ready
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
@@ -36,7 +34,10 @@ Array = NDArray[np.float64]
 #: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
 #: differ in the last bit from the state that a multistep scheme goes on with.
 SHOWN = ("shown_state", "shown_status")
-_EVENTS = abi.EVENTS
+_EVENTS, _TIME = abi.EVENTS, abi.TIME
+#: Times are the same that are closer than this part of a constant step, or, where steps vary, of the time: loops take
+#: steps below that for lost in rounding.
+SAME, RESOLVED = 1e-9, 4e-16
 
 
 class Simulation:
@@ -67,6 +68,8 @@ class Simulation:
         What it had counted where it was taken up: zeros for one that begins.
     events : Events or None
         What happens in it, where events are looked for.
+    changes : Changes
+        What gives parameters other values while it goes on.
 
     Notes
     -----
@@ -87,12 +90,13 @@ class Simulation:
             self._watch(spec.events)
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
-        self._counts = memoryview(self.state.control)
+        self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
         self.state.clock[[abi.TIME, abi.ORIGIN]] = self.state.gauges[abi.LAST_TIME] = start.t
         self.before = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        self.iterations_before = 0
+        self.iterations_before, self._pieces_taken = 0, 0
+        self.changes = Changes(self)
         self.set_limits()
         if start.saved is not None:
             self._take_up(start.saved)
@@ -177,18 +181,42 @@ class Simulation:
         follow : callable, optional
             Called at the end of each piece but the last, before the numbers of the next one are set.
         """
-        for piece in self.spec.pieces[1:]:
-            if piece.begin <= self.state.clock[abi.TIME]:
-                continue
-            code = self.enter(outputs, until=piece.begin)
+        self.take_pieces()
+        while (begin := self.next_piece) < self.spec.until:
+            code = self.enter(outputs, until=begin)
             if code != abi.DONE:
                 return code
             if follow is not None:
                 follow()
-            self.set_parameters(piece.values)
-            # a kink changes no number, but what multistep schemes know of the past ends there as well
-            self.state.control[abi.BEGUN] = max(abi.AFRESH, self.state.control[abi.BEGUN])
+            self.take_pieces(begin)
         return self.enter(outputs)
+
+    def is_ahead(self, moment: float) -> bool:
+        """Whether a time is far enough from the present one for a step between the two."""
+        return moment - self._clock[_TIME] > self.same(moment)
+
+    def same(self, moment: float) -> float:
+        """Return how far times may be apart that count as the same near a time [s]."""
+        if self.spec.adaptive:
+            return RESOLVED * max(abs(moment), abs(self._clock[_TIME]))
+        return SAME * self.span.step
+
+    @property
+    def next_piece(self) -> float:
+        """Where the next piece of the run begins [s]; infinity behind the last one."""
+        pieces = self.spec.pieces
+        return pieces[self._pieces_taken].begin if self._pieces_taken < len(pieces) else math.inf
+
+    def take_pieces(self, reached: float = -math.inf) -> None:
+        """Set the numbers of all pieces that have begun where the run stands, or at a time that it has reached [s]."""
+        values, last = dict[str, float](), -math.inf
+        while (begin := self.next_piece) < math.inf and (begin <= reached or not self.is_ahead(begin)):
+            values |= self.spec.pieces[self._pieces_taken].values
+            self._pieces_taken, last = self._pieces_taken + 1, begin
+        self.changes.give(values)
+        # a kink changes no number, but what multistep schemes know of the past ends there as well
+        if self._clock[_TIME] - last <= self.same(self._clock[_TIME]) and self.state.control[abi.BEGUN] == 1:
+            self.state.control[abi.BEGUN] = abi.AFRESH
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:
         """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
@@ -213,8 +241,10 @@ class Simulation:
                 return ended
 
     def go_back(self) -> None:
-        """Take up what was remembered when `go` was called last."""
+        """Take up what was remembered when `go` was called last, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
+        if self.events is not None:
+            self.events.forget_after(self._clock[_TIME])
 
     def _ended(self, code: int) -> int | None:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
@@ -255,41 +285,11 @@ class Simulation:
     def warm(self, outputs: Outputs) -> None:
         """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
         kept = self.save()
+        if len(self.spec.pieces) > 1:
+            self.changes.prepare()
         self.state.control[abi.STOP] = 1
         self.enter(type(outputs)(*(array[:0] for array in outputs)))
         self.restore(kept)
-
-    def set_parameters(self, values: Mapping[str, float]) -> None:
-        """Give parameters other values from where the run stands; what depends on them alone is prepared again.
-
-        The scheme begins anew there: multistep schemes have no past, adaptive ones choose a step. Where others than
-        inputs are changed, the state is corrected for the new values, and the change of its energy is in no balance.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            By the names of the model's parameters; where all are what they were, nothing is done.
-
-        Raises
-        ------
-        InputError
-            If a name is no parameter, a value is not finite, or some formula is not with these values, or a mass is
-            not positive; nothing is changed then.
-        """
-        places = {q.name: i for i, q in enumerate(self.compiled.info.parameters)}
-        p, w = self.state.p.copy(), self.state.w.copy()
-        for name, value in arguments.mapping("parameters", values, "numbers by the names of parameters").items():
-            if name not in places:
-                expected = f"a parameter of {self.compiled.info.name}"
-                raise InputError(f"parameter '{name}'", expected, "none of that name", nearest(name, places))
-            p[places[name]] = arguments.number(f"parameter '{name}'", value)
-        if np.array_equal(p, self.state.p):
-            return
-        self._prepare(p, w)
-        self.state.p[:], self.state.w[:] = p, w
-        if self.state.control[abi.BEGUN] != 0:
-            asked = abi.AFRESH if all(name in self.compiled.info.inputs for name in values) else abi.ALTERED
-            self.state.control[abi.BEGUN] = max(asked, self.state.control[abi.BEGUN])
 
     def save(self) -> dict[str, NDArray[Any]]:
         """Return copies of all arrays that the run keeps, by name."""
@@ -307,30 +307,10 @@ class Simulation:
             else:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
-            self.events.forget_after(float(self.state.clock[abi.TIME]))
-
-    def _prepare(self, p: Array, w: Array) -> None:
-        """Work out what depends on parameters alone."""
-        prepare, masses = self._prepared_by
-        with np.errstate(all="ignore"):
-            try:
-                for function in prepare:
-                    function(p)
-                masses(p, w)
-            except (ArithmeticError, ValueError):  # where nothing is compiled
-                p[:] = np.nan
-        info, mass = self.compiled.info, self.compiled.section(w, "mass")
-        if not (np.all(np.isfinite(p)) and np.all(np.isfinite(mass))):
-            raise InputError("parameters", "values for which every formula is finite", "others")
-        for i in np.flatnonzero(~(mass > 0.0)):
-            if i not in info.massless:
-                body = info.velocities[i].name.split(".")[0]
-                raise InputError(f"parameters: mass or inertia of {body}", "a value above 0", f"{mass[i]:g}")
-
-    @cached_property
-    def _prepared_by(self) -> tuple[tuple[Ready, ...], Ready]:
-        modules = self.compiled.model, self.compiled.law_module
-        return tuple(Ready(m.prepare, PREPARE) for m in modules), Ready(self.compiled.model.masses, abi.MOVE)
+            self.events.forget_after(self._clock[_TIME])
+        if self.spec.pieces:
+            self._pieces_taken = 0
+            self.take_pieces()
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

@@ -6,14 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.runtime.simulation import SAME
+
 if TYPE_CHECKING:
     from symgen.stepping.run import SteppedRun
 
 #: What a controller is: of the time of the beat and the run; it may return values to be set, by name.
 Controller = Callable[[float, "SteppedRun"], Mapping[str, float] | None]
-
-#: Times closer than this part of an interval are the same.
-SAME = 1e-9
 
 
 @dataclass

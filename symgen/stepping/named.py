@@ -66,8 +66,9 @@ class Named(np.ndarray[Any, Any]):
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
         """Compute with the numbers alone."""
-        given = (x.view(np.ndarray) if isinstance(x, Named) else x for x in inputs)
-        return getattr(ufunc, method)(*given, **options)
+        if "out" in options:
+            options["out"] = _plain(options["out"])
+        return getattr(ufunc, method)(*(_plain(x) for x in inputs), **options)
 
     def __array_function__(self, function: Any, kinds: Any, arguments: Any, options: Any) -> Any:
         """Compute with the numbers alone."""

@@ -12,12 +12,15 @@ import numpy as np
 from symgen import __version__, arguments
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
+from symgen.describe.events import in_words
 from symgen.errors import InputError, SimulationError, StepError
 from symgen.runtime import abi
-from symgen.runtime.changes import Changes, begin, begin_anew
+from symgen.runtime.changes import begin, begin_anew, begin_with_step
+from symgen.runtime.event_records import EventRecord, record_of
+from symgen.runtime.events import STOP
 from symgen.runtime.run import reason_of
-from symgen.runtime.simulation import Simulation
-from symgen.stepping.clock import SAME, Clock, Controller
+from symgen.runtime.simulation import RESOLVED, Simulation
+from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
 
@@ -55,6 +58,8 @@ class SteppedRun:
         Values that differ from the described ones.
     free : bool
         Whether no constant step was asked for: then each call of `step` is one step.
+    inputs : mapping of str to str or float, optional
+        What inputs of the mechanism are: numbers, which may be set on the way, or formulas and data in words.
 
     Attributes
     ----------
@@ -72,6 +77,7 @@ class SteppedRun:
         start: Start,
         parameters: Mapping[str, float],
         free: bool = False,
+        inputs: Mapping[str, str | float] | None = None,
     ) -> None:
         info = compiled.info
         self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
@@ -80,8 +86,12 @@ class SteppedRun:
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
         state = self._loop.state
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
-        self._changes = Changes(self._loop)
         self._clocks, self._steps_at_once = list[Clock](), FIRST_STEPS
+        self._given = {name: words for name, words in (inputs or {}).items() if isinstance(words, str)}
+        self._inputs = {name: x for name, x in (inputs or {}).items() if not isinstance(x, str)}
+        places = {q.name: i for i, q in enumerate(info.parameters)}
+        self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
+        self._hidden = set(mechanism.inputs).difference(inputs or {})  # parts of formulas
         self._until, self._most, self._calling, self._unsure = 0.0, plan.spec.max_steps, False, False
         both = *info.coordinates, *info.velocities
         self.q = _view(state.y, 0, info.coordinates)
@@ -106,7 +116,14 @@ class SteppedRun:
     @property
     def parameters(self) -> dict[str, float]:
         """Present values of all parameters."""
-        return parameter_values(self._mechanism, self._changed)
+        numbers = zip(self._compiled.info.parameters, self._loop.state.p.tolist(), strict=False)
+        return {q.name: x for q, x in numbers if q.name not in self._hidden}
+
+    @property
+    def events(self) -> tuple[EventRecord, ...]:
+        """What has happened since the start, as in results; of a run that was taken back, up to where it stands."""
+        found = self._loop.events
+        return () if found is None else tuple(record_of(self._compiled.info, event) for event in found.happened)
 
     def __repr__(self) -> str:
         law, integrator = self._compiled.law.method, self._plan.tableau.name
@@ -114,8 +131,8 @@ class SteppedRun:
 
     # -- going on ------------------------------------------------------------------------------------------------------
 
-    def step(self, dt: float, u: Mapping[str, float] | None = None) -> None:
-        """Go on for a time.
+    def step(self, dt: float, u: Mapping[str, float] | None = None) -> EventRecord | None:
+        """Go on for a time, or to an event that ends runs.
 
         Parameters
         ----------
@@ -125,10 +142,16 @@ class SteppedRun:
         u : mapping of str to float, optional
             Values to be set before, as by `set`; they are held until others are set.
 
+        Returns
+        -------
+        EventRecord or None
+            The event of kind ``stop`` at which the run stands now, before that time was over; None where it was. The
+            next call goes on from there.
+
         Raises
         ------
         InputError
-            If an argument is wrong.
+            If an argument is wrong, or velocities that an event asks for cannot be.
         StepError
             If a step fails; the run stays at the last accepted state.
         """
@@ -140,23 +163,27 @@ class SteppedRun:
             self.set(u)
         if self._free:
             self._take_steps_of(dt)
-        if self._clocks:
-            self._go(self._clock[_TIME] + dt)
-        else:
-            self._advance(self._clock[_TIME] + dt)
+        if self._clocks or self._loop.spec.pieces:
+            return self._go(self._clock[_TIME] + dt)
+        return self._advance(self._clock[_TIME] + dt)
 
-    def run(self, until: float) -> None:
-        """Go on to a time.
+    def run(self, until: float) -> EventRecord | None:
+        """Go on to a time, or to an event that ends runs.
 
         Parameters
         ----------
         until : float
             Where to [s]. Where no step was asked for, steps are those of the mechanism.
 
+        Returns
+        -------
+        EventRecord or None
+            As `step`.
+
         Raises
         ------
         InputError
-            If that time has passed.
+            If that time has passed, or velocities that an event asks for cannot be.
         StepError
             If a step fails; the run stays at the last accepted state.
         KeyboardInterrupt
@@ -164,11 +191,11 @@ class SteppedRun:
         """
         until = arguments.number("until", until)
         self._ready("run")
-        if until < self.t - self._slack:
+        if until < self.t - max(self._loop.same(until), RESOLVED * abs(until)):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
             self._take_steps_of(self._plan.spec.step or 0.0)
-        self._go(until)
+        return self._go(until)
 
     def every(self, interval: float, controller: Controller) -> None:
         """Have a function called at t0 + k `interval`, k = 0, 1, 2, ..., t0 being the present time.
@@ -212,15 +239,36 @@ class SteppedRun:
             these parameters. Nothing is changed then.
         """
         asked = {**arguments.mapping("set", values, "numbers by the names of parameters"), **more}
+        if asked.keys() <= self._inputs.keys():
+            self._set_inputs(asked)
+            return
+        for name in asked:
+            if name in self._given:
+                raise InputError(f"set: '{name}'", "an input that is a number in this run", f"'{self._given[name]}'")
         changed = {**self._changed, **asked}
         found = parameter_values(self._mechanism, changed)
         self._recover()
         loop, count = self._loop, len(found)
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
+        p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
             self._begin()
-            self._changes.set(p[:count])
+            loop.changes.set(p[:count])
         self._changed = {name: found[name] for name in changed}
+
+    def _set_inputs(self, asked: Mapping[str, float]) -> None:
+        """Give inputs other values, which takes no look at the state."""
+        numbers = {
+            name: value if type(value) is float and math.isfinite(value) else arguments.number(f"input '{name}'", value)
+            for name, value in asked.items()
+        }
+        self._recover()
+        loop = self._loop
+        if self._adaptive:
+            self._begin()
+        if loop.changes.give(numbers) and self._adaptive and (code := begin_with_step(loop)) != _DONE:
+            self._fail(code)
+        self._changed |= numbers
 
     # -- keeping -------------------------------------------------------------------------------------------------------
 
@@ -228,7 +276,9 @@ class SteppedRun:
         """Return all that the run remembers, as a value that can be pickled."""
         self._recover()
         clocks = tuple((c.start, c.interval, c.beat) for c in self._clocks)
-        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks)
+        found = self._loop.events
+        happened = () if found is None else tuple(found.happened)
+        return Saved(self._owner, self._loop.save(), self._loop.span.step, dict(self._changed), clocks, happened)
 
     def restore(self, saved: Saved) -> None:
         """Go back, or on, to what `save` returned, here or by another run of the same model, method and integrator.
@@ -252,6 +302,8 @@ class SteppedRun:
             loop.span = loop.span._replace(step=saved.step)
         elif saved.step != loop.span.step and not self._adaptive:
             self._begin_grid()
+        if loop.events is not None:
+            loop.events.happened = list(saved.happened)
         self._changed = dict(saved.parameters)
         for clock, (start, _, beat) in zip(self._clocks, saved.clocks, strict=True):
             clock.start, clock.beat = start, beat
@@ -267,12 +319,8 @@ class SteppedRun:
             "code of shape": self._compiled.shape,
             "method": f"{law.method} ({law.key})",
             "integrator": f"{self._plan.tableau.name} with {steps} steps",
+            "events": in_words(self._plan.events) or "of no kind",
         }
-
-    @property
-    def _slack(self) -> float:
-        """How far apart times may be that count as one [s]: as the loops have it."""
-        return 0.0 if self._adaptive else SAME * self._loop.span.step
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
@@ -303,17 +351,26 @@ class SteppedRun:
         loop.span = loop.span._replace(step=step)
         self._begin_grid()
         if self._control[abi.BEGUN] == 1 and self._control[abi.STEPS] == 0:
-            begin_anew(loop)  # schemes may prepare for the first step's length
+            code = begin_anew(loop)  # schemes may prepare for the first step's length
+            if code != _DONE:
+                self._fail(code)
 
-    def _go(self, until: float) -> None:
-        """Go on to a time, with the controllers called on the way."""
-        while until - self.t > self._slack:
+    def _go(self, until: float) -> EventRecord | None:
+        """Go on to a time, with the controllers called and the jumps of inputs made on the way."""
+        loop, event = self._loop, None
+        if loop.spec.pieces and until - loop.spec.until > loop.same(until):
+            where = f"a time up to the setting until = {loop.spec.until:g} s: jumps of inputs are known up to there"
+            raise InputError("until", where, f"{until:g}")
+        while event is None and loop.is_ahead(until):
             self._call()
-            self._advance(min([until, *(clock.due for clock in self._clocks)]))
+            event = self._advance(min([until, loop.next_piece, *(clock.due for clock in self._clocks)]))
+            loop.take_pieces()
+        return event
 
     def _call(self) -> None:
         """Call the controllers whose time has come."""
-        now, slack = self.t, self._slack
+        now = self.t
+        slack = 0.0 if self._adaptive else self._loop.same(now)
         self._begin()
         self._calling = True
         try:
@@ -326,12 +383,17 @@ class SteppedRun:
         finally:
             self._calling = False
 
-    def _advance(self, until: float) -> None:
-        """Go on to a time without a look at controllers, in pieces between which an interrupt is heard."""
+    def _advance(self, until: float) -> EventRecord | None:
+        """Go on to a time without a look at controllers, in pieces between which an interrupt is heard.
+
+        Returns the event that has ended it before, if one has.
+        """
         loop, control = self._loop, self._control
         if control[_BEGUN] == 0:
             self._begin()
         if self._adaptive:
+            if not loop.is_ahead(until):
+                return None
             self._most = control[_STEPS] + control[abi.REJECTED] + loop.spec.max_steps
         began = 0.0
         try:
@@ -341,16 +403,19 @@ class SteppedRun:
                 code = loop.go(until, control[_STEPS] + self._steps_at_once, self._most)
                 if code == _DONE:
                     self._unsure = False
-                    return
+                    return None
+                if code == abi.MET:
+                    self._unsure = False
+                    return next(event for event in reversed(self.events) if event.action == STOP)
                 if code != abi.PAUSED:
                     self._fail(code)
                 self._unsure = False
                 now = time.perf_counter()
                 if began > 0.0:
                     more = self._steps_at_once * PATIENCE / max(now - began, 1e-9)
-                    self._steps_at_once = int(min(max(more, FIRST_STEPS), 1e7))
+                    self._steps_at_once = int(min(max(more, 1), 1e7))
                 began = now
-        except KeyboardInterrupt:  # which may come before it is known how the loop ended
+        except (KeyboardInterrupt, InputError):  # which may come before it is known how the loop ended
             self._recover()
             raise
 
@@ -372,8 +437,11 @@ class SteppedRun:
             loop.go_back()
             if self._control[abi.BEGUN] == 0:
                 break
-            if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED):
-                break
+            try:
+                if loop.go(self._until, accepted, self._most) in (abi.DONE, abi.PAUSED, abi.MET):
+                    break
+            except InputError:  # the last step ends in an event that asks for what cannot be
+                continue
         else:
             loop.go_back()
         self._unsure = False

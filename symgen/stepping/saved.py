@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import InputError
 from symgen.runtime import abi
+
+if TYPE_CHECKING:
+    from symgen.runtime.events import Happening
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,8 @@ class Saved:
         Values at that time.
     clocks : tuple of (float, float, int)
         Start [s], interval [s] and next beat of every controller.
+    happened : tuple of Happening
+        Events since the start.
     """
 
     owner: Mapping[str, str] = field(repr=False)
@@ -38,6 +43,7 @@ class Saved:
     step: float = field(repr=False)
     parameters: Mapping[str, float]
     clocks: tuple[tuple[float, float, int], ...]
+    happened: tuple[Happening, ...] = field(default=(), repr=False)
 
     @property
     def t(self) -> float:
@@ -72,7 +78,9 @@ class Saved:
 
 
 #: Arrays that are as long in every run of a model: room for factors is made as it is needed.
-FIXED = frozenset({"y", "p", "w", "iw", "clock", "gauges", "control", "events", "memory", "share", "metric", "scales"})
+FIXED = frozenset(
+    {"y", "p", "w", "iw", "clock", "gauges", "control", "events", "memory", "share", "metric", "scales", "hunt"}
+)
 
 
 def _every(intervals: tuple[float, ...]) -> str:

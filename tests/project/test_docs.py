@@ -20,6 +20,7 @@ from benchmarks import gallery
 from symgen.api import load
 from symgen.catalogue import entries
 from symgen.describe.digest import digest
+from symgen.describe.events import EventSection
 from symgen.describe.load import parse_toml
 from symgen.describe.names import CALLABLE
 from symgen.describe.sections import (
@@ -225,6 +226,7 @@ def test_a_kind_stands_in_the_reference_with_all_its_keys(kind: str, registry: o
         ("`[parameters]`", ParameterSection),
         ("`[tables.NAME]`", TableSection),
         ("`[bodies.NAME]`", BodySection),
+        ("`[events.NAME]`", EventSection),
     ],
 )
 def test_a_section_stands_in_the_reference_with_all_its_keys(heading: str, struct: type[msgspec.Struct]) -> None:

@@ -358,6 +358,27 @@ def rows():
         lambda x: symgen.MechanismBuilder("a").run(until="long").body("b", mass=1, inertia=1).build(),
         "run.until",
     )
+    yield "start output", lambda x: x.model.start(output_step=0.1), "start: output_step: expected settings of a run"
+    yield "start name", lambda x: x.model.start(stepp=0.1), "did you mean 'step'?"
+    for shown, value in NO_NUMBER.items():
+        above = f"expected a finite number above 0, got {shown}"
+        yield f"step {shown}", lambda x, v=value: x.sim.step(v), f"dt: {above}"
+        yield f"every {shown}", lambda x, v=value: x.sim.every(v, print), f"interval: {above}"
+        yield f"run {shown}", lambda x, v=value: x.sim.run(v), "until: expected "
+    for shown, value in NO_MAPPING.items():
+        yield (
+            f"set {shown}",
+            lambda x, v=value: x.sim.set(v),
+            f"set: expected numbers by the names of parameters, got {shown}",
+        )
+        yield f"step u {shown}", lambda x, v=value: x.sim.step(0.01, v), f"parameters, got {shown}"
+        yield f"restore {shown}", lambda x, v=value: x.sim.restore(v), f"expected what `save` returned, got {shown}"
+    for shown, value in {"3": 3, "None": None, "'f'": "f"}.items():
+        yield (
+            f"controller {shown}",
+            lambda x, v=value: x.sim.every(0.1, v),
+            f"controller: expected a function, got {shown}",
+        )
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
 
@@ -372,6 +393,8 @@ def things(model, result, sweep, study):
     found = Things()
     found.model, found.result, found.sweep, found.study = model, result, sweep, study
     found.compiled = model.compile("lagrange")
+    found.sim = model.start(integrator="rk4", step=1e-3)
+    found.sim.step(0.02)
     return found
 
 
@@ -391,7 +414,8 @@ def test_no_function_with_arguments_is_left_out():
         *("load", "simulate", "compare", "sweep", "Model", "Settings", "MechanismBuilder"),
         *("Model.parameters", "Model.compile", "Model.assemble", "Model.simulate", "Mechanism.body"),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
-        *("Sweep.save", "Sweep.reasons"),
+        *("Sweep.save", "Sweep.reasons", "Model.start"),
+        *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
     }
     # what only the package makes or calls
@@ -400,6 +424,7 @@ def test_no_function_with_arguments_is_left_out():
         "Labelled",
         "Study",
         "Sweep",
+        "SteppedRun",
         "Mechanism",
         "Model.compiled",
         "Model.ready",
@@ -416,7 +441,7 @@ def test_no_function_with_arguments_is_left_out():
                 if not method.startswith("_") and len(inspect.signature(function).parameters) > 1:
                     found.add(f"{name}.{method}")
     assert found - inner == tested
-    assert len(SETTINGS) + len(ROWS) > 184
+    assert len(SETTINGS) + len(ROWS) > 240
 
 
 # -- what has a sensible meaning ---------------------------------------------------------------------------------------

@@ -61,8 +61,9 @@ def energy(sim):
     return t, v, work, t + v - float(state.gauges[abi.ENERGY_START]) - work
 
 
-def test_numbers_of_forces_masses_and_inputs_change_on_the_way(rod):
-    sim = rod.start(**TIGHT)
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+def test_numbers_of_forces_masses_and_inputs_change_on_the_way(rod, shape):
+    sim = rod.start(**TIGHT, shape=shape)
     sim.run(0.7)
     expected = swing(0.4, 0.0, 0.7)
     sim.set(stiffness=9.0)

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
 from numba import types
@@ -14,7 +15,7 @@ from support.remembering import CONSTANT, PAIRS
 import symgen
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.native import internals, trampoline
+from symgen.native import trampoline
 from symgen.runtime import abi, sparse
 from symgen.runtime.simulation import Simulation
 from symgen.store.jit import jit
@@ -103,7 +104,7 @@ def test_room_for_factors_is_made_on_the_way():
 def test_where_numba_is_not_as_expected_loops_are_called_as_ever(monkeypatch):
     model = symgen.load("pendulum")
     expected = model.start(integrator="rk4", step=1e-3)
-    monkeypatch.setattr(internals, "usable", lambda: False)
+    monkeypatch.setattr(trampoline, "usable", lambda: False)
     sim = model.start(integrator="rk4", step=1e-3)
     assert sim._loop._entry is None and expected._loop._entry is not None
     for run in (sim, expected):
@@ -161,6 +162,16 @@ def test_all_kinds_of_arguments_arrive():
     assert block.view(np.float64)[trampoline.RESULT] == expected == 0.25 + 11 + 3 * 6.0 + 6 - 7 + 1.0 + 4.0 + 9.0
     np.testing.assert_array_equal(a, [-1.0, -2.0, -3.0])
     np.testing.assert_array_equal(target, source)
+
+
+def test_the_internals_of_numba_are_as_expected(monkeypatch):
+    problems = trampoline.changed()
+    assert not problems, f"Numba {numba.__version__} changed; adapt symgen/native/trampoline.py: " + "; ".join(problems)
+    monkeypatch.setattr(trampoline.function_type, "_get_jit_address", lambda function: 0)
+    monkeypatch.setattr(trampoline, "_FIELDS", {types.float64[::1]: ("data",)})
+    missing, other = trampoline.changed()
+    assert missing == "numba.experimental.function_type should have _get_jit_address(func, sig)"
+    assert "should hold ('data',), but hold ('meminfo'," in other
 
 
 def test_what_cannot_be_laid_out_has_no_trampoline(monkeypatch):

@@ -166,6 +166,19 @@ def test_a_piece_that_is_no_multiple_of_the_step_ends_with_a_shortened_one(four_
     np.testing.assert_allclose(sim.state, by_hand.state, rtol=0.0, atol=1e-14)  # times differ by rounding
 
 
+@pytest.mark.parametrize("integrator", ["rk4", "dopri5"])
+def test_times_that_differ_by_rounding_are_one(four_bar, integrator):
+    sim, beats = four_bar.start(integrator=integrator, step=1e-3), []
+    sim.every(0.1, lambda t, run: beats.append(t))
+    sim.run(0.3)
+    steps = sim.steps
+    for until in (0.1 + 0.2, 0.3, 3 * 0.1, np.nextafter(0.3, 0.0)):
+        sim.run(until)
+    assert sim.steps == steps and beats == [0.0, 0.1, 0.2]
+    sim.run(0.4)
+    assert beats == [0.0, 0.1, 0.2, 3 * 0.1]
+
+
 def test_the_end_of_the_settings_is_no_end(four_bar):
     sim = four_bar.start(integrator="rk4", step=1e-3, until=0.01)
     sim.run(0.02)
@@ -204,6 +217,8 @@ def test_views_show_the_present_and_have_names(four_bar):
     np.testing.assert_array_equal(np.concatenate([q, v]), sim.state)
     with pytest.raises(ValueError, match="read-only"):
         q[0] = 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        np.add(q, 1.0, out=q)
     with pytest.raises(symgen.InputError, match=r"got 'crank.thet'; did you mean 'crank.theta'\?"):
         q["crank.thet"]
 

@@ -34,7 +34,7 @@ CANARIES = (
 #: Alternatives of bodies in the schema -> the mechanisms they belong to.
 _SPACES = {"BodySection": "planar", "SpatialBodySection": "spatial"}
 #: Sections whose entries are all of one kind.
-_ALIKE = ("parameters", "inputs", "tables", "bodies")
+_ALIKE = ("parameters", "inputs", "tables", "bodies", "outputs", "events")
 
 
 def places(part: dict[str, Any] | None = None, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
@@ -68,6 +68,8 @@ SMALL: dict[str, Any] = {
     "bodies": {"rod": {"mass": "k", "inertia": 1.0, "points": {"P": ["k", 0.0]}}},
     "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "P"]}},
     "forces": {"push": {"type": "torque", "body": "rod", "torque": "k*tab(rod.omega) + g + u"}},
+    "outputs": {"reach": {"value": "rod.P.x", "unit": "m"}},
+    "events": {"level": {"when": "rod.theta > 1.0"}},
 }
 
 

@@ -1,4 +1,4 @@
-"""Events of a run with the names of what they are about."""
+"""Events that happened, labelled as people and programs read them."""
 
 from __future__ import annotations
 
@@ -6,13 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from symgen.runtime import abi
-from symgen.runtime.events import STOP
-
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.events import Happening
-    from symgen.runtime.run import Outcome
 
 
 @dataclass(frozen=True)
@@ -53,17 +49,8 @@ class EventRecord:
         return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
 
 
-def stopped(outcome: Outcome) -> list[str]:
-    """Return at which event a run ended, where it did."""
-    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
-    if not names or outcome.code != abi.DONE:
-        return []
-    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
-
-
-def record(compiled: CompiledModel, event: Happening) -> EventRecord:
+def record_of(info: ModelInfo, event: Happening) -> EventRecord:
     """Label an event of a run."""
-    info = compiled.info
     q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
     v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
     if event.after is None or event.impulses is None:
