@@ -288,7 +288,7 @@ def index() -> str:
     lines = [
         "# Gallery",
         "",
-        "Every mechanism of the catalogue, with what was measured of it. Written by `python -m benchmarks.gallery`.",
+        "Every studied mechanism of the catalogue, and what was measured of it. By `python -m benchmarks.gallery`.",
         "",
         "| | mechanism | most accurate row |",
         "| --- | --- | --- |",

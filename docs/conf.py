@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[1]
 #: The sidebar: caption -> pages, relative to the root. A page of docs/ that stands nowhere else comes last in "Guides";
 #: pages in a folder with a README stand below that README.
 NAVIGATION = {
-    "Start": ("docs/tutorial", "docs/tutorial-space", "docs/gallery/README", "docs/findings"),
+    "Start": ("docs/tutorial", "docs/tutorial-space", "docs/tutorials/README", "docs/gallery/README", "docs/findings"),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs"),
     "Reference": ("docs/file-format", "docs/command-line", "docs/options", "docs/python", "docs/api"),

@@ -1,8 +1,8 @@
 """The mechanisms that come with symgen: TOML files, and modules for those that come in sizes.
 
 A file ``name.toml`` is the entry ``name``. A module ``n_four_bar.py`` is the sized entry ``n-four-bar``, its `KIND` a
-`Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied, with every
-method, in the gallery and in ``generated/``; those of the folder ``machines`` are to start from, with a motor and a load.
+`Sized` that makes the description for a size. Entries are of two groups: those of this folder are studied with every
+method, in the gallery and in ``generated/``; those of the folder ``machines``, with motor and load, are to start from.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all unless given.")
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto unless given.")
 @click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
-@click.option("--catalogue", is_flag=True, help="Take every model of the catalogue.")
+@click.option("--catalogue", is_flag=True, help="Take every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")

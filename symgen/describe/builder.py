@@ -75,6 +75,10 @@ class MechanismBuilder:
         """Add an event: ``when``, ``direction``, ``action``, ``reset`` as in a file."""
         return self._add("events", name, keys)
 
+    def output(self, name: str, value: str, unit: str = "") -> Self:
+        """Add a formula that results report, such as ``"integral(motor.power)"``."""
+        return self._add("outputs", name, {"value": value, "unit": unit} if unit else {"value": value})
+
     @property
     def source(self) -> str:
         """What messages call this description."""

@@ -98,8 +98,8 @@ torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rod.omega"   # also rod.x, .y (of t
 # [events.turn]                           # watched during a run; also symgen run --stop-when "rod.theta > 2*pi"
 # when = "rod.theta > 2*pi"               # happens when it becomes true; or an expression that passes through zero
 # direction = "rising"                    # or "falling", "any"
-# action = "stop"                         # or "record"; or new velocities:
-# reset = { "rod.omega" = "-0.5*rod.omega" }
+# action = "stop"                         # or "record"; or "reset" with new velocities:
+#                                         #   reset = { "rod.omega" = "-0.5*rod.omega" }
 """
 
 _SPATIAL = """\
@@ -183,6 +183,6 @@ torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rate"   # also rod.x (centre of mas
 # [events.low]                            # watched during a run; also symgen run --stop-when "rod.z < -0.5"
 # when = "rod.z < -0.5"                   # happens when it becomes true; or an expression that passes through zero
 # direction = "rising"                    # or "falling", "any"
-# action = "stop"                         # or "record"; or new velocities:
-# reset = { "rod.vz" = "-0.5*rod.vz" }
+# action = "stop"                         # or "record"; or "reset" with new velocities:
+#                                         #   reset = { "rod.vz" = "-0.5*rod.vz" }
 """

@@ -49,6 +49,10 @@ type = "torsional-spring-damper"
 between = ["ground", "rod"]
 damping = "damping"
 actuator = "profile(t)"
+
+[outputs]
+lean = { value = "180/pi*rod.theta", unit = "deg" }
+spent = "-integral(friction.power)"
 """
 
 
@@ -64,6 +68,8 @@ def test_builder_and_file_are_one():
         .force(
             "friction", "torsional-spring-damper", between=("ground", "rod"), damping="damping", actuator="profile(t)"
         )
+        .output("lean", "180/pi*rod.theta", unit="deg")
+        .output("spent", "-integral(friction.power)")
     )
     assert built.build() == validate(tomllib.loads(PENDULUM), "rod.toml")
     assert validate(tomllib.loads(built.to_toml()), "rod.toml") == built.build()

@@ -5,7 +5,10 @@ equations of one or two coordinates, tables are SciPy's splines.
 """
 
 import math
+import re
 from functools import cache
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +19,12 @@ from scipy.linalg import solve_continuous_are
 
 import symgen
 from symgen import catalogue
+from symgen.describe.load import parse_toml
+from symgen.describe.validate import validate
 
 NAMES = (
     *("cam-follower", "cart-pole", "engine", "inverted-pendulum", "jansen-leg"),
-    *("klann-leg", "quick-return", "scissor-lift", "wiper"),
+    *("klann-leg", "scissor-lift", "shaper", "wiper"),
 )
 GRAVITY = 9.81
 
@@ -78,6 +83,13 @@ def test_machines_stand_beside_the_studied_entries(capsys):
     assert {name for name, group in listed.items() if group == "machines"} == set(NAMES)
     assert set(listed) == set(catalogue.known())
     assert all(entry.title and entry.source and not entry.sized for entry in catalogue.entries(catalogue.MACHINES))
+
+
+@pytest.mark.parametrize("name", ["wiper", "scissor-lift"])
+def test_the_file_of_a_page_is_the_entry(name):
+    page = Path(__file__).parents[2] / "docs" / "tutorials" / f"{name}.md"
+    (text,) = re.findall(r"^```toml\n(.*?)^```$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+    assert validate(parse_toml(text, name), name) == model(name).mechanism
 
 
 # -- wiper -------------------------------------------------------------------------------------------------------------
@@ -197,7 +209,7 @@ def test_klann_has_the_stride_that_the_patent_says():
 
 @pytest.mark.parametrize("name", LEGS)
 def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
-    """Weights and inertia give back in a turn what they take; what is left is the ground's pull along the foot's way."""
+    """Weights and inertia give back in a turn what they take; the ground's pull along the foot's way is left."""
     result, (points, start) = run(name), LEGS[name]
     p = result.parameters
     theta = start + np.linspace(0, 2 * np.pi, 20001)
@@ -240,8 +252,8 @@ def test_the_cylinder_of_the_lift_gives_what_virtual_work_says():
 
 
 def test_the_ram_returns_in_half_the_turn_of_its_cut():
-    """The lever turns back where it touches the crank's circle: 30 degrees on either side, at crank angles -30 and 210."""
-    events = model("quick-return").simulate(until=2.2, output_step=1.1).events
+    """The lever turns back where it touches the crank's circle, at crank angles of -30 and 210 degrees."""
+    events = model("shaper").simulate(until=2.2, output_step=1.1).events
     angles = np.array([event.q["crank.theta"] for event in events if event.name == "turned"])
     assert len(angles) >= 3
     expected = np.array([-np.pi / 6, 7 * np.pi / 6, 11 * np.pi / 6])
@@ -249,7 +261,7 @@ def test_the_ram_returns_in_half_the_turn_of_its_cut():
 
 
 def test_the_ram_is_where_the_lever_puts_it():
-    result = run("quick-return")
+    result = run("shaper")
     p, theta = result.parameters, result["crank.theta"]
     pin = polar(p["crank_length"], theta) + fixed(0.0, p["distance"], theta)
     tip = p["lever_length"] * pin / np.hypot(*pin)
@@ -283,7 +295,7 @@ def test_the_gas_gives_in_a_cycle_what_is_enclosed_in_its_diagram():
         slope = -r * math.sin(theta) - r**2 * math.sin(theta) * math.cos(theta) / root
         return -1e5 * area * pressure(theta) * slope
 
-    work = sum(quad(power, a, b, epsrel=1e-10)[0] for a, b in zip(x[:-1], x[1:], strict=True))
+    work = sum(quad(power, a, b, epsrel=1e-10)[0] for a, b in pairwise(x))
     assert result.outputs["work"][-1] == pytest.approx(work, rel=1e-6)
 
 
