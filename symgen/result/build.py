@@ -19,7 +19,7 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Result
 from symgen.run_setup import made_of
 from symgen.runtime import abi
-from symgen.runtime.event_records import record_of
+from symgen.runtime.event_records import record_of, stopped
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 
@@ -75,7 +75,7 @@ def build_result(
     measured = Measured(mechanism, outcome, lambda: forces.multipliers().values)
     verdict = judge(plan, compiled, outcome, second, settings.verify)
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
-    verdict = replace(verdict, notes=(*notes, *verdict.notes, *_stopped(outcome)))
+    verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
