@@ -95,6 +95,9 @@ type = "torque"
 body = "rod"
 torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rod.omega"   # also rod.x, .y (of the centre of mass), .theta, .vx, .vy
 
+# [outputs]                               # formulas that results report; also integrals over time
+# height = { value = "rod.tip.y", unit = "m" }
+
 # [events.turn]                           # watched during a run; also symgen run --stop-when "rod.theta > 2*pi"
 # when = "rod.theta > 2*pi"               # happens when it becomes true; or an expression that passes through zero
 # direction = "rising"                    # or "falling", "any"
@@ -179,6 +182,9 @@ damping = "damping"
 type = "torque"
 joint = "hub"                             # or body = "arm" and three components
 torque = "0.5*sin(2*pi*t) if t < 2 else -0.1*rate"   # also rod.x (centre of mass), .e0, .vx, .wx, ...
+
+# [outputs]                               # formulas that results report; also integrals over time
+# height = { value = "rod.tip.z", unit = "m" }
 
 # [events.low]                            # watched during a run; also symgen run --stop-when "rod.z < -0.5"
 # when = "rod.z < -0.5"                   # happens when it becomes true; or an expression that passes through zero
