@@ -16,15 +16,19 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 from rich.table import Table
 
 import symgen
 from benchmarks.peers.step import BATCHES, COUNT, least
 from benchmarks.show import show
+from symgen.describe.mechanism import Parameter
 
 ROOT = Path(__file__).resolve().parents[1]
 STEP = 1e-3
+#: An input that nothing depends on: what it costs to give it other numbers is what every input costs.
+INPUT = "benchmarked"
 #: Method and integrator of each line, with constant steps.
 PAIRS = (
     ("direct-correction", "rk4"),
@@ -36,7 +40,7 @@ PAIRS = (
 
 
 def measured(model: symgen.Model, method: str, integrator: str) -> dict[str, float]:
-    """Return seconds of a step: inside a run, from Python, with a parameter set, and as functions are called as ever.
+    """Return seconds of a step: inside a run, from Python, with an input or a parameter set, and called as ever.
 
     Parameters
     ----------
@@ -48,7 +52,7 @@ def measured(model: symgen.Model, method: str, integrator: str) -> dict[str, flo
     options: dict[str, Any] = {"integrator.adaptive": "false"} if integrator == "radau5" else {}
     settings: dict[str, Any] = {"step": STEP, "until": 1000.0, "max_violation": 1.0, "max_energy_error": 1e9}
     sim = model.start(method=method, integrator=integrator, options=options, **settings)
-    name, value = next(iter(sim.parameters.items()))
+    name, value = next((name, value) for name, value in sim.parameters.items() if name != INPUT)
 
     def inside() -> None:
         sim.run(sim.t + COUNT * STEP)
@@ -57,11 +61,15 @@ def measured(model: symgen.Model, method: str, integrator: str) -> dict[str, flo
         for _ in range(COUNT):
             sim.step(STEP)
 
+    def inputs() -> None:
+        for k in range(COUNT):
+            sim.step(STEP, {INPUT: float(k % 2)})
+
     def some(change: bool) -> None:
         for k in range(COUNT // 10):
             sim.step(STEP, {name: value * (1.0 + 1e-6 * (k % 2))} if change else None)
 
-    found = {"inside": least(inside), "step": least(steps)}
+    found = {"inside": least(inside), "step": least(steps), "input": least(inputs)}
     sim._loop.direct = False  # the judge of the other
     found["as ever"] = least(lambda: some(False), COUNT // 10, BATCHES // 10)
     sim._loop.direct = True
@@ -89,20 +97,38 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--peers-python", type=Path, default=ROOT / ".bench-venv" / "bin" / "python")
     options = parser.parse_args(arguments)
     table = Table(title=f"one step of {STEP:g} s of {options.model} [us]")
-    columns = ("inside a run", "from Python", "beyond", "with a value set", "called as ever", "times symgen's")
+    columns = (
+        "inside a run",
+        "from Python",
+        "beyond",
+        "with an input",
+        "with a value set",
+        "called as ever",
+        "times symgen's",
+    )
     for column in ("tool", "setting", *columns):
         table.add_column(column, justify="left" if column in ("tool", "setting") else "right")
-    model, first = symgen.load(options.model), 0.0
+    mechanism, first = symgen.load(options.model).mechanism, 0.0
+    parameters = (*mechanism.parameters, Parameter(INPUT, 0.0, input=True))
+    model = symgen.Model(msgspec.structs.replace(mechanism, parameters=parameters))
     for method, integrator in PAIRS:
         found = {key: 1e6 * seconds for key, seconds in measured(model, method, integrator).items()}
         first = first or found["step"]
         beyond = found["step"] - found["inside"]
-        cells = (found["inside"], found["step"], beyond, found["set"], found["as ever"], found["step"] / first)
+        cells = (
+            found["inside"],
+            found["step"],
+            beyond,
+            found["input"],
+            found["set"],
+            found["as ever"],
+            found["step"] / first,
+        )
         table.add_row("symgen", f"{method}, {integrator}", *(f"{x:.3g}" for x in cells))
     for row in peers(options.peers_python, options.model):
         step, inside = 1e6 * row["step"], None if row["inside"] is None else 1e6 * row["inside"]
         own = ("-", f"{step:.3g}", "-") if inside is None else (f"{inside:.3g}", f"{step:.3g}", f"{step - inside:.3g}")
-        table.add_row(f"{row['peer']} {row['version']}", row["setting"], *own, "-", "-", f"{step / first:.3g}")
+        table.add_row(f"{row['peer']} {row['version']}", row["setting"], *own, "-", "-", "-", f"{step / first:.3g}")
     show(table)
 
 

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots, trampoline
+from symgen.runtime.frame import FUNCTIONS
 
 Array = NDArray[np.float64]
 #: A trampoline.
 Call = Callable[[int], int]
-#: Places of two of a loop's arguments.
-_SCHEME, _SPAN = 6, 8
+#: Places of two of a loop's arguments, behind the functions of the model: scheme, sizes, span.
+_SCHEME, _SPAN = len(FUNCTIONS), len(FUNCTIONS) + 2
 
 
 class Block:
