@@ -217,7 +217,7 @@ def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
     speed = np.gradient(foot[0], theta, edge_order=2) * p["speed"]
     pressed = p["load"] * (1 - np.tanh((foot[1] - p["soil"]) / p["give"])) / 2
     work = np.trapezoid(p["pull"] * pressed * np.tanh(speed / 0.05) * speed, theta / p["speed"])
-    assert result.outputs["energy"][-1] == pytest.approx(work, rel=1e-4)
+    assert result.outputs["energy"][-1] == pytest.approx(work, rel=1e-6)
 
 
 # -- scissor lift ------------------------------------------------------------------------------------------------------
