@@ -116,7 +116,7 @@ def wiper_rates(p, theta):
 def test_the_wiper_swings_as_its_four_bar_says():
     result = run("wiper")
     _, b, arm = wiper_arm(result.parameters, result["crank.theta"])
-    assert_allclose(result["arm.theta"], arm, atol=1e-12)
+    assert_allclose(result["arm.theta"], arm, atol=1e-11)  # |Phi| of 5e-14 m over a rocker of 0.08 m
     assert_allclose(place(result, "arm.b"), b, atol=1e-12)
 
 
@@ -217,7 +217,7 @@ def test_a_turn_of_a_leg_takes_the_work_on_the_ground(name):
     speed = np.gradient(foot[0], theta, edge_order=2) * p["speed"]
     pressed = p["load"] * (1 - np.tanh((foot[1] - p["soil"]) / p["give"])) / 2
     work = np.trapezoid(p["pull"] * pressed * np.tanh(speed / 0.05) * speed, theta / p["speed"])
-    assert result.outputs["energy"][-1] == pytest.approx(work, rel=1e-4)
+    assert result.outputs["energy"][-1] == pytest.approx(work, rel=1e-6)
 
 
 # -- scissor lift ------------------------------------------------------------------------------------------------------
@@ -278,7 +278,7 @@ def test_the_piston_stands_where_the_crank_puts_it():
     p, theta = result.parameters, result["crank.theta"]
     r = p["stroke"] / 2
     assert_allclose(
-        result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-13
+        result["piston.x"], r * np.cos(theta) + np.sqrt(p["rod_length"] ** 2 - (r * np.sin(theta)) ** 2), atol=1e-12
     )
 
 
@@ -307,7 +307,7 @@ def test_the_follower_keeps_the_spline_and_presses_on_the_cam():
     p, spline = result.parameters, CubicSpline(x, y, bc_type="periodic")
     angle = p["speed"] * result.t
     lift, speed, acceleration = (spline(angle, k) * p["speed"] ** k for k in range(3))
-    assert_allclose(result["follower.y"], lift, atol=1e-13)
+    assert_allclose(result["follower.y"], lift, atol=1e-12)
     weight = p["mass"] * (acceleration + GRAVITY)
     spring = p["stiffness"] * lift + p["preload"] + p["damping"] * speed
     assert_allclose(result.outputs["contact"], weight + spring, atol=1e-8)
