@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.arguments import one_of, shown, words
 from symgen.arguments import path as argument_path
-from symgen.arguments import shown, words
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
 from symgen.result.labelled import Array, Labelled
@@ -259,7 +259,8 @@ class Result:
         return {name: getattr(self, name) for name in TABLES}
 
     def columns(self, table: str) -> tuple[str, ...]:
-        """Return the names of a table's columns; code of a table's own is not generated for that."""
+        """Return the names of the columns of one of `TABLES`; code of a table's own is not generated for that."""
+        one_of("table", table, TABLES)
         if table in SIDE and table not in self.__dict__:
             return tuple(column.name for column in self.measured.columns(table))
         found: Labelled = getattr(self, table)

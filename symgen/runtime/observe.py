@@ -91,8 +91,9 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
         output(sizes, outputs, k, y, w)
         for i in range(sizes.nv):
             rate[sizes.nq + i] = observed.accelerations[k, i]
-        for i in range(sizes.m):
-            w[sizes.multipliers + i] = observed.multipliers[k, i]
+        if k < observed.multipliers.shape[0]:  # a device has room for them only where they are asked for
+            for i in range(sizes.m):
+                w[sizes.multipliers + i] = observed.multipliers[k, i]
         observe(outputs.times[k], y, p, w, rate, row)
         for i in range(length):
             observed.rows[k, i] = row[i]

@@ -212,6 +212,10 @@ def rows():
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
     yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a file that can be written"
+    yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
+    yield "columns 3", lambda x: x.result.columns(3), "table: expected one of q, v, a, lam, reactions"
+    yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
+    yield "select name", lambda x: x.result.select(["bob.z"]), "quantity 'bob.z': expected a quantity of"
     yield "plot what", lambda x: x.result.plot("a.png", 3), "plot: expected a list of names, got 3"
     yield "plot panel", lambda x: x.result.plot("a.png", "energi"), "plot: expected the name of a panel, got 'energi'"
     # studies
@@ -320,8 +324,8 @@ def rows():
             lambda x, v=value: symgen.MechanismBuilder(v).body("a", mass=1).build(),
             "mechanism.name",
         )
-        for part in ("parameter", "input", "table", "body", "joint", "force"):
-            numbers = {"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1])}
+        for part in ("parameter", "input", "table", "body", "joint", "force", "output", "event"):
+            numbers = {"parameter": (1.0,), "input": (1.0,), "table": ([0, 1], [0, 1]), "output": ("t",)}
             extra = {**numbers, "joint": ("rigid",), "force": ("torque",)}.get(part, ())
             yield (
                 f"{part} {shown}",
@@ -417,6 +421,7 @@ def test_no_function_with_arguments_is_left_out():
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
+        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select"),
     }
     # what only the package makes or calls
     inner = {

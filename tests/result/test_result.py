@@ -23,6 +23,7 @@ RUN_KEYS = {
         "reason",
         "error_estimate",
         "start",
+        "inputs",
         "warnings",
         "notes",
     ),

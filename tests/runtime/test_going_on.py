@@ -171,7 +171,10 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
         ({"step": 1e-3}, "step 0.001 instead of 0.002"),
         ({"parameters": {"crank_mass": 3.0}}, "crank_mass 3 instead of 2"),
         ({"options": {"method.weight": "mass"}}, "weight mass instead of identity"),
-        ({"record_when": "crank.theta > 1.1"}, "events record when crank.theta > 1.1 (rising) instead of none"),
+        (
+            {"record_when": "crank.theta > 1.1"},
+            "events crank.theta > 1.1 (record) where crank.theta - 1.1 passes 0, rising instead of none",
+        ),
     ],
 )
 def test_a_run_of_another_making_takes_coordinates_and_velocities(change, told):

@@ -94,6 +94,7 @@ def test_a_start_beyond_a_limit_is_an_error_too():
 def test_an_interrupt_ends_a_long_run_at_an_accepted_state(four_bar):
     settings = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "shape": "straight"}
     sim = four_bar.start(**settings)
+    sim.run(0.01)  # everything is loaded: what frees memory meanwhile may swallow an interrupt
     timer = threading.Timer(0.3, _thread.interrupt_main)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
