@@ -251,15 +251,13 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         for j in range(n_events):
             events[j] = math.nan
         control[_STOP] = 0  # which `begin_run` leaves as it is
-        state = State(y, p, w, iw, clock, gauges, control, events, memory, starts.share, metric, scales, scales, room)
+        state = State(y, p, w, iw, clock, gauges, control, events, memory, starts.share, metric, scales, room)
         begin_run(state, starts.limits)
         k = starts.times.shape[0]
         outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
-        code = integrate(rhs, confirm, accept, 0, 0, 0, 0, 0, scheme, sizes, span, state, outputs)
+        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, outputs)
         narrowest = events[_N_EVENT:]
-        ended = State(
-            y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, scales, room
-        )
+        ended = State(y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, room)
         summarise(code, ended, results.summary[:, i])
         count = control[_OUTPUTS]
         accelerations, multipliers = results.accelerations[:, : sizes.nv, i], results.multipliers[:, : sizes.m, i]

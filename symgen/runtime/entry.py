@@ -11,13 +11,12 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots, trampoline
-from symgen.runtime.frame import FUNCTIONS
 
 Array = NDArray[np.float64]
 #: A trampoline.
 Call = Callable[[int], int]
-#: Places of two of a loop's arguments, behind the functions of the model: scheme, sizes, span.
-_SCHEME, _SPAN = len(FUNCTIONS), len(FUNCTIONS) + 2
+#: Two of a loop's arguments, counted from the end, as before them stand functions: scheme, sizes, span, state, outputs.
+_SCHEME, _SPAN = -5, -3
 
 
 class Block:
@@ -91,7 +90,8 @@ class Entry(Block):
     def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
         super().__init__(result, arguments, call)
         self._scheme, self._span = arguments[_SCHEME], arguments[_SPAN]
-        first, names = self._places[_SPAN], self._span._fields
+        self._which_scheme, self._which_span = len(arguments) + _SCHEME, len(arguments) + _SPAN
+        first, names = self._places[self._which_span], self._span._fields
         self._until, self._pause, self._most = (first + names.index(name) for name in ("until", "pause", "most"))
 
     def copy_before(self, target: Array, source: Array) -> None:
@@ -105,10 +105,10 @@ class Entry(Block):
     def take(self, scheme: Any, span: Any) -> None:
         """Put another scheme, whose arrays may stand elsewhere, and another span into the block."""
         if self._scheme is not scheme:
-            self._scheme = self._arguments[_SCHEME] = scheme
-            self._fill(_SCHEME)
-        self._span = self._arguments[_SPAN] = span
-        self._fill(_SPAN)
+            self._scheme = self._arguments[self._which_scheme] = scheme
+            self._fill(self._which_scheme)
+        self._span = self._arguments[self._which_span] = span
+        self._fill(self._which_span)
 
     def __call__(self, until: float, pause: float, most: float) -> int:
         """Enter the loop; return how it ended."""

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.errors import InputError
 from symgen.runtime import abi, hunting
+from symgen.runtime.hunting_records import HuntingState
 from symgen.runtime.impulses import strike
 from symgen.runtime.probe import Ready
 
@@ -75,10 +76,11 @@ class Watched:
     resets: Mapping[int, Reset] = field(default_factory=dict)
     products: tuple[tuple[int, int, float], ...] = ()
 
-    def new_hunt(self, sizes: Sizes, nw: int) -> Array:
-        """Return what a run keeps of its events before it has begun."""
+    def hunting_state(self, sizes: Sizes, state: State) -> HuntingState:
+        """Return what a run keeps, with what it keeps of its events before it has begun."""
         leaves = [action != RECORD for action in self.actions]
-        return hunting.new_hunt(sizes, nw, self.directions, leaves, self.needs_rates)
+        hunt = hunting.new_hunt(sizes, len(state.w), self.directions, leaves, self.needs_rates)
+        return HuntingState(*state, hunt)
 
 
 @dataclass(frozen=True)
@@ -143,7 +145,7 @@ class Events:
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
 
-    def take(self, state: State) -> list[tuple[int, Happening]]:
+    def take(self, state: HuntingState) -> list[tuple[int, Happening]]:
         """Return what a loop has noted since it was last asked, with numbers of events, and remember it."""
         info, found = self.compiled.info, []
         for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w)):
@@ -153,7 +155,7 @@ class Events:
             self.happened.append(event)
         return found
 
-    def meet(self, state: State, found: Sequence[tuple[int, Happening]]) -> int:
+    def meet(self, state: HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
         """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
 
         Parameters
@@ -181,7 +183,7 @@ class Events:
 
     # -- resets --------------------------------------------------------------------------------------------------------
 
-    def _reset(self, state: State, numbers: Sequence[int]) -> None:
+    def _reset(self, state: HuntingState, numbers: Sequence[int]) -> None:
         info, compiled, now = self.compiled.info, self.compiled, float(state.clock[abi.TIME])
         y, w, p = state.y[: info.ny].copy(), state.w.copy(), state.p
         Ready(compiled.model.geometry, abi.MEASURE)(now, y, p, w)

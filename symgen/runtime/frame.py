@@ -32,13 +32,13 @@ from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied
-from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, watch
+from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, stuck, watch
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
 _BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
 _KNOWN = abi.KNOWN
 _TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
-_MARK, _MARKED, _NO_PROGRESS = abi.MARK, abi.MARKED, abi.NO_PROGRESS
+_NO_PROGRESS = abi.NO_PROGRESS
 _FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
 _PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.WINDING, abi.N_STATUS
 _DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
@@ -68,8 +68,6 @@ _RESOLVED = 4e-16
 _HOPELESS = 1e6
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
 _ACROSS = 2.3
-#: Attempts over which progress is judged, at least: as many as all before them.
-_WINDOW = 10_000
 #: What an attempt returns where an iteration did not converge, and where a matrix does not fit into its room.
 DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
@@ -131,11 +129,14 @@ def opened(sizes: Any, state: Any) -> Any:
     return Run(*kept, s.share, s.metric, s.scales, room)
 
 
-def joined(
-    sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, happens: Any, decide: Any
-) -> Any:
+def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
     """Return the model as schemes see it."""
     return System(sizes, rhs, confirm, accept, turn, residual, tangent)
+
+
+def scheme_of(scheme: Any) -> Any:
+    """Return the record of a scheme."""
+    return scheme
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
@@ -168,21 +169,6 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k, i] = w[_WINDING - _N_STATUS + i]
 
 
-def stuck(span: Any, run: Any, t: float) -> bool:
-    """Return whether an adaptive run has taken, or at its present rate would take, more attempts than it may.
-
-    The rate is that of a window of attempts as long as all before it: a passage that takes many of them is none.
-    """
-    attempts, mark = run.control[_STEPS] + run.control[_REJECTED], run.control[_MARKED]
-    if attempts - mark < max(_WINDOW, mark):
-        return bool(attempts >= span.most)
-    rate = (t - run.clock[_MARK]) / (attempts - mark)
-    if mark > 0 and span.until - t > rate * (span.most - attempts):
-        return True
-    run.clock[_MARK], run.control[_MARKED] = t, attempts
-    return False
-
-
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
@@ -193,8 +179,6 @@ def integrate(
     turn: Any,
     residual: Any,
     tangent: Any,
-    happens: Any,
-    decide: Any,
     scheme: Any,
     sizes: Any,
     span: Any,
@@ -207,10 +191,8 @@ def integrate(
     ----------
     rhs, confirm, accept, turn, residual, tangent : emitted functions
         Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
-    happens, decide : emitted function, function
-        Switching functions of events with their rates, and `symgen.runtime.searching.decide`; 0 without events.
     scheme : record
-        The scheme.
+        The scheme; a `HuntingScheme` where events are looked for.
     sizes : Sizes
         Of the model.
     span : Span
@@ -225,8 +207,8 @@ def integrate(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = joined(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
-    run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
+    system = joined(sizes, rhs, confirm, accept, turn, residual, tangent, scheme)
+    run, scheme, outputs = opened(sizes, state), bare(scheme_of(scheme)), bare(outputs)
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width
     tiny = 0.0 if ADAPTIVE else _SAME * span.step
@@ -382,7 +364,7 @@ def integrate(
 #: Where functions of the model stand in a loop's arguments, with their types.
 FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
-    **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE, "happens": abi.OBSERVE, "decide": abi.DECIDE},
+    **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
 }
 #: What each loop was made of, so that one that looks for events can be made of the same.
 RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}

@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, frame
 from symgen.runtime.bare import bare, part
-from symgen.runtime.frame import evaluate
+from symgen.runtime.frame import evaluate, integrate
+from symgen.runtime.hunting_records import HUNTING_STATE, HuntingRun, HuntingScheme, HuntingSystem
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, HuntingRun, HuntingSystem
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN
 from symgen.runtime.searching import (
     COLUMNS,
     COUNT,
@@ -62,11 +63,14 @@ def opened(sizes: Any, state: Any) -> Any:
     return HuntingRun(*kept, s.share, s.metric, s.scales, room, s.hunt)
 
 
-def joined(
-    sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, happens: Any, decide: Any
-) -> Any:
+def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
     """Return the model with the functions of events."""
-    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, happens, decide)
+    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, scheme.happens, scheme.decide)
+
+
+def scheme_of(scheme: Any) -> Any:
+    """Return the record of a scheme."""
+    return scheme.scheme
 
 
 @called
@@ -149,11 +153,47 @@ def notes_at(n: int, width: int, nw: int, ni: int) -> int:
     return N_HEAD + (N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)
 
 
+def integrate_with_events(
+    rhs: Any,
+    confirm: Any,
+    accept: Any,
+    turn: Any,
+    residual: Any,
+    tangent: Any,
+    happens: Any,
+    decide: Any,
+    scheme: Any,
+    sizes: Any,
+    span: Any,
+    state: Any,
+    outputs: Any,
+) -> int:
+    """Integrate as `symgen.runtime.frame.integrate` does, and look for events.
+
+    Parameters
+    ----------
+    rhs, confirm, accept, turn, residual, tangent, scheme, sizes, span, outputs
+        As there.
+    happens, decide : emitted function, function
+        Switching functions with their rates, and `symgen.runtime.searching.decide`.
+    state : HuntingState
+        What the run keeps; changed.
+
+    Returns
+    -------
+    int
+        How it ended, see `symgen.runtime.abi`.
+    """
+    hunting = HuntingScheme(scheme, happens, decide)
+    return int(integrate(rhs, confirm, accept, turn, residual, tangent, hunting, sizes, span, state, outputs))
+
+
 _MEANINGS: dict[str, Any] = {
     **{
         "EVENTS": True,
         "opened": opened,
         "joined": joined,
+        "scheme_of": scheme_of,
         "happened": happened,
         "look": look,
         "remember": remember,
@@ -175,11 +215,11 @@ def with_events(loop: Any) -> Any:
         return None
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
-        taken = {"rhs", "confirm", "accept", "happens", "decide", *functions}
+        taken = {"rhs", "confirm", "accept", *functions}
         kinds = (kind if called in taken else types.int64 for called, kind in frame.FUNCTIONS.items())
-        signature = types.int64(*kinds, scheme, SIZES, SPAN, STATE, OUTPUTS)
+        signature = types.int64(*kinds, abi.OBSERVE, abi.DECIDE, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
-        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
+        _loops[loop] = compiled_loop(__name__, own, integrate_with_events, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]
 
 

@@ -126,5 +126,4 @@ def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     # a law without pivots of S has nothing to confirm; coordinates that change as velocities do are not turned
     common = law.rhs, getattr(law, "confirm", law.rhs), law.accept
     turn = getattr(compiled.model, "turn", stay) if "turn" in names else 0
-    own = (getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))
-    return *common, turn, *own, 0, 0  # a run with events has their functions in the last places
+    return *common, turn, *(getattr(law, name) if name in names else 0 for name in ("residual", "tangent"))

@@ -282,14 +282,14 @@ def run_lanes(
     w, counters = part(z, 2 * width + n_p * _L, nw * _L), part(z, 2 * width + (n_p + nw) * _L, _SPARE * _L)
     outputs = Outputs(times, states, status)
     clock, control, rest = state.clock, state.control, part(room, at, room.shape[0] - at)
-    more = state.events, state.memory, state.share, state.metric, state.scales, state.hunt
+    more = state.events, state.memory, state.share, state.metric, state.scales
     lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)
     for g in range(0, total, _L):
         if control[_STOP] != 0:
             return int(g)
         load(chunk, wide, state, g, z, gauges)
         copied(width, z, y)
-        if integrate(rhs, 0, lanes_accept, 0, 0, 0, 0, 0, scheme, wide, span, lanes, outputs) == _STOPPED:
+        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == _STOPPED:
             return int(g)
         steps, evaluations = control[_STEPS], control[_EVALUATIONS]
         for lane in range(min(_L, total - g)):

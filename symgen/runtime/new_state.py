@@ -70,5 +70,5 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
         *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
-        *(np.zeros(0), np.zeros(sizes.width + room)),
+        np.zeros(sizes.width + room),
     )

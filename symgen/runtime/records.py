@@ -102,8 +102,6 @@ class State(NamedTuple):
     metric, scales : Array, shape (width,)
         What makes lengths and speeds of coordinates and velocities, and what makes numbers of order 1 of them; see
         `symgen.runtime.scales.settle`.
-    hunt : Array
-        What it keeps of events, see `symgen.runtime.searching`; empty where there are none.
     room : Array
         Working memory: nothing in it outlives a step. A state that is tried stands first.
     """
@@ -120,7 +118,6 @@ class State(NamedTuple):
     share: Any
     metric: Any
     scales: Any
-    hunt: Any
     room: Any
 
 
@@ -141,26 +138,6 @@ class Run(NamedTuple):
     metric: Any
     scales: Any
     room: Any
-
-
-class HuntingRun(NamedTuple):
-    """A `Run` with what is kept of events; loops that look for none do without, as a record is handed on whole."""
-
-    y: Any
-    trial: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
-    hunt: Any
 
 
 class Outputs(NamedTuple):
@@ -251,20 +228,6 @@ class System(NamedTuple):
     turn: Any
     residual: Any
     tangent: Any
-
-
-class HuntingSystem(NamedTuple):
-    """A `System` with the functions of events."""
-
-    sizes: Any
-    rhs: Any
-    confirm: Any
-    accept: Any
-    turn: Any
-    residual: Any
-    tangent: Any
-    happens: Any
-    decide: Any
 
 
 # -- schemes -----------------------------------------------------------------------------------------------------------
@@ -408,7 +371,7 @@ KEPT = ("numbers", "plan", "filter_numbers", "filter_plan")
 #: How compiled loops see the records.
 SIZES = types.NamedUniTuple(_I, len(Sizes._fields), Sizes)
 SPAN = types.NamedUniTuple(_F, len(Span._fields), Span)
-STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 7), State)
+STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
 OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
 OBSERVED = types.NamedUniTuple(_M, 3, Observed)
 KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)

@@ -243,10 +243,10 @@ def run_rows(
         take(chunk.ys, r * ny, ny, state.y)
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
-        code = integrate(rhs, confirm, accept, 0, 0, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
         while code == _CHOOSE:
             follow_rows(sizes, chunk, state, state.w)
-            code = integrate(rhs, confirm, accept, 0, 0, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+            code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
         if code == _STOPPED:
             return int(s)
         if code == _DONE:  # a grid of steps meets the end up to rounding

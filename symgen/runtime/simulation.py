@@ -83,10 +83,10 @@ class Simulation:
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
         self.direct = True
-        state = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
+        state: Any = new_state(compiled, self.sizes, self.setup.memory, self.setup.room)
         self.events: Events | None = None
         if spec.events is not None:
-            state = state._replace(hunt=spec.events.new_hunt(self.sizes, len(state.w)))
+            state = spec.events.hunting_state(self.sizes, state)
             self._watch(spec.events)
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
@@ -113,7 +113,7 @@ class Simulation:
         from symgen.runtime.hunting import with_events
         from symgen.runtime.searching import decide
 
-        functions = *self.setup.functions[:-2], watched.function, decide
+        functions = *self.setup.functions, watched.function, decide
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
 
@@ -128,10 +128,13 @@ class Simulation:
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
         state, info = self.state, self.compiled.info
-        self.restore({name: array for name, array in saved.items() if name not in SHOWN})
+        kept = {*state._fields, *names_kept(self.scheme)}  # files of before hold empty arrays beside these
+        self.restore({name: array for name, array in saved.items() if name in kept})
         varying = {name for piece in self.spec.pieces for name in piece.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
         self.changes.give({name: x for name, x in numbers.items() if name not in varying})
+        if self.events is not None and "hunt" not in saved:  # other events: on which side they are is to be seen
+            state.control[abi.BEGUN] = abi.AFRESH
         self._shown = tuple(saved[name] for name in SHOWN)
         self.set_limits()
         state.control[[abi.STOP, abi.OUTPUTS]] = 0
@@ -252,9 +255,10 @@ class Simulation:
     def _ended(self, code: int) -> int | None:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
         if self.events is not None:
-            found = self.events.take(self.state)
+            state: Any = self.state  # a `HuntingState` where there are events
+            found = self.events.take(state)
             if code == abi.MET:
-                code = self.events.meet(self.state, found)
+                code = self.events.meet(state, found)
                 return None if code == abi.DONE else code
         if code == abi.NO_ROOM:
             self.scheme = _with_room(self.scheme)

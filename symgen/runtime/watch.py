@@ -22,8 +22,11 @@ _IN, _OUT, _EVENT_RANK, _EVENT_PIVOT = abi.EVENT_IN, abi.EVENT_OUT, abi.EVENT_RA
 _MASKED, _SHORTEST, _VANISHED = abi.MASKED, abi.SHORTEST_ROW, abi.VANISHED
 _LAST_SHORT, _SHORT_FALL = abi.LAST_SHORT, abi.SHORT_FALL
 _LAST_TIME, _LAST_SINE, _FALL = abi.LAST_TIME, abi.LAST_SINE, abi.FALL
+_STEPS, _REJECTED, _MARK, _MARKED = abi.STEPS, abi.REJECTED, abi.MARK, abi.MARKED
 _DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, abi.POSITION, abi.VELOCITY, abi.ENERGY
 
+#: Attempts over which progress is judged, at least: as many as all before them.
+_WINDOW = 10_000
 #: A row that is an angle has lost its gradient where this part of it is left.
 VANISHING = 1e-2
 #: An error of the energy below this part of kinetic and potential energy is no failure.
@@ -73,6 +76,21 @@ def approach(h: float, gauges: Any) -> float:
     if fall > 0.0 and h * fall > 0.5 * short:
         h = 0.5 * short / fall
     return h
+
+
+def stuck(span: Any, run: Any, t: float) -> bool:
+    """Return whether an adaptive run has taken, or at its present rate would take, more attempts than it may.
+
+    The rate is that of a window of attempts as long as all before it: a passage that takes many of them is none.
+    """
+    attempts, mark = run.control[_STEPS] + run.control[_REJECTED], run.control[_MARKED]
+    if attempts - mark < max(_WINDOW, mark):
+        return bool(attempts >= span.most)
+    rate = (t - run.clock[_MARK]) / (attempts - mark)
+    if mark > 0 and span.until - t > rate * (span.most - attempts):
+        return True
+    run.clock[_MARK], run.control[_MARKED] = t, attempts
+    return False
 
 
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
