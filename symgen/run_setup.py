@@ -219,23 +219,24 @@ def _going_on(
 ) -> tuple[CompiledModel, Start]:
     """Return the compiled model and the start of a run that goes on from the last state of another.
 
-    All that the other run kept is taken up where this one is of the same making; else its time, coordinates,
-    velocities and work are the start of another one.
+    All that the other run kept is taken up where this one is of the same making; where it looks for other events, all
+    but what was known of these. Else its time, coordinates, velocities and work are the start of another one.
     """
     values, choice = parameter_values(mechanism, parameters), plan.choice
     if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
         choice = replace(choice, options={**choice.options, "solver": "augmented"})
     compiled = compiled_for(mechanism, choice)
     info, whence = compiled.info, f"goes on from t = {last.t:.6g} s of another run"
-    other = last.other_than(made_of(compiled, plan, values))
-    if not other and last.arrays is not None:
+    made = made_of(compiled, plan, values)
+    other = last.other_than(made)
+    if last.arrays is not None and not last.other_than({key: x for key, x in made.items() if key != "events"}):
         y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
+        arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
+        notes = (f"{whence} with all that it kept but its events: {'; '.join(other)}",) if other else (whence,)
         redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
         own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
         kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy())
-        return compiled, Start(
-            *kept, last.rank, redundant, (whence,), t=last.t, work=last.work_before, saved=last.arrays
-        )
+        return compiled, Start(*kept, last.rank, redundant, notes, t=last.t, work=last.work_before, saved=arrays)
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
