@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,11 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.plan import Plan
     from symgen.result.result import Result
+
+#: What the first loop that looks for events takes to compile on the machine it was measured on [s]: 10 to 25.
+FIRST_LOOP = 20.0
 
 
 @click.command("run", short_help="Simulate a mechanism.")
@@ -75,6 +80,7 @@ def command(
         from symgen.plan import check_saving
 
         check_saving(loaded.mechanism, settings)
+    _prepare(loaded, settings, quantities)
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
@@ -95,6 +101,33 @@ def command(
     return write_files(
         _exit_code(result, found), files, None if as_json else lambda path: click.echo(f"written: {path}")
     )
+
+
+def _prepare(model: Model, settings: Settings, quantities: tuple[str, ...]) -> None:
+    """Refuse quantities that no result will have, and say on a terminal if a loop has to be compiled first."""
+    events = bool(model.mechanism.events or settings.stop_when or settings.record_when)
+    if not quantities and not (events and sys.stderr.isatty()):
+        return
+    from symgen.auto import resolve
+    from symgen.plan import make_plan
+    from symgen.run_setup import compiled_for, give_inputs
+
+    given = give_inputs(model.mechanism, settings)
+    plan = make_plan(given.mechanism, resolve(given.mechanism, given.settings)[0])
+    if quantities:
+        from symgen.result.select import choose, columns_of
+
+        choose(columns_of(given.mechanism, compiled_for(given.mechanism, plan.choice).info), quantities, model.name)
+    if plan.events and sys.stderr.isatty() and (seconds := seconds_of_loop(plan)):
+        click.echo(f"symgen: compiling a loop that looks for events, once: about {seconds:g} s", err=True)
+
+
+def seconds_of_loop(plan: Plan) -> float:
+    """Return about how long a run waits for a loop that looks for events to be compiled [s], 0 if it is cached."""
+    from symgen.runtime.hunting import with_events
+
+    loop = with_events(plan.tableau.loop(plan.spec.adaptive))
+    return FIRST_LOOP if loop is not None and loop.wanting() else 0.0
 
 
 def _proposals(model: Model, settings: Settings, result: Result) -> tuple[str, ...]:

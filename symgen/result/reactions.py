@@ -16,7 +16,7 @@ from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.outcome import Outcome
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
@@ -49,6 +49,31 @@ def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Se
                 place = tuple(x - c for x, c in zip(place, centre, strict=True))
         found[joint.name] = Seat(body, place)
     return found
+
+
+def _is_spatial(info: ModelInfo) -> bool:
+    """Whether bodies move in space."""
+    return any(velocity.name.endswith(".vz") for velocity in info.velocities)
+
+
+def _labels(spatial: bool, velocities: int) -> list[str]:
+    """Return the components that a reaction has on a body of so many velocities, 0 for the ground."""
+    axes = "xyz" if spatial else "xy"
+    turns = velocities == 0 or velocities > len(axes)
+    return [*(f"F{axis}" for axis in axes), *(f"M{axis}" for axis in ("xyz" if spatial else ("",)) if turns)]
+
+
+def reaction_names(mechanism: Mechanism, info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model."""
+    bodies = [velocity.name.rpartition(".")[0] for velocity in info.velocities]
+    parts, lengths = list[str](), list[str]()
+    for joint in mechanism.joints:
+        body = joint.bodies[0]
+        labels = _labels(_is_spatial(info), 0 if body == GROUND else bodies.count(body))
+        parts += [f"{joint.name}.{label}" for label in labels]
+        several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
+        lengths += [f"{joint.name}.{name}" for name in several]
+    return tuple(parts), tuple(lengths)
 
 
 @dataclass(frozen=True)
@@ -166,17 +191,13 @@ class Forces:
 
     @property
     def _spatial(self) -> bool:
-        return any(velocity.name.endswith(".vz") for velocity in self.compiled.info.velocities)
+        return _is_spatial(self.compiled.info)
 
     def _labelled(self, force: Array, moment: Array, indices: list[tuple[int, str]]) -> Iterator[tuple[str, Array]]:
         """Yield the components that a reaction has on a body: a point mass, unlike the ground, takes no moment."""
-        axes = "xyz" if self._spatial else "xy"
-        for k, axis in enumerate(axes):
-            yield f"F{axis}", force[:, k]
-        if not indices or len(indices) > len(axes):
-            moments = enumerate("xyz") if self._spatial else [(2, "")]
-            for k, axis in moments:
-                yield f"M{axis}", moment[:, k]
+        for label in _labels(self._spatial, len(indices)):
+            values = force if label[0] == "F" else moment
+            yield label, values[:, "xyz".index(label[1:] or "z")]
 
     def _on_ground(
         self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from os import PathLike
@@ -36,6 +36,8 @@ TABLES = (
     *("q", "v", "a", "lam", "reactions", "body_reactions", "magnitudes", "joint_coordinates"),
     *("points", "elements", "outputs", "energy", "violations"),
 )
+#: Columns of two of them.
+ENERGIES, VIOLATIONS = ("kinetic", "potential", "work", "error"), ("position", "velocity", "acceleration")
 #: Those that need code of their own.
 SIDE = ("points", "elements", "outputs")
 #: Reason of a run that was stopped from outside.
@@ -49,6 +51,12 @@ _DERIVED = (
     *("points", "elements", "outputs", "non_unique_reactions", "shape", "start", "last_state"),
     "_final_multipliers",
 )
+
+
+def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
+    """Return the names of accelerations by those of the velocities."""
+    parts = (name.rpartition(".") for name in velocities)
+    return tuple(f"{body}.{ACCELERATIONS[component]}" for body, _, component in parts)
 
 
 @dataclass(frozen=True, repr=False)
@@ -160,12 +168,8 @@ class Result:
     @cached_property
     def a(self) -> Labelled:
         """Accelerations v', named after the velocities: ``crank.ax``, ``crank.alpha``."""
-        names, units = [], []
-        for name, unit in zip(self.v.names, self.v.units, strict=True):
-            body, _, component = name.rpartition(".")
-            names.append(f"{body}.{ACCELERATIONS[component]}")
-            units.append(f"{unit}^2")
-        return Labelled(self.outcome.accelerations, tuple(names), tuple(units))
+        units = tuple(f"{unit}^2" for unit in self.v.units)
+        return Labelled(self.outcome.accelerations, accelerations_of(self.v.names), units)
 
     @cached_property
     def joint_coordinates(self) -> Labelled:
@@ -180,7 +184,7 @@ class Result:
         """Norms of Phi, ``D v - nu`` and ``D v' - gamma``: ``position``, ``velocity``, ``acceleration``."""
         status = self.outcome.status_columns
         values = np.column_stack([status[:, 0], status[:, 1], self.outcome.acceleration_violations])
-        return Labelled(values, ("position", "velocity", "acceleration"), ("m", "m/s", "m/s^2"))
+        return Labelled(values, VIOLATIONS, ("m", "m/s", "m/s^2"))
 
     @cached_property
     def lam(self) -> Labelled:
@@ -252,7 +256,7 @@ class Result:
     def energy(self) -> Labelled:
         """Energies as one table: ``kinetic``, ``potential``, ``work``, ``error`` [J]."""
         values = np.column_stack([self.kinetic, self.potential, self.work, self.energy_error])
-        return Labelled(values, ("kinetic", "potential", "work", "error"), ("J",) * 4)
+        return Labelled(values, ENERGIES, ("J",) * len(ENERGIES))
 
     def tables(self) -> dict[str, Labelled]:
         """Return all tables by name; see `TABLES`."""

@@ -8,6 +8,9 @@ import pytest
 
 import symgen
 from symgen.errors import InputError
+from symgen.result.export import PREFIX
+from symgen.result.result import TABLES
+from symgen.result.select import columns_of
 
 RUN_KEYS = {
     *(
@@ -250,3 +253,12 @@ def test_wrong_settings_get_a_sentence(settings, sentence):
     with pytest.raises(InputError) as caught:
         symgen.simulate("four-bar", **settings)
     assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "scissor-lift", "spherical-double-pendulum", "pendulum"])
+def test_columns_are_known_before_a_run(name):
+    model = symgen.load(name)
+    result = model.simulate(until=0.01, step=1e-2, integrator="rk4")
+    expected = {PREFIX[table] + column: table for table in TABLES for column in result.columns(table)}
+    found = columns_of(model.mechanism, result.outcome.compiled.info)
+    assert list(found.items()) == list(expected.items())
