@@ -128,7 +128,14 @@ def test_an_end_between_two_steps_begins_a_new_grid():
     assert abs(part.state.clock[abi.TIME] - 0.075) < 1e-15
 
 
-@pytest.mark.parametrize(("method", "integrator"), [("lagrange", "radau5"), ("ggl", "radau5"), ("lagrange", "sdirk")])
+@pytest.mark.parametrize(
+    ("method", "integrator"),
+    [
+        ("lagrange", "radau5"),
+        pytest.param("ggl", "radau5", marks=pytest.mark.slow),
+        pytest.param("lagrange", "sdirk", marks=pytest.mark.slow),
+    ],
+)
 def test_room_for_factors_is_made_while_a_run_goes_on(method, integrator):
     """A matrix that does not fit ends the loop; it is entered again with more room, and nothing else is different."""
     make = prepared(load("bricard"), method, integrator, until=0.01, times=[0.01], shape="looped")
