@@ -73,6 +73,8 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entri
     return replace(
         compiled,
         info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),
-        law=msgspec.structs.replace(compiled.law, nw=sum(auxiliary) + 1),  # the last one is looped code's own
+        law=msgspec.structs.replace(  # the last element of w is looped code's own
+            compiled.law, nw=sum(auxiliary) + 1, modules=(path.stem, *compiled.law.modules)
+        ),
         law_module=load_module(store.path(folder, stem)),
     )

@@ -11,6 +11,7 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,8 @@ class Side:
     ----------
     function : compiled function
         ``(t, y, p, w, ydot, out)``, of type `symgen.runtime.abi.OBSERVE`; nothing is compiled before a loop takes it.
+    path : Path
+        The module that has it.
     labels : tuple of str
         What the elements of ``out`` are.
     reads : frozenset of str
@@ -48,6 +51,7 @@ class Side:
     """
 
     function: Any
+    path: Path
     labels: tuple[str, ...]
     reads: frozenset[str]
 
@@ -122,5 +126,5 @@ def compile_side(
                     raise InputError(purpose, expected, "some that overflow") from None
                 metadata = {"reads": list(program.reads)}
                 store.put(folder, stem, emit_side(program), metadata)
-    function = getattr(load_module(store.path(folder, stem)), name)
-    return Side(function, tuple(labels), frozenset(metadata["reads"]))
+    path = store.path(folder, stem)
+    return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))

@@ -125,30 +125,30 @@ class Kernel:
             being worked on; `symgen.runtime.ensemble_abi.RUNS_DONE` counts finished ones.
         """
         recipe, k = self.recipe, len(rows)
-        values = np.full((k, len(recipe.quantities), len(recipe.spec.times)), np.nan)
+        values = np.full((k, len(recipe.columns), len(recipe.spec.times)), np.nan)
+        behind = np.full((k, len(recipe.behind), len(recipe.spec.times)), np.nan)
         summary = np.zeros((k, e.N_SUMMARY))
         everything = np.arange(k, dtype=np.int64)
-        complete = self._run_with(self.first, rows, everything, values, summary, control)
+        complete = self._run_with(self.first, rows, everything, values, summary, behind, control)
         light = np.flatnonzero((summary[:, _LIGHT] == 1.0) & (summary[:, _START] == e.ASSEMBLED))
         if complete and len(light) and (spare := self.spare()) is not None:
             summary[light] = 0.0
-            complete = self._run_with(spare, rows, light.astype(np.int64), values, summary, control)
+            complete = self._run_with(spare, rows, light.astype(np.int64), values, summary, behind, control)
             summary[light, _LIGHT] = 1.0
-        multipliers = [i for i, q in enumerate(recipe.quantities) if q.source == e.MULTIPLIER]
-        redundant = np.flatnonzero(summary[:, _REDUNDANT] > 0.0)
-        for i in multipliers:  # they are not unique then
-            values[redundant, i] = np.nan
-        return Chunk(values, summary, complete)
+        return Chunk(recipe.in_order(values, behind), summary, complete)
 
     def _run_with(
-        self, model: _Prepared, rows: Rows, selected: Integers, values: Array, summary: Array, control: Integers
+        self,
+        model: _Prepared,
+        rows: Rows,
+        selected: Integers,
+        values: Array,
+        summary: Array,
+        behind: Array,
+        control: Integers,
     ) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
-        from symgen.runtime.records import Chunk as ChunkRecord
-        from symgen.runtime.redundancy import LARGEST
-        from symgen.runtime.rows import observe_nothing
-
-        info, law, recipe = model.compiled.info, model.compiled.law_module, self.recipe
+        info, recipe = model.compiled.info, self.recipe
         k, ny, nw = len(rows), info.ny, max(1, model.compiled.law.nw)
         ps, ws = np.tile(model.p, (max(k, 1), 1)), np.empty((max(k, 1), nw))
         ys = np.zeros((max(k, 1), ny))
@@ -161,6 +161,33 @@ class Kernel:
         if model is self.first and recipe.spare is not None:
             ready &= summary[selected, _LIGHT] == 0.0
         selected = selected[ready]
+        if not self._advance(model, (ys, ps, ws), selected, values, summary, control):
+            return False
+        redundant = selected[summary[selected, _REDUNDANT] > 0.0]
+        for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
+            values[redundant, i] = np.nan
+        measures = recipe.measures if model is self.first else recipe.spare_measures
+        if measures is not None:
+            given = recipe.behind, recipe.times, selected, values, ps, ws
+            behind[selected] = measures.work_out(model.compiled, *given)
+        return True
+
+    def _advance(
+        self,
+        model: _Prepared,
+        starts: tuple[Array, Array, Array],
+        selected: Integers,
+        values: Array,
+        summary: Array,
+        control: Integers,
+    ) -> bool:
+        """Run selected rows from their starts, parameters and scratch; return whether all are done."""
+        from symgen.runtime.records import Chunk as ChunkRecord
+        from symgen.runtime.redundancy import LARGEST
+        from symgen.runtime.rows import observe_nothing
+
+        info, law, recipe = model.compiled.info, model.compiled.law_module, self.recipe
+        (ys, ps, ws), ny = starts, info.ny
         if model.device is not None:
             return model.device.run(ys, ps, ws, selected, values, summary, control) == len(selected)
         observes = e.JOINT in recipe.sources

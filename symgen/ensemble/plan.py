@@ -6,18 +6,20 @@ import hashlib
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
+from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.holds import ORIENTATION
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
+from symgen.ensemble.measures import integrated, make_measures, measurable
 from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Module, Recipe, code_identity
 from symgen.ensemble.starts import Rows, make_rows
@@ -29,6 +31,7 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Hold
     from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.vocabulary.expressions import Expr
@@ -104,7 +107,7 @@ class Ensemble:
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
         seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
-        numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.quantities) * len(spec.times)
+        numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
         most = min(CHUNK_SECONDS / seconds, CHUNK_BYTES / (8 * numbers), len(self) / 16)
@@ -197,18 +200,30 @@ def make_ensemble(
     holds = tuple(hold for hold in plan.holds if hold.name not in grid.names)
     places = _held(model, holds, coordinates, velocities)
     compiled = compile_model(model.mechanism, plan.choice)
+    kept = choose_quantities(compiled.info, quantities, partial(measurable, model.mechanism, compiled.info))
+    integral = integrated(model.mechanism, kept)
+    if integral is not None and target != "cpu":
+        expected = "quantities without integral(...), which are added up by cpu alone"
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
+
+    def made(choice: MethodChoice) -> CompiledModel:
+        found = compiled if choice is plan.choice else compile_model(model.mechanism, choice)
+        return found if integral is None else with_integrals(model.mechanism, found)
+
+    compiled = made(plan.choice)
     integrator_of_rows(plan.tableau.name, plan.spec)
     constant = {hold.name: hold.value for hold in holds if hold.value is not None}
     held = {name: coordinates.index(name) for name in (*grid.names, *constant) if name in coordinates}
     given = {name: velocities.index(name) for name in (*grid.names, *constant) if name in velocities}
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
-    spare = spare_other = other = None
+    spare = spare_other = other = spare_measures = None
     if target != "cpu":
         other = Module.of(compile_model(model.mechanism, plan.choice, target=target))
     if plan.solver_is_free:
         choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
-        spare = Module.of(compile_model(model.mechanism, choice))
+        light = made(choice)
+        spare, spare_measures = Module.of(light), make_measures(model.mechanism, light, kept)
         if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
             spare_other = Module.of(compile_model(model.mechanism, choice, target=target))
     recipe = Recipe(
@@ -217,7 +232,7 @@ def make_ensemble(
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),
-        quantities=choose_quantities(compiled.info, quantities),
+        quantities=kept,
         held=tuple((index, velocity_of(index, compiled.info)) for index in held.values()),
         kept=tuple(velocities.index(hold.name) for hold in holds if hold.name in velocities),
         fixed=tuple(sorted({j for hold in places for j in _columns(hold, compiled.info)})),
@@ -226,6 +241,8 @@ def make_ensemble(
         target=target,
         other=other,
         spare_other=spare_other,
+        measures=make_measures(model.mechanism, compiled, kept),
+        spare_measures=spare_measures,
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -51,7 +51,9 @@ def known_quantities(info: ModelInfo) -> tuple[Quantity, ...]:
     return tuple(found)
 
 
-def choose_quantities(info: ModelInfo, names: Sequence[str] | None) -> tuple[Quantity, ...]:
+def choose_quantities(
+    info: ModelInfo, names: Sequence[str] | None, measurable: Callable[[], Mapping[str, Sequence[Quantity]]]
+) -> tuple[Quantity, ...]:
     """Return the quantities called `names`; coordinates and velocities where None are named.
 
     Parameters
@@ -60,7 +62,10 @@ def choose_quantities(info: ModelInfo, names: Sequence[str] | None) -> tuple[Qua
         The model.
     names : sequence of str or None
         ``crank.theta``; ``crank``, all coordinates and velocities of a body; ``q``, ``v``, ``energy``, ``violation``,
-        ``joint``, ``lam``, all of a table.
+        ``joint``, ``lam``, all of a table; and names, tables and what names begin with of `measurable`.
+    measurable : callable
+        Returns what no loop leaves, by table (`symgen.ensemble.measures.measurable`); not called unless a name needs
+        it.
 
     Raises
     ------
@@ -77,13 +82,31 @@ def choose_quantities(info: ModelInfo, names: Sequence[str] | None) -> tuple[Qua
         table, dot, _ = q.name.partition(".")
         if dot and (q in states or table in ("energy", "violation", "joint", "lam")):
             groups.setdefault(table, []).append(q)
+    asked = ("q", "v") if names is None else names
+    if any(name not in known and name not in groups for name in asked):
+        _add(measurable(), known, groups)
     chosen: dict[str, Quantity] = {}
-    for name in ("q", "v") if names is None else names:
+    for name in asked:
         if name in known:
             chosen[name] = known[name]
         elif name in groups:
             chosen.update({q.name: q for q in groups[name]})
         else:
-            hint = nearest(name, [*known, *groups]) if len(known) <= 60 or "." in name else nearest(name, groups)
+            all_of_them = len(known) <= 60 or "." in name
+            hint = nearest(name, [*groups, *(other for other in known if all_of_them or "." not in other)])
             raise InputError(f"quantity '{name}'", f"a quantity of {info.name}", "none of that name", hint)
     return tuple(chosen.values())
+
+
+def _add(
+    measurable: Mapping[str, Sequence[Quantity]], known: dict[str, Quantity], groups: dict[str, list[Quantity]]
+) -> None:
+    """Add what no loop leaves: each name, its table, and all that names begin with, up to a dot."""
+    own = set(groups)
+    for table, quantities in measurable.items():
+        for q in quantities:
+            known.setdefault(q.name, q)
+            parts = q.name.split(".")
+            heads = {".".join(parts[:i]) for i in range(1, len(parts))}
+            for head in sorted({table, *heads} - own):
+                groups.setdefault(head, []).append(q)

@@ -18,9 +18,11 @@ from numpy.typing import NDArray
 
 from symgen import __version__
 from symgen.compiling.straight_model import load_compiled
+from symgen.ensemble.measures import Measures
 from symgen.ensemble.quantities import Quantity
 from symgen.ir.numerics import WARN
 from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.ensemble_abi import SIDE
 from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]
@@ -33,27 +35,38 @@ class Module:
 
     Attributes
     ----------
-    parts : mapping of str to str
-        Source of the modules that hold the law's functions, beside its own.
+    parts : mapping
+        Source and metadata of the modules that hold the law's functions, beside its own.
+    stored : mapping
+        Metadata of the model as caches have it: without integrals that the law adds to the state.
     """
 
     folder: str
     stem: str
     model: tuple[str, Mapping[str, Any]]
     law: tuple[str, Mapping[str, Any]]
-    parts: Mapping[str, str]
+    parts: Mapping[str, tuple[str, Mapping[str, Any]]]
+    stored: Mapping[str, Any]
     shared: str = "model"
 
     @classmethod
     def of(cls, compiled: CompiledModel) -> Module:
         """Return the modules of a compiled model."""
+        from symgen.store.entries import Entries
+
         law, model = Path(str(compiled.law_module.__file__)), Path(str(compiled.model.__file__))
+        entries, folder = Entries(), law.parent.name
+        info = compiled.info.to_dict()
         return cls(
-            folder=law.parent.name,
+            folder=folder,
             stem=law.stem,
-            model=(model.read_text(encoding="utf-8"), compiled.info.to_dict()),
+            model=(model.read_text(encoding="utf-8"), info),
             law=(law.read_text(encoding="utf-8"), compiled.law.to_dict()),
-            parts={stem: law.with_name(f"{stem}.py").read_text(encoding="utf-8") for stem in compiled.law.modules},
+            parts={
+                stem: (law.with_name(f"{stem}.py").read_text(encoding="utf-8"), entries.get(folder, stem) or {})
+                for stem in compiled.law.modules
+            },
+            stored=(entries.get(folder, model.stem) or info) if compiled.info.integrals else info,
             shared=model.stem,
         )
 
@@ -63,8 +76,8 @@ class Module:
 
         entries = Entries()
         with entries.building(self.folder):
-            parts = ((stem, (source, dict[str, Any]())) for stem, source in self.parts.items())
-            for stem, (source, metadata) in (*parts, (self.shared, self.model), (self.stem, self.law)):
+            shared = self.shared, (self.model[0], self.stored)
+            for stem, (source, metadata) in (*self.parts.items(), shared, (self.stem, self.law)):
                 path = entries.path(self.folder, stem)
                 if entries.get(self.folder, stem) is None or path.read_text(encoding="utf-8") != source:
                     entries.put(self.folder, stem, source, metadata)
@@ -91,6 +104,8 @@ class Recipe:
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Quantity
         What is kept.
+    measures, spare_measures : Measures or None
+        How what no loop leaves is worked out, beside `module` and `spare`; None where nothing of it is kept.
     held : tuple of (int, int)
         Coordinate and velocity indices of the coordinates that rows hold.
     kept, fixed : tuple of int
@@ -119,6 +134,8 @@ class Recipe:
     target: str = "cpu"
     other: Module | None = None
     spare_other: Module | None = None
+    measures: Measures | None = None
+    spare_measures: Measures | None = None
 
     @property
     def times(self) -> Array:
@@ -132,13 +149,33 @@ class Recipe:
 
     @property
     def picks(self) -> Integers:
-        """(source, column) of each quantity, flat."""
-        return np.array([(q.source, q.column) for q in self.quantities], dtype=np.int64).ravel()
+        """(source, column) of each of `columns`, flat."""
+        return np.array([(q.source, q.column) for q in self.columns], dtype=np.int64).ravel()
+
+    @property
+    def columns(self) -> tuple[Quantity, ...]:
+        """What loops leave of a run: the quantities, or those of them that loops know and then what others need."""
+        if self.measures is None:
+            return self.quantities
+        return (*(q for q in self.quantities if q.source < SIDE), *self.measures.reads)
+
+    @property
+    def behind(self) -> tuple[Quantity, ...]:
+        """The quantities that are worked out behind the loops."""
+        return tuple(q for q in self.quantities if q.source >= SIDE)
+
+    def in_order(self, columns: Array, behind: Array) -> Array:
+        """Return the quantities in their order, from what loops left and what was worked out behind them."""
+        if self.measures is None:
+            return columns
+        left, late = iter(range(columns.shape[1])), iter(range(behind.shape[1]))
+        found = [behind[:, next(late)] if q.source >= SIDE else columns[:, next(left)] for q in self.quantities]
+        return np.stack(found, axis=1)
 
     @property
     def sources(self) -> set[int]:
-        """What the quantities are taken from."""
-        return {q.source for q in self.quantities}
+        """What the columns are taken from."""
+        return {q.source for q in self.columns}
 
     @cached_property
     def digest(self) -> str:
@@ -148,11 +185,12 @@ class Recipe:
             m if m is None else (m.folder, m.stem, m.model[0], m.law[0], dict(m.parts))
             for m in (self.module, self.spare, self.other, self.spare_other)
         ]
+        measures = [m if m is None else m.described for m in (self.measures, self.spare_measures)]
         text = json.dumps(
             [
                 *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
-                *(self.strict, self.code),
+                *(self.strict, self.code, measures),
             ],
             sort_keys=True,
         )
@@ -164,7 +202,7 @@ def code_identity() -> str:
     """Return a digest of all that computes runs: the version, and the sources of loops, schemes and ensembles."""
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(__version__.encode())
-    for folder in ("ensemble", "integrators", "runtime"):
+    for folder in ("ensemble", "integrators", "result", "runtime"):
         for path in sorted((package / folder).rglob("*.py")):
             found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
     return found.hexdigest()

@@ -2,38 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from symgen.describe.evaluate import evaluate
-from symgen.describe.orientation import matrix
+from symgen.result.acting import Acting, Seat
 from symgen.result.labelled import Array, Labelled
 from symgen.runtime import abi
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.outcome import Outcome
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
 CUTOFF = 1e-6
 #: A multiplier direction that changes no acceleration and has more than this in a joint makes its reaction not unique.
 _SHARE = 1e-8
-
-
-@dataclass(frozen=True)
-class Seat:
-    """Where the reaction of a joint acts: its first body, and its point there relative to the centre of mass [m].
-
-    On the ground the point is relative to the origin. It is 0 for kinds of joints without a point ``at``.
-    """
-
-    body: str
-    place: tuple[float, ...]
 
 
 def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Seat]:
@@ -49,31 +38,6 @@ def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Se
                 place = tuple(x - c for x, c in zip(place, centre, strict=True))
         found[joint.name] = Seat(body, place)
     return found
-
-
-def _is_spatial(info: ModelInfo) -> bool:
-    """Whether bodies move in space."""
-    return any(velocity.name.endswith(".vz") for velocity in info.velocities)
-
-
-def _labels(spatial: bool, velocities: int) -> list[str]:
-    """Return the components that a reaction has on a body of so many velocities, 0 for the ground."""
-    axes = "xyz" if spatial else "xy"
-    turns = velocities == 0 or velocities > len(axes)
-    return [*(f"F{axis}" for axis in axes), *(f"M{axis}" for axis in ("xyz" if spatial else ("",)) if turns)]
-
-
-def reaction_names(mechanism: Mechanism, info: ModelInfo) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Return the names of the components of all reactions, and those of their magnitudes, of any run of a model."""
-    bodies = [velocity.name.rpartition(".")[0] for velocity in info.velocities]
-    parts, lengths = list[str](), list[str]()
-    for joint in mechanism.joints:
-        body = joint.bodies[0]
-        labels = _labels(_is_spatial(info), 0 if body == GROUND else bodies.count(body))
-        parts += [f"{joint.name}.{label}" for label in labels]
-        several = (name for letter, name in (("F", "F"), ("M", "T")) if sum(x[0] == letter for x in labels) > 1)
-        lengths += [f"{joint.name}.{name}" for name in several]
-    return tuple(parts), tuple(lengths)
 
 
 @dataclass(frozen=True)
@@ -135,123 +99,23 @@ class Forces:
     # -- reactions -----------------------------------------------------------------------------------------------------
 
     def reactions(self, multipliers: Labelled) -> Labelled:
-        """Return -D^T lambda of each joint on its first body, at all outputs, as forces and moments in ground axes.
-
-        Moments are about the joints' points.
-        """
-        columns: dict[str, list[tuple[int, str]]] = {}
-        for i, velocity in enumerate(self.compiled.info.velocities):
-            body, _, component = velocity.name.rpartition(".")
-            columns.setdefault(body, []).append((i, component))
-        by_joint: dict[str, list[tuple[int, int, Array]]] = {joint: [] for joint in self.seats}
-        for row, column, value in self._entries():
-            by_joint[self.compiled.info.rows[row].joint].append((row, column, value))
-        names, values = list[str](), list[Array]()
-        for joint, seat in self.seats.items():
-            generalised: dict[int, Array] = {}
-            for row, column, value in by_joint[joint]:
-                part = -value * multipliers.values[:, row]
-                generalised[column] = generalised[column] + part if column in generalised else part
-            if seat.body == GROUND:
-                force, moment = self._on_ground(generalised, columns)
-            else:
-                force, moment = self._on_body(seat.body, generalised, columns[seat.body])
-            arm = self._in_space(np.array(seat.place)) @ np.swapaxes(self._axes(seat.body), 1, 2)
-            moment = moment - np.cross(arm, force)
-            for label, value in self._labelled(force, moment, columns.get(seat.body, [])):
-                names.append(f"{joint}.{label}")
-                values.append(value)
-        return self._table(names, values)
+        """Return -D^T lambda of each joint on its first body, at all outputs; see `Acting.reactions`."""
+        return self._acting.reactions(self._entries(), multipliers.values)
 
     def in_body_axes(self, reactions: Labelled) -> Labelled:
         """Return reactions in the axes of the bodies that they act on."""
-        values = reactions.values.copy()
-        for joint, seat in self.seats.items():
-            for letter in "FM":
-                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
-                if seat.body != GROUND and len(indices) > 1:
-                    turned = self._in_space(reactions.values[:, indices])[:, np.newaxis] @ self._axes(seat.body)
-                    values[:, indices] = turned[:, 0, : len(indices)]
-        return Labelled(values, reactions.names, reactions.units)
+        return self._acting.in_body_axes(reactions)
 
     def magnitudes(self, reactions: Labelled) -> Labelled:
         """Return the lengths of the reactions' forces, and of their moments where these have several components."""
-        names, values = list[str](), list[Array]()
-        for joint in self.seats:
-            for letter, name in (("F", "F"), ("M", "T")):
-                indices = [i for i, n in enumerate(reactions.names) if n.startswith(f"{joint}.{letter}")]
-                if len(indices) > 1:
-                    names.append(f"{joint}.{name}")
-                    values.append(np.linalg.norm(reactions.values[:, indices], axis=1))
-        return self._table(names, values)
-
-    def _table(self, names: list[str], values: list[Array]) -> Labelled:
-        stacked = np.column_stack(values) if values else np.zeros((len(self.outcome.times), 0))
-        return Labelled(stacked, tuple(names), tuple("N" if n.rpartition(".")[2][0] == "F" else "N m" for n in names))
+        return self._acting.magnitudes(reactions)
 
     @property
-    def _spatial(self) -> bool:
-        return _is_spatial(self.compiled.info)
+    def _acting(self) -> Acting:
+        return Acting(self.compiled.info, self.seats, self.outcome.states)
 
-    def _labelled(self, force: Array, moment: Array, indices: list[tuple[int, str]]) -> Iterator[tuple[str, Array]]:
-        """Yield the components that a reaction has on a body: a point mass, unlike the ground, takes no moment."""
-        for label in _labels(self._spatial, len(indices)):
-            values = force if label[0] == "F" else moment
-            yield label, values[:, "xyz".index(label[1:] or "z")]
-
-    def _on_ground(
-        self, generalised: Mapping[int, Array], columns: Mapping[str, list[tuple[int, str]]]
-    ) -> tuple[Array, Array]:
-        """Return the reaction on the ground: what balances the joint's forces on all bodies, about the origin."""
-        total, about = np.zeros((len(self.outcome.times), 3)), np.zeros((len(self.outcome.times), 3))
-        for body, indices in columns.items():
-            if any(i in generalised for i, _ in indices):
-                force, moment = self._on_body(body, generalised, indices)
-                place = np.column_stack(self._coordinates(body, "xyz" if self._spatial else "xy"))
-                total -= force
-                about -= moment + np.cross(self._in_space(place), force)
-        return total, about
-
-    def _on_body(
-        self, body: str, generalised: Mapping[int, Array], indices: list[tuple[int, str]]
-    ) -> tuple[Array, Array]:
-        """Return force, and moment about the centre of mass, both in ground axes, shapes (k, 3)."""
-        nothing = np.zeros(len(self.outcome.times))
-        parts = {component: generalised.get(i, nothing) for i, component in indices}
-        force = np.column_stack([parts.get(c, nothing) for c in ("vx", "vy", "vz")])
-        if "omega" in parts:
-            return force, np.column_stack([nothing, nothing, parts["omega"]])
-        moment = np.column_stack([parts.get(c, nothing) for c in ("wx", "wy", "wz")])  # in body axes
-        return force, (moment[:, np.newaxis] @ np.swapaxes(self._axes(body), 1, 2))[:, 0]
-
-    def _axes(self, body: str) -> Array:
-        """Return the rotation matrices of a body at the outputs, shape (k, 3, 3)."""
-        known = {quantity.name for quantity in self.compiled.info.coordinates}
-        axes = np.zeros((len(self.outcome.times), 3, 3)) + np.eye(3)
-        if f"{body}.theta" in known:
-            (theta,) = self._coordinates(body, ("theta",))
-            axes[:, 0, 0] = axes[:, 1, 1] = np.cos(theta)
-            axes[:, 1, 0] = np.sin(theta)
-            axes[:, 0, 1] = -axes[:, 1, 0]
-        elif f"{body}.e0" in known:
-            e = np.column_stack(self._coordinates(body, ("e0", "e1", "e2", "e3")))
-            e0, e1, e2, e3 = (e / np.linalg.norm(e, axis=1, keepdims=True)).T
-            axes = np.stack([np.stack(row, 1) for row in matrix((e0, e1, e2, e3))], 1)
-        return axes
-
-    @staticmethod
-    def _in_space(vectors: Array) -> Array:
-        """Return vectors with three components."""
-        missing = 3 - vectors.shape[-1]
-        return np.concatenate([vectors, np.zeros((*vectors.shape[:-1], missing))], axis=-1)
-
-    def _coordinates(self, body: str, names: Iterable[str]) -> list[Array]:
-        """Return coordinates of a body at the outputs."""
-        known = {quantity.name: i for i, quantity in enumerate(self.compiled.info.coordinates)}
-        return [self.outcome.states[:, known[f"{body}.{name}"]] for name in names]
-
-    def _entries(self) -> list[tuple[int, int, Array]]:
-        """Return (row, column, values at all outputs) of D's structural entries."""
+    def _entries(self) -> Array:
+        """Return the entries of D that vary at all outputs, as ``geometry`` leaves them."""
         from symgen.runtime.probe import Ready
 
         o, geometry = self.outcome, Ready(self.compiled.model.geometry, abi.MEASURE)
@@ -261,11 +125,7 @@ class Forces:
         for k, t in enumerate(o.times):
             geometry(float(t), o.states[k], o.p, w)
             values[k] = stored
-        constant = np.ones(len(o.times))
-        return [
-            (row, column, constant * (number or 0.0) if slot is None else values[:, slot])
-            for row, column, number, slot in self.compiled.info.jacobian
-        ]
+        return values
 
 
 def jacobian(outcome: Outcome, t: float, y: Array) -> Array:

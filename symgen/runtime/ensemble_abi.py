@@ -12,6 +12,11 @@ PREPARE = types.FunctionType(types.int64(types.float64[::1]))
 # -- what a column of the outputs is taken from
 # ------------------------------------------------------------------------
 STATE, STATUS, ENERGY, ENERGY_ERROR, ACCELERATION, MULTIPLIER, JOINT = range(7)
+# -- and what is worked out of such columns behind the loops: by formulas of a run, and from D and the multipliers
+SIDE, REACTION, BODY_REACTION, MAGNITUDE = range(7, 11)
+
+#: Arrays that such a formula reads: the state, v' behind places for q', and ``w``.
+OF_Y, OF_RATES, OF_W = range(3)
 
 # -- the row of numbers that each run leaves
 # ---------------------------------------------------------------------------

@@ -1,0 +1,270 @@
+"""Points, force elements, drivers, formulas of ``[outputs]`` and reactions of the runs of an ensemble.
+
+Loops leave the states, and what else formulas read, as further columns of each run; behind the loops, the side module
+of single runs is called for all of them by one compiled loop (`symgen.runtime.measured_rows`). Loops of no target know
+anything of it, and where nothing of it is asked for, there is none of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.side import compile_side
+from symgen.describe.outputs import TABLES
+from symgen.ensemble.quantities import Quantity
+from symgen.result.acting import Acting, Seat
+from symgen.result.export import PREFIX
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.vocabulary.expressions import readings
+from symgen.vocabulary.measures import GROUND, Integral
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.vocabulary.expressions import Expr
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+#: What the function is called in its module.
+_NAME = "measured"
+_PURPOSE = "what is kept of the runs of sweeps"
+#: Tables of reactions: their sources.
+_REACTIONS = {"reactions": e.REACTION, "body_reactions": e.BODY_REACTION, "magnitudes": e.MAGNITUDE}
+
+
+def measurable(mechanism: Mechanism, info: ModelInfo) -> dict[str, tuple[Quantity, ...]]:
+    """Return the quantities of each table that no loop leaves; `Quantity.column` is their place there."""
+    found: dict[str, tuple[Quantity, ...]] = {
+        table: tuple(Quantity(PREFIX[table] + c.name, c.unit, e.SIDE, i) for i, c in enumerate(columns(mechanism)))
+        for table, columns in TABLES.items()
+    }
+    seats = {name: Seat(body, np.zeros((0, 3))) for name, body in _bodies(mechanism).items()}
+    acting = Acting(info, seats, np.zeros((0, info.ny)))  # of no states: for the names alone
+    entries = np.zeros((0, info.sections["jacobian"][1]))
+    for table, labelled in _tables(acting, entries, np.zeros((0, info.m))).items():
+        named = zip(labelled.names, labelled.units, strict=True)
+        found[table] = tuple(
+            Quantity(PREFIX[table] + n, unit, _REACTIONS[table], i) for i, (n, unit) in enumerate(named)
+        )
+    return found
+
+
+def integrated(mechanism: Mechanism, chosen: Sequence[Quantity]) -> str | None:
+    """Return the first of some quantities that reads an integral, None where none does."""
+    asked = {q.name for q in chosen if q.source == e.SIDE}
+    for output in mechanism.outputs:
+        if output.name in asked and any(isinstance(r.source, Integral) for r in readings(output.value)):
+            return output.name
+    return None
+
+
+def _bodies(mechanism: Mechanism) -> dict[str, str]:
+    return {joint.name: joint.bodies[0] for joint in mechanism.joints}
+
+
+def _tables(acting: Acting, entries: Array, multipliers: Array) -> dict[str, Any]:
+    found = acting.reactions(entries, multipliers)
+    return {"reactions": found, "body_reactions": acting.in_body_axes(found), "magnitudes": acting.magnitudes(found)}
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a joint acts: its first body, and which formulas are its point there and that body's centre of mass."""
+
+    body: str
+    point: tuple[int, ...]
+    centre: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Measures:
+    """How quantities that no loop leaves are worked out; it travels as source.
+
+    Attributes
+    ----------
+    folder, stem, source, metadata
+        Of the side module.
+    length : int
+        Numbers that its function writes.
+    reads : tuple of Quantity
+        What loops leave for it.
+    places : tuple of int
+        Where each of these goes, see `symgen.runtime.measured_rows.measure_rows`.
+    joints : mapping of str to Place
+        Where reactions act; empty where none are kept.
+    """
+
+    folder: str
+    stem: str
+    source: str
+    metadata: Mapping[str, Any]
+    length: int
+    reads: tuple[Quantity, ...]
+    places: tuple[int, ...]
+    joints: Mapping[str, Place]
+
+    @property
+    def described(self) -> list[Any]:
+        """What it computes, as JSON can express it."""
+        joints = {name: (p.body, p.point, p.centre) for name, p in self.joints.items()}
+        return [self.folder, self.stem, self.source, [q.name for q in self.reads], self.places, joints]
+
+    @cached_property
+    def function(self) -> Any:
+        """The compiled function of the formulas, its module put into the cache of this machine where it has none."""
+        from symgen.store.entries import Entries
+        from symgen.store.modules import load_module
+
+        entries = Entries()
+        with entries.building(self.folder):
+            path = entries.path(self.folder, self.stem)
+            if entries.get(self.folder, self.stem) is None or path.read_text(encoding="utf-8") != self.source:
+                entries.put(self.folder, self.stem, self.source, self.metadata)
+        return getattr(load_module(path), _NAME)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: value for name, value in self.__dict__.items() if name != "function"}
+
+    def work_out(
+        self,
+        compiled: CompiledModel,
+        asked: Sequence[Quantity],
+        times: Array,
+        selected: Integers,
+        seen: Array,
+        ps: Array,
+        ws: Array,
+    ) -> Array:
+        """Return quantities of selected runs, shape (selected, quantities, times).
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            What was run.
+        asked : sequence of Quantity
+            Those that no loop leaves.
+        times : Array
+            Output times [s].
+        selected : Array of int
+            Runs.
+        seen : Array, shape (runs, columns, times)
+            What loops left; the last columns are `reads`.
+        ps, ws : Array, shapes (runs, np), (runs, nw)
+            Parameters, and scratch, which is overwritten.
+        """
+        from symgen.runtime.measured_rows import gradient_rows, measure_rows
+
+        info, runs, n_times = compiled.info, len(ps), len(times)
+        y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
+        first = seen.shape[1] - len(self.reads)
+        given = times, selected, seen, first, places, ps, ws, y, rates
+        numbers = np.zeros((runs, n_times, self.length))
+        if self.length:
+            measure_rows(self.function, *given, numbers)
+        sides = [q for q in asked if q.source == e.SIDE]
+        column = {q.name: i for i, q in enumerate(sides)}
+        tables: dict[int, Array] = {}
+        if self.joints:
+            at, size = info.sections["jacobian"]
+            entries = np.zeros((runs, n_times, size))
+            gradient_rows(compiled.model.geometry, *given, at, entries)
+            tables = self._reactions(info, selected, seen[:, first:], numbers, entries)
+        found = np.empty((len(selected), len(asked), n_times))
+        for i, q in enumerate(asked):
+            if q.source == e.SIDE:
+                found[:, i] = numbers[selected, :, column[q.name]]
+            else:
+                found[:, i] = tables[q.source][:, q.column].reshape(len(selected), n_times)
+        return found
+
+    def _reactions(
+        self, info: ModelInfo, selected: Integers, seen: Array, numbers: Array, entries: Array
+    ) -> dict[int, Array]:
+        """Return the tables of reactions by source, shape (selected x times, columns)."""
+
+        def flat(array: Array) -> Array:  # (runs, times, n): outputs of one run after those of another
+            return np.ascontiguousarray(array[selected]).reshape(-1, array.shape[2])
+
+        states = flat(np.swapaxes(seen[:, : info.ny], 1, 2))
+        multipliers = [i for i, q in enumerate(self.reads) if q.source == e.MULTIPLIER]
+        formulas = flat(numbers)
+        seats = {}
+        for name, place in self.joints.items():
+            point = formulas[:, list(place.point)] if place.point else np.zeros((len(states), 3))
+            centre = formulas[:, list(place.centre)] if place.centre else 0.0
+            seats[name] = Seat(place.body, point - centre)
+        tables = _tables(Acting(info, seats, states), flat(entries), flat(np.swapaxes(seen[:, multipliers], 1, 2)))
+        return {_REACTIONS[name]: table.values for name, table in tables.items()}
+
+
+def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[Quantity]) -> Measures | None:
+    """Return how the quantities that no loop leaves are worked out beside a compiled model, None where there are none.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    compiled : CompiledModel
+        Its code for a processor.
+    chosen : sequence of Quantity
+        All that is kept.
+
+    Raises
+    ------
+    InputError
+        If numbers that meet in a formula overflow.
+    """
+    if all(q.source < e.SIDE for q in chosen):
+        return None
+    info = compiled.info
+    known = {PREFIX[table] + c.name: c for table, columns in TABLES.items() for c in columns(mechanism)}
+    formulas: list[tuple[str, Expr]] = [(q.name, known[q.name].formula) for q in chosen if q.source == e.SIDE]
+    joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
+    side = compile_side(mechanism, compiled, _NAME, _PURPOSE, formulas)
+    reads = [(Quantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
+    if "ydot" in side.reads:
+        reads += [(Quantity(f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]
+    if "multipliers" in side.reads or joints:
+        at, _ = info.sections["multipliers"]
+        reads += [(Quantity(f"lambda{i}", "", e.MULTIPLIER, i), e.OF_W, at + i) for i in range(info.m)]
+    if "winding" in side.reads:
+        n, at = abi.N_STATUS, abi.WINDING
+        reads += [(Quantity(f"angle{i}", "", e.STATUS, n + i), e.OF_W, at + i) for i in range(info.windings)]
+    return Measures(
+        folder=side.path.parent.name,
+        stem=side.path.stem,
+        source=side.path.read_text(encoding="utf-8"),
+        metadata={"reads": sorted(side.reads)},
+        length=len(formulas),
+        reads=tuple(quantity for quantity, _, _ in reads),
+        places=tuple(number for _, array, at in reads for number in (array, at)),
+        joints=joints,
+    )
+
+
+def _places(mechanism: Mechanism, formulas: list[tuple[str, Expr]]) -> dict[str, Place]:
+    """Return where reactions act, after adding what that depends on to the formulas."""
+    markers, found = dict(mechanism.seats), dict[str, Place]()
+
+    def add(label: str, expressions: Sequence[Expr]) -> tuple[int, ...]:
+        first = len(formulas)
+        formulas.extend((f"{label} {axis}", x) for axis, x in zip("xyz", expressions, strict=False))
+        return tuple(range(first, len(formulas)))
+
+    for name, body in _bodies(mechanism).items():
+        point: tuple[int, ...] = ()
+        centre: tuple[int, ...] = ()
+        if name in markers:
+            point = add(f"point of {name}", markers[name].point)
+            if body != GROUND:
+                centre = add(f"centre of {body}", mechanism.body(body).centre_of_mass)
+        found[name] = Place(body, point, centre)
+    return found
