@@ -94,6 +94,8 @@ class Equations:
         For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
     inputs : tuple of str
         Parameters that may change during a run.
+    bodies : tuple of int
+        Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
     """
 
     name: str
@@ -115,6 +117,7 @@ class Equations:
     windings: tuple[int, ...] = ()
     spins: tuple[tuple[int, int], ...] = ()
     inputs: tuple[str, ...] = ()
+    bodies: tuple[int, ...] = ()
 
     @property
     def nq(self) -> int:

@@ -16,6 +16,8 @@ from symgen.methods._base import Method
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
+#: Functions that leave M in w for those that are called behind them.
+_KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
 #: Arguments of the functions of a law.
 _ARGUMENTS = {
     **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
@@ -89,8 +91,14 @@ def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
 
 
 def part_outputs(scalars: Scalars, part: Part) -> Outputs:
-    """Return what a function of a law writes."""
-    return [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    """Return what a function of a law writes; where M changes with the position, those without the state read it."""
+    found = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    if part.name in _KEEPS_MASS:
+        return found + [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    if not scalars.mass_entries or "y" in _ARGUMENTS[part.name]:
+        return found
+    nodes = scalars.stored_mass([node for _, node in found])
+    return [(target, node) for (target, _), node in zip(found, nodes, strict=True)]
 
 
 def _outputs(scalars: Scalars, place: str, index: int) -> Outputs:

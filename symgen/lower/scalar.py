@@ -9,6 +9,7 @@ from typing import Any
 
 from symgen.formulate.equations import Equations, MassBlock
 from symgen.ir.derivative import jacobian
+from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.program import STATUS, Entry, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
@@ -182,6 +183,77 @@ class Scalars(Replay):
     # -- M -------------------------------------------------------------------------------------------------------------
 
     @cached_property
+    def mass_entries(self) -> tuple[int, ...]:
+        """Entries of M that change with the position, each once; none where bodies have coordinates of their own."""
+        g = self.graph
+        nodes = (n for block in self.equations.mass for row in block.entries for n in row)
+        return tuple(dict.fromkeys(n for n in nodes if g.depends[n] & ~PARAMETER))
+
+    def stored_mass(self, nodes: Sequence[int]) -> list[int]:
+        """Return nodes with M as the section ``mass_entry`` holds it, for functions that are not given the state."""
+        g = self.graph
+        image = {node: g.input("mass_entry", k) for k, node in enumerate(self.mass_entries)}
+        for node in g.needed(nodes):
+            op, args, payload = g.nodes[node]
+            if node not in image:
+                image[node] = node if not args else g.rebuild(op, tuple(image[a] for a in args), payload)
+        return [image[n] for n in nodes]
+
+    @cached_property
+    def mass_matrix(self) -> dict[tuple[int, int], int]:
+        """The entries of M that are not structurally zero."""
+        return {
+            (i, j): node
+            for block in self.equations.mass
+            for i, row in zip(block.columns, block.entries, strict=True)
+            for j, node in zip(block.columns, row, strict=True)
+            if node != self.graph.zero or i == j
+        }
+
+    @cached_property
+    def mass_factor(self) -> Factor:
+        """The factor of an M that changes, from the leaves of the tree inwards: nothing is filled in."""
+        near: list[set[int]] = [set() for _ in range(self.equations.nv)]
+        for i, j in self.mass_matrix:
+            if i != j:
+                near[i].add(j)
+        order, _ = minimum_degree([frozenset(n) for n in near])
+        return factorise(self.graph, self.mass_matrix, order, self._reciprocal)
+
+    @cached_property
+    def coupled(self) -> Sequence[Mapping[int, int]]:
+        """For each velocity those that M^-1 couples it with."""
+        if not self.mass_entries:
+            return self.inverse_mass
+        found: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
+        for block in self.equations.mass:
+            for j in block.columns:
+                found[j] = dict.fromkeys(block.columns, 0)
+        return found
+
+    def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
+        """Return D M^-1 D^T as nodes."""
+        if not self.mass_entries:
+            return self.gram(matrix, self.inverse_mass)
+        g, factor, halves = self.graph, self.mass_factor, list[list[int]]()
+        for row in matrix:
+            x = [g.zero] * self.equations.nv
+            for j, node in row:
+                x[j] = node
+            for k in factor.order:  # L^-1 D^T
+                for i, entry in factor.lower[k]:
+                    x[i] = g.sub(x[i], g.mul(entry, x[k]))
+            halves.append(x)
+        scaled = [[g.mul(factor.reciprocal[k], x) for k, x in enumerate(half)] for half in halves]
+        result: dict[tuple[int, int], int] = {}
+        for i, near in enumerate(self.neighbours(matrix, self.coupled)):
+            for j in (i, *(n for n in sorted(near) if n > i)):
+                node = g.dot(scaled[i], halves[j])
+                if node != g.zero or i == j:
+                    result[i, j] = result[j, i] = node
+        return result
+
+    @cached_property
     def inverse_mass(self) -> list[dict[int, int]]:
         """Rows of M^-1 as column -> node; blocks are inverted by elimination, single entries by their reciprocal."""
         g = self.graph
@@ -204,6 +276,8 @@ class Scalars(Replay):
 
     def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
         g = self.graph
+        if self.mass_entries:
+            return tuple(self.mass_factor.solve(g, x))
         result = [g.zero] * len(x)
         for block in self.equations.mass:
             if len(block.columns) == 1:
@@ -283,7 +357,7 @@ class Scalars(Replay):
     @cached_property
     def order(self) -> tuple[int, ...]:
         """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
-        return minimum_degree(self.neighbours(self.rows, self.inverse_mass))[0]
+        return minimum_degree(self.neighbours(self.rows, self.coupled))[0]
 
     def gram(self, matrix: Rows, weight: Weight | None = None) -> dict[tuple[int, int], int]:
         """Return D W D^T as nodes; `weight` None is the identity, else rows of W."""
@@ -308,7 +382,7 @@ class Scalars(Replay):
 
     def _on_schur(self, operation: Operation) -> Factor:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
-        return self._masked_factor(self.gram(self.rows, self.inverse_mass))
+        return self._masked_factor(self.mass_gram(self.rows))
 
     def _on_pseudoinverse(self, operation: Operation, matrix: Rows) -> Factor:
         return self._masked_factor(self.gram(matrix))
@@ -352,15 +426,15 @@ class Scalars(Replay):
         g = self.graph
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
-    def _weighted(self, rows: Rows, keep: Callable[[int], int], weight: Weight | None) -> Factor:
+    def _weighted(self, matrix: Mapping[tuple[int, int], int], keep: Callable[[int], int]) -> Factor:
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._kept(keep(row), pivot)
 
-        return factorise(self.graph, self.gram(rows, weight), self.order, reciprocal)
+        return factorise(self.graph, matrix, self.order, reciprocal)
 
-    def _weighted_apart(self, rank: Factor, weight: Weight | None) -> Factor:
+    def _weighted_apart(self, rank: Factor, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> Factor:
         """Return the same from what ``geometry`` left in w."""
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
 
@@ -368,14 +442,14 @@ class Scalars(Replay):
             certain = rank.pivots[row] == rank.diagonal[row]
             return g.one if certain else g.call("step", stored.reciprocal[row], g.zero)
 
-        return self._weighted(self.stored_constraints(), keep, weight)
+        return self._weighted(gram(self.stored_constraints()), keep)
 
     def _on_weighted_mass(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D M^-1 D^T without the rows that D D^T leaves out."""
-        return self._weighted_apart(rank, self.inverse_mass)
+        return self._weighted_apart(rank, self.mass_gram)
 
     def _on_weighted_identity(self, operation: Operation, rank: Factor) -> Factor:
-        return self._weighted_apart(rank, None)
+        return self._weighted_apart(rank, self.gram)
 
     def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
@@ -384,7 +458,7 @@ class Scalars(Replay):
             return self._decided(row, rank.pivots[row], rank.diagonal[row])
 
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
-        return self._weighted(self.rows, keep, [{j: node} for j, node in enumerate(dependent)])
+        return self._weighted(self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]), keep)
 
     def _on_partition_quality(self, operation: Operation, rank: Factor, factor: Factor) -> int:
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
@@ -404,12 +478,7 @@ class Scalars(Replay):
     def _augmented(self, constraints: Rows, penalties: Nodes) -> Factor:
         """Return the factor of M + D^T a D."""
         g = self.graph
-        matrix: dict[tuple[int, int], int] = {}
-        for block in self.equations.mass:
-            for i, row in zip(block.columns, block.entries, strict=True):
-                for j, node in zip(block.columns, row, strict=True):
-                    if node != g.zero or i == j:
-                        matrix[i, j] = node
+        matrix = dict(self.mass_matrix)
         for entries, penalty in zip(constraints, penalties, strict=True):
             for i, a in entries:
                 scaled = g.mul(penalty, a)
