@@ -49,6 +49,7 @@ class Plan:
     holds: tuple[Hold, ...] = ()
     last: LastState | None = None  # what the run goes on from
     events: tuple[Event, ...] = ()
+    coordinates: str = "absolute"
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
@@ -127,8 +128,9 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
+    coordinates = s.coordinates
     shape = choose_shape(
-        mechanism, choice, _shape(s, last), expected_evaluations(tableau, until - begin, step, adaptive)
+        mechanism, choice, "straight" if coordinates == "joint" else _shape(s, last), expected_evaluations(tableau, until - begin, step, adaptive)
     )
     choice = replace(choice, shape=shape.shape)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
@@ -143,6 +145,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         holds,
         last,
         events_asked(mechanism, s),
+        coordinates,
     )
 
 

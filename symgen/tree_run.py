@@ -1,0 +1,217 @@
+"""Runs in joint coordinates: the start of bodies as a start of joints, and the motion of joints as one of bodies.
+
+A run in joint coordinates begins where one in the bodies' own coordinates does: both are assembled in those, so that
+what is held, noted and refused is the same. What it gives is carried back to the bodies, where results, reactions,
+violations and outputs are read as of any other run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.topology import known_coordinates, spanning_tree, state_names, with_joint_coordinates
+from symgen.lower.windings import winding_order
+from symgen.run_setup import compiled_for, ready
+from symgen.runtime import abi
+from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.joint_starts import joint_values
+from symgen.runtime.outcome import Outcome
+from symgen.runtime.probe import Ready
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from symgen.describe.mechanism import Mechanism, Topology
+    from symgen.plan import Plan
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+
+Array = NDArray[np.float64]
+
+#: What both descriptions of a motion measure alike, taken over from the run.
+_SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+
+
+@dataclass(frozen=True)
+class TreeRun:
+    """A run in joint coordinates, and what carries it to bodies.
+
+    Attributes
+    ----------
+    whole, mechanism : Mechanism
+        As described, and with its tree.
+    compiled, start : CompiledModel, Start
+        In joint coordinates.
+    bodies : CompiledModel
+        In the bodies' own.
+    body_start : Start
+        Where the same run would begin there.
+    """
+
+    whole: Mechanism
+    mechanism: Mechanism
+    compiled: CompiledModel
+    start: Start
+    bodies: CompiledModel
+    body_start: Start
+
+    @property
+    def topology(self) -> Topology:
+        """The tree."""
+        assert self.mechanism.topology is not None, "the mechanism has a tree"
+        return self.mechanism.topology
+
+    # -- the motion of bodies ------------------------------------------------------------------------------------------
+
+    def positions(self, outcome: Outcome) -> Array:
+        """Return the coordinates of bodies at the outputs, shape (k, nq)."""
+        return self._moving(outcome)[:, : self.bodies.info.nq]
+
+    def carried(self, outcome: Outcome) -> CarriedOutcome:
+        """Return what a run gave as the motion of bodies."""
+        info, own = self.bodies.info, self.compiled.info
+        moving = self._moving(outcome)
+        k, n = len(outcome.times), info.nq + info.nv
+        states = np.zeros((k, info.ny))
+        states[:, :n] = moving[:, :n]
+        states[:, n:] = outcome.states[:, own.work :]
+        status = np.zeros((k, abi.N_STATUS + info.windings))
+        status[:, : abi.N_STATUS] = outcome.status_columns[:, : abi.N_STATUS]
+        # the joints of the tree hold by construction: their rows count as independent
+        status[:, abi.RANK] += self.body_start.rank - self.start.rank
+        for i, turned in enumerate(self._turns(outcome.states, outcome.status_columns[:, abi.N_STATUS :])):
+            status[:, abi.N_STATUS + i] = turned
+        w = self.body_start.w.copy()
+        w[list(_SCALES)] = outcome.w[list(_SCALES)]
+        for i in range(info.windings):
+            w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
+        values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
+        happened = tuple(replace(event, **self._event(event)) for event in outcome.happened)
+        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": self._noted(outcome)}
+        values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
+        values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
+        return CarriedOutcome(**values, inner=outcome)
+
+    def _noted(self, outcome: Outcome) -> Start:
+        """Return the start of bodies with what was said of that of the run."""
+        return replace(self.body_start, notes=outcome.start.notes)
+
+    def _parameters(self, numbers: Array) -> Array:
+        """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
+        p = self.body_start.p.copy()
+        count = len(self.bodies.info.parameters)
+        if np.array_equal(p[:count], numbers[:count]):
+            return p
+        p[:count] = numbers[:count]
+        for module in (self.bodies.model, self.bodies.law_module):
+            Ready(module.prepare, abi.PREPARE)(p)
+        return p
+
+    def _moving(self, outcome: Outcome) -> Array:
+        info = self.bodies.info
+        found = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
+        for first, _ in info.spins:  # Euler parameters have two signs
+            if len(found) and found[0, first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+                found[:, first : first + 4] *= -1.0
+        return found
+
+    def _event(self, event: Any) -> dict[str, Array]:
+        """Return the states of an event as those of bodies."""
+        own, info = self.compiled.info, self.bodies.info
+        found = dict[str, Array]()
+        observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
+        for f in fields(event):
+            value = getattr(event, f.name)
+            if f.name == "state":
+                y, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
+                y[: len(value)] = value
+                observe(event.t, y, self.start.p, self.start.w.copy(), np.zeros(own.ny), out)
+                found[f.name] = out[: info.nq + info.nv]
+        return found
+
+    def _turns(self, states: Array, windings: Array) -> list[Array]:
+        """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
+        known = known_coordinates(self.mechanism, self.topology)
+        own = {m: i for i, m in enumerate(winding_order(self.mechanism, "straight"))}
+        found = list[Array]()
+        for measure in winding_order(self.whole, self.bodies.shape):
+            if measure in known:
+                i, _, sign = known[measure]
+                found.append(sign * states[:, i])
+            else:
+                found.append(windings[:, own[measure]])
+        return found
+
+
+@dataclass(frozen=True)
+class CarriedOutcome(Outcome):
+    """What a run in joint coordinates gave, as the motion of bodies; `inner` is what its loop left."""
+
+    inner: Outcome = field(kw_only=True, repr=False)
+
+
+def on_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Mechanism:
+    """Return a mechanism whose state is that of the joints of its tree."""
+    return with_joint_coordinates(mechanism, spanning_tree(mechanism, cut))
+
+
+def tree_run(
+    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
+) -> TreeRun:
+    """Return what a run in joint coordinates begins with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    plan : Plan
+        How it is run.
+    parameters, strict
+        As for `symgen.run_setup.ready`.
+    """
+    bodies, start = ready(mechanism, plan, parameters, strict)
+    carried = on_tree(mechanism)
+    options = bodies.law.options
+    choice = replace(plan.choice, options=dict(options), shape="straight")
+    compiled = compiled_for(carried, choice)
+    assert carried.topology is not None, "it was put on a tree"
+    info, own = bodies.info, compiled.info
+    q, v = _state(carried, carried.topology, bodies, start)
+    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters)
+    turned = _windings(mechanism, carried, bodies, start)
+    found = assemble(compiled, q, list(v), p, strict, None, False, None, (start.t, turned))
+    _scale(own, found.w, start.w)
+    found.y[own.work :] = start.y[info.work :]
+    found = replace(found, notes=start.notes, changes=start.changes, warnings=start.warnings, work=start.work)
+    return TreeRun(mechanism, carried, compiled, found, bodies, start)
+
+
+def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start: Start) -> tuple[Array, Array]:
+    """Return the coordinates and velocities of a tree from a start of bodies."""
+    info = bodies.info
+    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
+    known = {x.name: float(start.y[i]) for i, x in enumerate(info.coordinates)}
+    known |= {x.name: float(start.y[info.nq + i]) for i, x in enumerate(info.velocities)}
+    for k, x in enumerate(info.joint_coordinates):
+        known |= {x.name: float(values[2 * k]), f"{x.name}.rate": float(values[2 * k + 1])}
+    names, speeds = state_names(carried, topology)
+    return np.array([known[name] for name, _ in names]), np.array([known[name] for name, _ in speeds])
+
+
+def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, start: Start) -> list[float]:
+    """Return the angles whose turns the code for the tree counts, at the start."""
+    places = {m: i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
+    return [float(start.w[abi.WINDING + places[m]]) for m in winding_order(carried, "straight")]
+
+
+def _scale(own: ModelInfo, w: Array, of_bodies: Array) -> None:
+    """Set the scales of lengths and speeds to those of the bodies' start, where joints say nothing of them."""
+    w[[abi.LENGTH, abi.SPEED]] = of_bodies[[abi.LENGTH, abi.SPEED]]
+    if own.m == 0:
+        offset, _ = own.sections["gauge"]
+        for j, velocity in enumerate(own.velocities):
+            w[offset + j] = 1.0 / w[abi.LENGTH] ** 2 if velocity.unit == "rad/s" else 1.0
