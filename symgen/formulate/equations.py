@@ -21,6 +21,8 @@ class ConstraintRow:
     """One constraint: ``D v = nu`` and ``D v' = gamma``; `phi` is None for a nonholonomic row.
 
     `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
+    Where joints of a tree carry the bodies, a row may vanish as a whole, at a dead centre for instance: `size` is what
+    its square is compared with then, the square of the row over the velocities of bodies; None for a row that cannot.
     """
 
     name: str
@@ -30,6 +32,7 @@ class ConstraintRow:
     entries: tuple[tuple[int, int], ...]
     nu: int
     gamma: int
+    size: int | None = None
 
 
 @dataclass(frozen=True)

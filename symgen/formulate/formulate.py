@@ -6,7 +6,7 @@ system.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 import sympy as sp
@@ -158,7 +158,20 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
         phi, nu, curvature = None, value, slope
     entries, bias = model.pulled(measure.row, measure.bias)
     gamma = g.sub(curvature, bias)
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, tuple(sorted(entries.items())), nu, gamma)
+    ordered = tuple(sorted(entries.items()))
+    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row))
+
+
+def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
+    """Return the square of a row over the velocities of bodies: translations, or rotations of a row that is an angle."""
+    if model.tree is None or any(i >= model.size for i in entries):
+        return None
+    speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]
+    turning = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "rad/s"]
+    moving = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "m/s"]
+    if row.unit in ("rad", "rad/s"):
+        return None if moving else model.graph.dot(turning, turning)
+    return model.graph.dot(moving, moving) if moving else None
 
 
 def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:

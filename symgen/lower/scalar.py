@@ -416,10 +416,26 @@ class Scalars(Replay):
     def _decided(self, row: int, pivot: int, diagonal: int) -> int:
         """Return 1 where a pivot of D G D^T says that its row is kept, else 0; a row eliminated alone always is."""
         g = self.graph
-        if pivot == diagonal:
+        if self._certain(row, pivot, diagonal):
             return g.one
         # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
-        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row]))
+        usual = self._usual(row, diagonal)
+        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), usual), self.mask[row]))
+
+    def _certain(self, row: int, pivot: int, diagonal: int) -> bool:
+        """Whether a row is kept whatever the position: it is eliminated alone, and cannot vanish."""
+        return pivot == diagonal and self.equations.rows[row].size is None
+
+    def _usual(self, row: int, diagonal: int) -> int:
+        """Return what the pivot of a row in D G D^T is compared with: its square, or that of a row that has vanished."""
+        g, found = self.graph, self.equations.rows[row]
+        if found.size is None:
+            return diagonal
+        if found.unit not in ("rad", "rad/s"):
+            return g.call("max", diagonal, found.size)
+        turns = [next(iter(self.gauge[j].values())) for j, _ in found.entries]
+        gauge = g.mul(g.constant(1.0 / max(1, len(turns))), g.total(turns))
+        return g.call("max", diagonal, g.mul(found.size, gauge))
 
     def _kept(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
@@ -439,7 +455,7 @@ class Scalars(Replay):
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
 
         def keep(row: int) -> int:
-            certain = rank.pivots[row] == rank.diagonal[row]
+            certain = self._certain(row, rank.pivots[row], rank.diagonal[row])
             return g.one if certain else g.call("step", stored.reciprocal[row], g.zero)
 
         return self._weighted(gram(self.stored_constraints()), keep)
@@ -510,10 +526,10 @@ class Scalars(Replay):
         outputs += [(Target("jacobian", slot), n) for slot, n in slots if slot is not None]
         kept, smallest = g.zero, g.one
         for i in range(len(rank.order)):
-            if rank.pivots[i] == rank.diagonal[i]:
+            if self._certain(i, rank.pivots[i], rank.diagonal[i]):
                 kept = g.add(kept, g.one)
                 continue
-            relative = g.div(rank.pivots[i], rank.diagonal[i])
+            relative = g.div(rank.pivots[i], self._usual(i, rank.diagonal[i]))
             outputs.append((Target("pivot", i), relative))
             kept = g.add(kept, self._decided(i, rank.pivots[i], rank.diagonal[i]))
             smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
