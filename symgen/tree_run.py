@@ -14,21 +14,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates, spanning_tree, state_names, with_joint_coordinates
 from symgen.lower.windings import winding_order
 from symgen.run_setup import compiled_for, ready
 from symgen.runtime import abi
-from symgen.runtime.assembly import Start, assemble
+from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
+from symgen.runtime.tree_start import settle_tree
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from symgen.describe.mechanism import Mechanism, Topology
+    from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 
@@ -183,10 +185,13 @@ def tree_run(
     q, v = _state(carried, carried.topology, bodies, start)
     p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters)
     turned = _windings(mechanism, carried, bodies, start)
-    found = assemble(compiled, q, list(v), p, strict, None, False, None, (start.t, turned))
-    _scale(own, found.w, start.w)
-    found.y[own.work :] = start.y[info.work :]
-    found = replace(found, notes=start.notes, changes=start.changes, warnings=start.warnings, work=start.work)
+    y = np.zeros(own.ny)
+    y[: own.work] = np.concatenate([q, v])
+    y[own.work :] = start.y[info.work :]
+    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), _gauge(carried, bodies, start.w)
+    w, rank, redundant = settle_tree(compiled, y, p, start.t, turned, scales)
+    notes = start.notes, start.changes, start.light, start.warnings
+    found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
     return TreeRun(mechanism, carried, compiled, found, bodies, start)
 
 
@@ -208,10 +213,13 @@ def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, s
     return [float(start.w[abi.WINDING + places[m]]) for m in winding_order(carried, "straight")]
 
 
-def _scale(own: ModelInfo, w: Array, of_bodies: Array) -> None:
-    """Set the scales of lengths and speeds to those of the bodies' start, where joints say nothing of them."""
-    w[[abi.LENGTH, abi.SPEED]] = of_bodies[[abi.LENGTH, abi.SPEED]]
-    if own.m == 0:
-        offset, _ = own.sections["gauge"]
-        for j, velocity in enumerate(own.velocities):
-            w[offset + j] = 1.0 / w[abi.LENGTH] ** 2 if velocity.unit == "rad/s" else 1.0
+
+def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
+    """Return what makes translations of the velocities of a tree: 1, or 1 / l^2 with the length of the body turned."""
+    assert carried.topology is not None, "it has a tree"
+    found, gauge = list[float](), bodies.section(w, "gauge")
+    for link in carried.topology.links:
+        alone = Topology((link,))
+        own = [float(gauge[j]) for j, x in enumerate(bodies.info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
+        found += [own[0] if unit == "rad/s" else 1.0 for _, unit in state_names(carried, alone)[1]]
+    return np.array(found)

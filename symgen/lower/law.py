@@ -92,13 +92,12 @@ def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
 
 def part_outputs(scalars: Scalars, part: Part) -> Outputs:
     """Return what a function of a law writes; where M changes with the position, those without the state read it."""
+    if scalars.mass_entries and "y" not in _ARGUMENTS[part.name]:
+        scalars = scalars.with_stored_mass
     found = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
     if part.name in _KEEPS_MASS:
-        return found + [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
-    if not scalars.mass_entries or "y" in _ARGUMENTS[part.name]:
-        return found
-    nodes = scalars.stored_mass([node for _, node in found])
-    return [(target, node) for (target, _), node in zip(found, nodes, strict=True)]
+        found += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    return found
 
 
 def _outputs(scalars: Scalars, place: str, index: int) -> Outputs:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -189,15 +190,24 @@ class Scalars(Replay):
         nodes = (n for block in self.equations.mass for row in block.entries for n in row)
         return tuple(dict.fromkeys(n for n in nodes if g.depends[n] & ~PARAMETER))
 
-    def stored_mass(self, nodes: Sequence[int]) -> list[int]:
-        """Return nodes with M as the section ``mass_entry`` holds it, for functions that are not given the state."""
-        g = self.graph
-        image = {node: g.input("mass_entry", k) for k, node in enumerate(self.mass_entries)}
-        for node in g.needed(nodes):
-            op, args, payload = g.nodes[node]
-            if node not in image:
-                image[node] = node if not args else g.rebuild(op, tuple(image[a] for a in args), payload)
-        return [image[n] for n in nodes]
+    @cached_property
+    def with_stored_mass(self) -> Scalars:
+        """The same tape with M as the section ``mass_entry`` holds it, for functions that are not given the state.
+
+        M is replaced before anything is made of it: products with it do not keep its entries together.
+        """
+        g, other = self.graph, copy(self)
+        places = {node: g.input("mass_entry", k) for k, node in enumerate(self.mass_entries)}
+        blocks = (
+            MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries))
+            for b in self.equations.mass
+        )
+        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
+            other.__dict__.pop(name, None)
+        other.equations = replace(self.equations, mass=tuple(blocks))
+        other.values, other.kept, other.flags = {}, {}, []
+        other.run(range(len(other.operations)))
+        return other
 
     @cached_property
     def mass_matrix(self) -> dict[tuple[int, int], int]:
