@@ -233,7 +233,8 @@ class Model:
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
         if tree is not None:
             compiled, outcome = tree.bodies, tree.carried(outcome)
-        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told)
+        state = None if tree is None else tree.compiled
+        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told, state)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.
@@ -269,7 +270,9 @@ class Model:
         given = give_inputs(self.mechanism, asked)
         mechanism = given.mechanism
         chosen, reasons = resolve(mechanism, given.settings)
-        plan = make_plan(mechanism, replace(chosen, times=()))
+        if chosen.coordinates == "joint":
+            raise InputError("start: coordinates", "absolute ones, as a run is taken step by step", "joint ones")
+        plan = make_plan(mechanism, replace(chosen, times=(), coordinates="absolute"))
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)

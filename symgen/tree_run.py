@@ -92,11 +92,14 @@ class TreeRun:
         for i in range(info.windings):
             w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
-        happened = tuple(replace(event, **self._event(event)) for event in outcome.happened)
+        happened = tuple(replace(event, state=self._of_bodies(event.t, event.state)) for event in outcome.happened)
         values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": self._noted(outcome)}
         values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
         values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
-        return CarriedOutcome(**values, inner=outcome)
+        last = outcome.simulation.state.y
+        return CarriedOutcome(
+            **values, inner=outcome, end_state=self._of_bodies(outcome.end, last), work=last[own.work]
+        )
 
     def _noted(self, outcome: Outcome) -> Start:
         """Return the start of bodies with what was said of that of the run."""
@@ -121,19 +124,14 @@ class TreeRun:
                 found[:, first : first + 4] *= -1.0
         return found
 
-    def _event(self, event: Any) -> dict[str, Array]:
-        """Return the states of an event as those of bodies."""
+    def _of_bodies(self, t: float, y: Array) -> Array:
+        """Return coordinates and velocities of bodies at one state."""
         own, info = self.compiled.info, self.bodies.info
-        found = dict[str, Array]()
+        state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
+        state[: own.work] = y[: own.work]
         observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
-        for f in fields(event):
-            value = getattr(event, f.name)
-            if f.name == "state":
-                y, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
-                y[: len(value)] = value
-                observe(event.t, y, self.start.p, self.start.w.copy(), np.zeros(own.ny), out)
-                found[f.name] = out[: info.nq + info.nv]
-        return found
+        observe(t, state, self.start.p, self.start.w.copy(), np.zeros(own.ny), out)
+        return out[: info.nq + info.nv]
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
         """Return the angles that count turns as the code for bodies remembers them, at the outputs."""
@@ -151,9 +149,21 @@ class TreeRun:
 
 @dataclass(frozen=True)
 class CarriedOutcome(Outcome):
-    """What a run in joint coordinates gave, as the motion of bodies; `inner` is what its loop left."""
+    """What a run in joint coordinates gave, as the motion of bodies.
+
+    Attributes
+    ----------
+    inner : Outcome
+        What its loop left.
+    end_state : Array, shape (nq + nv,)
+        Coordinates and velocities of bodies in the last state that was accepted.
+    work : float
+        Work done until there [J].
+    """
 
     inner: Outcome = field(kw_only=True, repr=False)
+    end_state: Array = field(kw_only=True, repr=False)
+    work: float = field(kw_only=True)
 
 
 def on_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Mechanism:
@@ -183,7 +193,9 @@ def tree_run(
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
     q, v = _state(carried, carried.topology, bodies, start)
-    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters)
+    p = compiled.parameter_array(
+        dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters
+    )
     turned = _windings(mechanism, carried, bodies, start)
     y = np.zeros(own.ny)
     y[: own.work] = np.concatenate([q, v])
@@ -213,13 +225,16 @@ def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, s
     return [float(start.w[abi.WINDING + places[m]]) for m in winding_order(carried, "straight")]
 
 
-
 def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
     """Return what makes translations of the velocities of a tree: 1, or 1 / l^2 with the length of the body turned."""
     assert carried.topology is not None, "it has a tree"
     found, gauge = list[float](), bodies.section(w, "gauge")
     for link in carried.topology.links:
         alone = Topology((link,))
-        own = [float(gauge[j]) for j, x in enumerate(bodies.info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
+        own = [
+            float(gauge[j])
+            for j, x in enumerate(bodies.info.velocities)
+            if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"
+        ]
         found += [own[0] if unit == "rad/s" else 1.0 for _, unit in state_names(carried, alone)[1]]
     return np.array(found)

@@ -68,7 +68,9 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
             links.append(Link(body.name))
             grow([body.name])
     used = {link.joint for link in links}
-    return Topology(tuple(links), tuple(joint.name for joint in mechanism.joints if joint.rows and joint.name not in used))
+    return Topology(
+        tuple(links), tuple(joint.name for joint in mechanism.joints if joint.rows and joint.name not in used)
+    )
 
 
 def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:

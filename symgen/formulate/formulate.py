@@ -159,7 +159,9 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
     entries, bias = model.pulled(measure.row, measure.bias)
     gamma = g.sub(curvature, bias)
     ordered = tuple(sorted(entries.items()))
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row))
+    return ConstraintRow(
+        f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row)
+    )
 
 
 def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:

@@ -274,7 +274,9 @@ class SpatialTree:
             about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
             turn = v.product(v.product(to_parent, about_axis), v.transposed(to_body))
             half = _half(g, g.mul(sign, q), 3)
-            euler = _quaternion_product(g, _quaternion_product(g, _euler_of(g, to_parent), half), _inverse(g, _euler_of(g, to_body)))
+            euler = _quaternion_product(
+                g, _quaternion_product(g, _euler_of(g, to_parent), half), _inverse(g, _euler_of(g, to_body))
+            )
             axis = v.scale(sign, v.triple(model.direction(mine[2])))
             return turn, euler, {i: axis}, v.zero
         first = self.count
@@ -288,9 +290,17 @@ class SpatialTree:
         in_a = v.add(v.scale(c1, fa), v.scale(s1, sa)), v.sub(v.scale(c1, sa), v.scale(s1, fa)), za
         in_b = zb, v.neg(v.add(v.scale(s2, fb), v.scale(c2, sb))), v.sub(v.scale(c2, fb), v.scale(s2, sb))
         into_a, into_b = v.transposed(in_a), v.transposed(in_b)
-        flip = _euler_of(g, v.product(((g.zero, g.zero, g.one), (g.zero, g.constant(-1.0), g.zero), (g.one, g.zero, g.zero)), _rows(v, [n for d in (fb, sb, zb) for n in d])))
+        flip = _euler_of(
+            g,
+            v.product(
+                ((g.zero, g.zero, g.one), (g.zero, g.constant(-1.0), g.zero), (g.one, g.zero, g.zero)),
+                _rows(v, [n for d in (fb, sb, zb) for n in d]),
+            ),
+        )
         of_a = _euler_of(g, v.transposed((fa, sa, za)))
-        forwards = _quaternion_product(g, _quaternion_product(g, of_a, _half(g, qa, 3)), _quaternion_product(g, _half(g, qb, 1), flip))
+        forwards = _quaternion_product(
+            g, _quaternion_product(g, of_a, _half(g, qa, 3)), _quaternion_product(g, _half(g, qb, 1), flip)
+        )
         product = g.mul(g.input("v", one), g.input("v", two))
         if link.forward:
             turn = v.product(into_a, v.transposed(into_b))

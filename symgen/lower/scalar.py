@@ -176,6 +176,21 @@ class Scalars(Replay):
                 result[j] = g.add(result[j], g.mul(rate, factor))
         return tuple(result)
 
+    def _on_mass_rate(self, operation: Operation, x: Nodes, v: Nodes) -> Nodes:
+        g, e = self.graph, self.equations
+        result = [g.zero] * e.nv
+        if self.mass_entries:
+            rates = self._on_at_velocity(operation, e.q_rates, v)
+            slopes = jacobian(g, self.mass_entries, [("t", 0), *(("q", i) for i in range(e.nq))])
+            changes = {
+                entry: g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(found.items()))
+                for entry, found in zip(self.mass_entries, slopes, strict=True)
+            }
+            for (i, j), node in sorted(self.mass_matrix.items()):
+                if node in changes:
+                    result[i] = g.add(result[i], g.mul(changes[node], x[j]))
+        return tuple(result)
+
     def _on_at_velocity(self, operation: Operation, x: Nodes | int, v: Nodes) -> Any:
         vector = isinstance(x, tuple)
         found = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
