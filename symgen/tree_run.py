@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from symgen.describe.topology import known_coordinates, spanning_tree, state_nam
 from symgen.lower.windings import winding_order
 from symgen.run_setup import compiled_for, ready
 from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
@@ -113,7 +114,7 @@ class TreeRun:
             return p
         p[:count] = numbers[:count]
         for module in (self.bodies.model, self.bodies.law_module):
-            Ready(module.prepare, abi.PREPARE)(p)
+            Ready(module.prepare, e.PREPARE)(p)
         return p
 
     def _moving(self, outcome: Outcome) -> Array:

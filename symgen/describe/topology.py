@@ -82,7 +82,7 @@ def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
 
 
 def _suits(link: Link, points: set[str], spatial: bool) -> bool:
-    """Whether a body can hang on a joint: a point mass has no angle, so that it carries nothing and only pins hold it."""
+    """Whether a body can hang on a joint: a point mass has no angle, so it carries nothing and only pins hold it."""
     found = link.articulation
     assert found is not None, "a link of a joint knows how it moves"
     if link.parent in points:

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from symgen.describe.mechanism import SpatialBody
 from symgen.formulate.equations import MassBlock
-
 from symgen.vocabulary.measures import Measure
 
 if TYPE_CHECKING:
@@ -28,21 +27,25 @@ class Carried(Protocol):
         u, and c; one node for each velocity of a body.
     q_rates : tuple of int
         q' of the state.
-    names : mapping of str to int
-        Nodes of the coordinates and velocities of bodies, centres of mass among them.
     spins : tuple of (int, int)
         Where Euler parameters begin in q, and their angular velocities in v.
-    known : mapping
-        Measures that are coordinates of the state, see `symgen.describe.topology.known_coordinates`.
     """
 
     size: int
     velocities: tuple[int, ...]
     biases: tuple[int, ...]
     q_rates: tuple[int, ...]
-    names: Mapping[str, int]
     spins: tuple[tuple[int, int], ...]
-    known: Mapping[Measure, tuple[int, int, float]]
+
+    @property
+    def names(self) -> Mapping[str, int]:
+        """Nodes of the coordinates and velocities of bodies, centres of mass among them, by their names."""
+        ...
+
+    @property
+    def known(self) -> Mapping[Measure, tuple[int, int, float]]:
+        """Measures that are coordinates of the state, see `symgen.describe.topology.known_coordinates`."""
+        ...
 
     def frame(self, body: str) -> list[int]:
         """Return the nodes of a frame's slots."""

@@ -165,7 +165,7 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
 
 
 def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
-    """Return the square of a row over the velocities of bodies: translations, or rotations of a row that is an angle."""
+    """Return the square of a row over the velocities of bodies: translations, or rotations where it is an angle."""
     if model.tree is None or any(i >= model.size for i in entries):
         return None
     speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]

@@ -63,9 +63,9 @@ class Model(Formulas):
         self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
         self.tree: Carried | None = None
         if self.mechanism.topology is not None:
-            self.tree = SpatialTree(self) if self.spatial else PlanarTree(self)
-            self.velocities = self.tree.velocities
-            self.names |= self.tree.names
+            tree: Carried = SpatialTree(self) if self.spatial else PlanarTree(self)
+            self.tree, self.velocities = tree, tree.velocities
+            self.names |= tree.names
         self._memo: dict[object, Derived] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
@@ -175,7 +175,7 @@ class Model(Formulas):
         return found
 
     def _coordinate(self, m: Measure) -> Derived | None:
-        """Return a measure that is a coordinate of the state: its rate is a velocity of that, behind those of bodies."""
+        """Return a measure that is a coordinate of the state; its rate is one of the velocities behind those of bodies."""
         if self.tree is None or m not in self.tree.known:
             return None
         g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]

@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from symgen.describe.mechanism import Body, Link
+from symgen.describe.mechanism import Body, Link, Vec
 from symgen.describe.topology import known_coordinates
 from symgen.formulate.equations import MassBlock
 from symgen.vocabulary.measures import GROUND
@@ -94,6 +94,7 @@ class PlanarTree:
         velocities, biases = list[int](), list[int]()
         self._columns: list[Mapping[int, int]] = []
         for body in model.mechanism.bodies:
+            assert isinstance(body, Body), "bodies of the plane"
             p = self.placed[body.name]
             velocities += p.velocity
             biases += p.bias
@@ -117,6 +118,7 @@ class PlanarTree:
     def _place(self, link: Link) -> None:
         g, model = self.graph, self.model
         body = model.mechanism.body(link.body)
+        assert isinstance(body, Body), "bodies of the plane"
         self.children[link.body] = []
         self.children[link.parent].append(link.body)
         found, parent = link.articulation, self.placed[link.parent]
@@ -195,7 +197,7 @@ class PlanarTree:
             link, at, velocity, nothing, axes, group, g.zero, turned, spin, at, None, dict(slides), slides, nothing
         )
 
-    def _centre(self, body: Body, reference: tuple) -> Pair:
+    def _centre(self, body: Body, reference: Vec) -> Pair:
         """Return the centre of mass relative to the joint's point, in the body's frame."""
         g = self.graph
         com = [self.model.expression(e) for e in body.centre_of_mass]
@@ -259,17 +261,18 @@ class PlanarTree:
             if name == GROUND:
                 continue
             body, p = model.mechanism.body(name), self.placed[name]
+            assert isinstance(body, Body), "bodies of the plane"
             m = model.expression(body.mass)
             fixed = self._scaled(m, p.centre)  # of the first moment, what is constant in the body's frame
             second = g.mul(m, g.dot(p.centre, p.centre))
             if body.inertia is not None:
                 second = g.add(model.expression(body.inertia), second)
-            own = self._rotated(p.axes, fixed)
+            moment = self._rotated(p.axes, fixed)
             first = model.first[name]
             w = p.spin
             push = self._less((forces[first], forces[first + 1]), self._scaled(m, p.bias))
-            push = self._sum(push, self._scaled(g.mul(w, w), own))
-            turn = g.zero if body.is_point else g.sub(forces[first + 2], self._cross(own, p.bias))
+            push = self._sum(push, self._scaled(g.mul(w, w), moment))
+            turn = g.zero if body.is_point else g.sub(forces[first + 2], self._cross(moment, p.bias))
             total, moving = m, (g.zero, g.zero)
             for child in self.children[name]:
                 c, heavy = self.placed[child], masses[child]
@@ -297,16 +300,16 @@ class PlanarTree:
             mu = moments.get(name, (g.zero, g.zero))
             for i, e in p.slides.items():
                 momentum = self._scaled(masses[name], e)
-                for j, c in p.columns.items():
-                    entry = g.dot(momentum, c)
+                for j, column in p.columns.items():
+                    entry = g.dot(momentum, column)
                     if j == p.group:
                         entry = g.add(entry, self._cross(mu, e))
                     entries[i, j] = entries[j, i] = entry
                 entries[i, i] = masses[name]  # directions have length 1
                 f[i] = g.dot(e, pushes[name])
             if name != GROUND and p.group >= 0 and self.placed[p.link.parent].group != p.group:
-                for j, c in p.columns.items():
-                    entries[p.group, j] = entries[j, p.group] = g.dot(self._perp(mu), c)
+                for j, column in p.columns.items():
+                    entries[p.group, j] = entries[j, p.group] = g.dot(self._perp(mu), column)
                 entries[p.group, p.group] = seconds[name]
                 f[p.group] = turns[name]
         return blocks_of(entries, self.size, g.zero), [g.add(a, b) for a, b in zip(f, own, strict=True)]

@@ -9,7 +9,6 @@ their own, against the ground: what carries such a body moves its joint's point 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
@@ -17,21 +16,13 @@ from typing import TYPE_CHECKING
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
 from symgen.describe.topology import known_coordinates
 from symgen.formulate.equations import MassBlock
-from symgen.formulate.euler import matrix_of, turning
-from symgen.formulate.tree_plane import blocks_of
+from symgen.formulate.euler import composed, half_turn, inverse, matrix_of, parameters_of, turning
+from symgen.formulate.tree_inertia import Composite, Motion
 from symgen.formulate.vectors import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND, Direction
 
 if TYPE_CHECKING:
     from symgen.formulate.measures import Model
-
-
-@dataclass
-class _Motion:
-    """What a velocity of the state does to the body of its link: turns it about, and moves it along, in its axes."""
-
-    about: Triple
-    along: Triple
 
 
 @dataclass
@@ -54,7 +45,7 @@ class _Placed:
         Angular velocity, and velocity of its point.
     alpha, bias : Triple
         Angular acceleration, and acceleration of its point less gravity, where v' is 0.
-    motions : mapping of int to _Motion
+    motions : mapping of int to Motion
         Velocities of the state that belong to its link.
     columns : mapping of int to (Triple, Triple)
         Velocity of the state -> derivative of `omega` and `velocity` by it.
@@ -74,7 +65,7 @@ class _Placed:
     velocity: Triple
     alpha: Triple
     bias: Triple
-    motions: dict[int, _Motion]
+    motions: dict[int, Motion]
     columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
     euler: Sequence[int]
@@ -104,7 +95,7 @@ class SpatialTree:
         for link in topology.links:
             self._place(link)
         self.q_rates, self.spins = tuple(self.rates), tuple(self.found_spins)
-        self.names: dict[str, int] = {}
+        self.names = dict[str, int]()
         velocities, biases = list[int](), list[int]()
         self._columns: list[Mapping[int, int]] = []
         for body in model.mechanism.bodies:
@@ -151,7 +142,7 @@ class SpatialTree:
         assert isinstance(body, SpatialBody), "bodies in space"
         parent.children.append(link.body)
         found = link.articulation
-        motions: dict[int, _Motion] = {}
+        motions: dict[int, Motion] = {}
         rate = v.zero  # of the arm, in the parent's axes
         if found is None:
             reference = body.centre_of_mass
@@ -184,7 +175,7 @@ class SpatialTree:
             euler, indices = self._ball()
             axes = _rows(v, matrix_of(g, euler))
             turn = axes if link.parent == GROUND else v.product(v.transposed(parent.axes), axes)
-            motions |= {i: _Motion(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
+            motions |= {i: Motion(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
         else:
             assert found is not None, "it is no free body"
             first = self.count
@@ -199,12 +190,12 @@ class SpatialTree:
                     arm = v.add(arm, v.scale(place, axis))
                     rate = v.add(rate, v.scale(g.mul(slope, g.input("v", i)), axis))
                     along = v.back(turn, v.scale(slope, axis))
-                motions[i] = _Motion(about, along)
+                motions[i] = Motion(about, along)
                 relative = v.add(relative, v.scale(g.input("v", i), about))
             extra = twisted
             axes = v.product(parent.axes, turn)
-            euler = _quaternion_product(g, parent.euler, quaternion)
-        motions |= {i: _Motion(v.zero, v.back(turn, e)) for i, e in directions.items()}
+            euler = composed(g, parent.euler, quaternion)
+        motions |= {i: Motion(v.zero, v.back(turn, e)) for i, e in directions.items()}
         if body.is_point:
             omega = alpha = v.zero
         elif own_turn:
@@ -265,7 +256,7 @@ class SpatialTree:
         sign = g.one if link.forward else g.constant(-1.0)
         if found.turn == "fixed":
             turn = v.product(to_parent, v.transposed(to_body))
-            return turn, _euler_of(g, turn), {}, v.zero
+            return turn, parameters_of(g, turn), {}, v.zero
         if found.turn == "axis":
             q = g.input("q", self.count)
             i = self._next()
@@ -273,40 +264,35 @@ class SpatialTree:
             z = g.zero
             about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
             turn = v.product(v.product(to_parent, about_axis), v.transposed(to_body))
-            half = _half(g, g.mul(sign, q), 3)
-            euler = _quaternion_product(
-                g, _quaternion_product(g, _euler_of(g, to_parent), half), _inverse(g, _euler_of(g, to_body))
-            )
+            half = half_turn(g, g.mul(sign, q), 3)
+            euler = composed(g, composed(g, parameters_of(g, to_parent), half), inverse(g, parameters_of(g, to_body)))
             axis = v.scale(sign, v.triple(model.direction(mine[2])))
             return turn, euler, {i: axis}, v.zero
         first = self.count
         one, two = self._next(), self._next()
         qa, qb = g.input("q", first), g.input("q", first + 1)
-        (fa, sa, za), (fb, sb, zb) = (
-            tuple(v.triple(model.direction(d)) for d in frame) for frame in (found.of_a, found.of_b)
-        )
+        fa, sa, za = (v.triple(model.direction(d)) for d in found.of_a)
+        fb, sb, zb = (v.triple(model.direction(d)) for d in found.of_b)
         c1, s1, c2, s2 = g.call("cos", qa), g.call("sin", qa), g.call("cos", qb), g.call("sin", qb)
         # the cross: its second axis, the product of both, its first axis; in the first body's axes, and the second's
         in_a = v.add(v.scale(c1, fa), v.scale(s1, sa)), v.sub(v.scale(c1, sa), v.scale(s1, fa)), za
         in_b = zb, v.neg(v.add(v.scale(s2, fb), v.scale(c2, sb))), v.sub(v.scale(c2, fb), v.scale(s2, sb))
         into_a, into_b = v.transposed(in_a), v.transposed(in_b)
-        flip = _euler_of(
+        flip = parameters_of(
             g,
             v.product(
                 ((g.zero, g.zero, g.one), (g.zero, g.constant(-1.0), g.zero), (g.one, g.zero, g.zero)),
                 _rows(v, [n for d in (fb, sb, zb) for n in d]),
             ),
         )
-        of_a = _euler_of(g, v.transposed((fa, sa, za)))
-        forwards = _quaternion_product(
-            g, _quaternion_product(g, of_a, _half(g, qa, 3)), _quaternion_product(g, _half(g, qb, 1), flip)
-        )
+        of_a = parameters_of(g, v.transposed((fa, sa, za)))
+        forwards = composed(g, composed(g, of_a, half_turn(g, qa, 3)), composed(g, half_turn(g, qb, 1), flip))
         product = g.mul(g.input("v", one), g.input("v", two))
         if link.forward:
             turn = v.product(into_a, v.transposed(into_b))
             return turn, forwards, {one: in_b[2], two: zb}, v.scale(product, in_b[1])
         turn = v.product(into_b, v.transposed(into_a))
-        return turn, _inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
+        return turn, inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
 
     def _name(self, name: str, is_point: bool, p: _Placed) -> None:
         """Note the coordinates and velocities of a body by their names."""
@@ -351,146 +337,11 @@ class SpatialTree:
         """Return nothing: gravity is an acceleration of the ground."""
         return {}
 
-    # -- M and f -------------------------------------------------------------------------------------------------------
-
     def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
-        g, v, model = self.graph, self.v, self.model
-        masses, firsts, seconds = dict[str, int](), dict[str, Triple](), dict[str, Matrix]()
-        lumped: dict[str, tuple[int, Triple, Matrix]] = {}
-        order = [name for name in self.placed if name != GROUND]
-        for name in reversed(order):  # a body with all that is rigid with it, in its axes
-            body, p = model.mechanism.body(name), self.placed[name]
-            assert isinstance(body, SpatialBody), "bodies in space"
-            m = model.expression(body.mass)
-            h = v.scale(m, p.centre)
-            j = v.second(m, p.centre)
-            if body.inertia is not None:
-                xx, yy, zz, xy, xz, yz = (model.expression(e) for e in body.inertia)
-                j = v.plus(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), j)
-            for child in p.children:
-                c = self.placed[child]
-                if _welded(c):
-                    more, first, second = self._carried_inertia(c, *lumped[child])
-                    m, h, j = g.add(m, more), v.add(h, first), v.plus(j, second)
-            lumped[name] = m, h, j
-        pushes, torques = dict[str, Triple](), dict[str, Triple]()
-        for name in reversed(order):
-            body, p = model.mechanism.body(name), self.placed[name]
-            m, h, j = lumped[name]
-            first = model.first[name]
-            push = v.neg(v.back(p.axes, v.triple(forces[first : first + 3])))
-            torque = v.zero if body.is_point else v.neg(v.triple(forces[first + 3 : first + 6]))
-            if not _welded(p):  # else its inertia is part of that of what carries it
-                w, a = p.omega, p.bias
-                push = v.add(push, v.scale(m, a), v.cross(p.alpha, h), v.cross(w, v.cross(w, h)))
-                torque = v.add(torque, v.times(j, p.alpha), v.cross(w, v.times(j, w)), v.cross(h, a))
-            for child in p.children:
-                c = self.placed[child]
-                if not _welded(c):
-                    more, moment, second = self._carried_inertia(c, masses[child], firsts[child], seconds[child])
-                    m, h, j = g.add(m, more), v.add(h, moment), v.plus(j, second)
-                passed = v.times(c.turn, pushes[child])
-                push = v.add(push, passed)
-                torque = v.add(torque, v.cross(c.arm, passed))
-                if not c.own:
-                    torque = v.add(torque, v.times(c.turn, torques[child]))
-                if _welded(c):  # what hangs on it
-                    hanging = masses[child], firsts[child], seconds[child]
-                    rigid = lumped[child]
-                    more = g.sub(hanging[0], rigid[0])
-                    moment, second = v.sub(hanging[1], rigid[1]), self._less(hanging[2], rigid[2])
-                    more, moment, second = self._carried_inertia(c, more, moment, second)
-                    m, h, j = g.add(m, more), v.add(h, moment), v.plus(j, second)
-            masses[name], firsts[name], seconds[name] = m, h, j
-            pushes[name], torques[name] = push, torque
-        entries: dict[tuple[int, int], int] = {}
-        f = [forces[model.size + i] for i in range(self.size)]
-        for name in order:
-            p = self.placed[name]
-            for i, motion in p.motions.items():
-                f[i] = g.sub(f[i], g.add(v.dot(motion.about, torques[name]), v.dot(motion.along, pushes[name])))
-                momentum = v.add(v.cross(motion.about, firsts[name]), v.scale(masses[name], motion.along))
-                angular = v.add(v.times(seconds[name], motion.about), v.cross(firsts[name], motion.along))
-                at = p
-                while True:
-                    for k, other in at.motions.items():
-                        if at is p and k < i:
-                            continue
-                        node = g.add(v.dot(other.about, angular), v.dot(other.along, momentum))
-                        entries[i, k] = entries[k, i] = node
-                    if at.link.parent == GROUND:
-                        break
-                    momentum = v.times(at.turn, momentum)
-                    lever = v.cross(at.arm, momentum)
-                    angular = lever if at.own else v.add(v.times(at.turn, angular), lever)
-                    at = self.placed[at.link.parent]
-        return blocks_of(entries, self.size, g.zero), f
-
-    def _carried_inertia(self, c: _Placed, m: int, h: Triple, j: Matrix) -> tuple[int, Triple, Matrix]:
-        """Return mass, first and second moment of what hangs on a body about the point of what carries it."""
-        v = self.v
-        shift = v.scale(m, c.arm)
-        if c.own:
-            return m, shift, v.shifted(shift, c.arm)
-        turned = v.times(c.turn, h)
-        double = v.add(shift, turned, turned)
-        return m, v.add(shift, turned), v.plus(v.turned(c.turn, j), v.shifted(double, c.arm))
-
-    def _less(self, a: Matrix, b: Matrix) -> Matrix:
-        x, y, z = (self.v.sub(p, q) for p, q in zip(a, b, strict=True))
-        return x, y, z
-
-
-def _welded(p: _Placed) -> bool:
-    """Whether a body is rigid with what carries it."""
-    return not p.motions and not p.own and p.link.parent != GROUND
+        found = Composite(self.model, self.placed, forces)
+        return found.mass(self.size), found.force(self.size)
 
 
 def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:
     return v.triple(nodes[:3]), v.triple(nodes[3:6]), v.triple(nodes[6:])
-
-
-# -- Euler parameters --------------------------------------------------------------------------------------------------
-
-
-def _half(g, angle: int, axis: int) -> list[int]:  # type: ignore[no-untyped-def]
-    half = g.mul(g.constant(0.5), angle)
-    found = [g.call("cos", half), g.zero, g.zero, g.zero]
-    found[axis] = g.call("sin", half)
-    return found
-
-
-def _inverse(g, e):  # type: ignore[no-untyped-def]
-    return [e[0], *(g.neg(x) for x in e[1:])]
-
-
-def _quaternion_product(g, p, q):  # type: ignore[no-untyped-def]
-    a, b, c, d = p
-    w, x, y, z = q
-    return [
-        g.sub(g.mul(a, w), g.dot((b, c, d), (x, y, z))),
-        g.add(g.add(g.mul(a, x), g.mul(b, w)), g.sub(g.mul(c, z), g.mul(d, y))),
-        g.add(g.add(g.mul(a, y), g.mul(c, w)), g.sub(g.mul(d, x), g.mul(b, z))),
-        g.add(g.add(g.mul(a, z), g.mul(d, w)), g.sub(g.mul(b, y), g.mul(c, x))),
-    ]
-
-
-def _euler_of(g, m):  # type: ignore[no-untyped-def]
-    """Return the Euler parameters of a constant rotation; its entries are literals."""
-    r = [[g.value(n) for n in row] for row in m]
-    trace = r[0][0] + r[1][1] + r[2][2]
-    squares = [1.0 + trace, *(1.0 - trace + 2.0 * r[i][i] for i in range(3))]
-    k = max(range(4), key=squares.__getitem__)
-    e = [0.0] * 4
-    e[k] = 0.5 * math.sqrt(squares[k])
-    if k == 0:
-        for i in range(3):
-            e[1 + i] = (r[(i + 2) % 3][(i + 1) % 3] - r[(i + 1) % 3][(i + 2) % 3]) / (4.0 * e[0])
-    else:
-        i = k - 1
-        a, b = (i + 1) % 3, (i + 2) % 3
-        e[0] = (r[b][a] - r[a][b]) / (4.0 * e[k])
-        e[1 + a] = (r[a][i] + r[i][a]) / (4.0 * e[k])
-        e[1 + b] = (r[b][i] + r[i][b]) / (4.0 * e[k])
-    return [g.constant(x) for x in e]

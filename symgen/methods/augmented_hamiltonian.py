@@ -18,9 +18,10 @@ class AugmentedHamiltonian(Method):
 
     ``(M + a D^T D) dv = p - M v - D^T (sigma + a (D v - nu))``, ``sigma += a (D v - nu)`` until v changes no more, so
     that the velocity constraint holds in every evaluation and only one derivative of the constraints is needed. The
-    state holds u = M^-1 p in place of v, whose rate has a part ``M^-1 (dM/dt) (v - u)`` where M changes. sigma is the impulse of the constraint forces; it starts from 0 at every step,
-    where p becomes M v again (a change of gauge), so methods with memory over steps cannot use it. Readings differ:
-    Bayo and Avello let sigma grow and add penalties in Phi, which this gauge makes superfluous.
+    state holds u = M^-1 p in place of v, whose rate has a part ``M^-1 (dM/dt) (v - u)`` where M changes. sigma is the
+    impulse of the constraint forces; it starts from 0 at every step, where p becomes M v again (a change of gauge), so
+    methods with memory over steps cannot use it. Readings differ: Bayo and Avello let sigma grow and add penalties in
+    Phi, which this gauge makes superfluous.
     """
 
     name = "augmented-hamiltonian"

@@ -1,8 +1,8 @@
 """The start of a run in joint coordinates from positions that are closed already: scales, and rows without a say.
 
 Rows of loops may vanish as a whole there, for ever (a hinge beside another on one axis) or at a dead centre. What the
-one start of `symgen.runtime.starting` takes for the smallest row is rounding then, so lengths are compared with those of
-the mechanism here.
+one start of `symgen.runtime.starting` takes for the smallest row is rounding then, so lengths are compared with those
+of the mechanism here.
 """
 
 from __future__ import annotations
