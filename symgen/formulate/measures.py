@@ -175,7 +175,7 @@ class Model(Formulas):
         return found
 
     def _coordinate(self, m: Measure) -> Derived | None:
-        """Return a measure that is a coordinate of the state; its rate is one of the velocities behind those of bodies."""
+        """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
         if self.tree is None or m not in self.tree.known:
             return None
         g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]

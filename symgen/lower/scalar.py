@@ -452,7 +452,7 @@ class Scalars(Replay):
         return pivot == diagonal and self.equations.rows[row].size is None
 
     def _usual(self, row: int, diagonal: int) -> int:
-        """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before it vanished."""
+        """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before."""
         g, found = self.graph, self.equations.rows[row]
         if found.size is None:
             return diagonal
