@@ -50,6 +50,10 @@ class _Placed:
         Velocity of the state -> derivative of `velocity` by it.
     slides : mapping of int to pair
         Those of the body's own displacements, with their directions.
+    sliding : pair of int
+        The velocity of the arm by these.
+    centre : pair of int
+        The centre of mass from the joint's point, in the body's frame.
     """
 
     link: Link
@@ -65,6 +69,7 @@ class _Placed:
     local: Pair | None
     columns: dict[int, Pair]
     slides: dict[int, Pair] = field(default_factory=dict)
+    sliding: Pair = (0, 0)
     centre: Pair = (0, 0)
 
 
@@ -82,7 +87,8 @@ class PlanarTree:
         ground = Link(GROUND)
         self.placed = {
             GROUND: _Placed(
-                ground, nothing, nothing, nothing, still, -1, g.zero, g.zero, g.zero, nothing, nothing, {}, {}, nothing
+                *(ground, nothing, nothing, nothing, still, -1, g.zero, g.zero, g.zero, nothing, nothing, {}, {}),
+                *(nothing, nothing),
             )
         }
         self.size = 0
@@ -177,6 +183,7 @@ class PlanarTree:
             None if slides else local,
             columns,
             slides,
+            sliding,
             self._centre(body, own.point),
         )
 
@@ -194,7 +201,8 @@ class PlanarTree:
             turned, spin = g.input("q", group), g.input("v", group)
             axes = (g.call("cos", turned), g.call("sin", turned))
         self.placed[link.body] = _Placed(
-            link, at, velocity, nothing, axes, group, g.zero, turned, spin, at, None, dict(slides), slides, nothing
+            *(link, at, velocity, nothing, axes, group, g.zero, turned, spin, at, None, dict(slides), slides),
+            *(nothing, nothing),
         )
 
     def _centre(self, body: Body, reference: Vec) -> Pair:
@@ -267,13 +275,10 @@ class PlanarTree:
             second = g.mul(m, g.dot(p.centre, p.centre))
             if body.inertia is not None:
                 second = g.add(model.expression(body.inertia), second)
-            moment = self._rotated(p.axes, fixed)
-            first = model.first[name]
-            w = p.spin
-            push = self._less((forces[first], forces[first + 1]), self._scaled(m, p.bias))
-            push = self._sum(push, self._scaled(g.mul(w, w), moment))
-            turn = g.zero if body.is_point else g.sub(forces[first + 2], self._cross(moment, p.bias))
-            total, moving = m, (g.zero, g.zero)
+            first, w = model.first[name], p.spin
+            push: Pair = (forces[first], forces[first + 1])
+            turn = g.zero if body.is_point else forces[first + 2]
+            total, moving, shared = m, (g.zero, g.zero), (g.zero, g.zero)
             for child in self.children[name]:
                 c, heavy = self.placed[child], masses[child]
                 total = g.add(total, heavy)
@@ -285,14 +290,25 @@ class PlanarTree:
                     second = g.add(second, g.mul(heavy, g.dot(c.arm, c.arm)))
                 push = self._sum(push, pushes[child])
                 turn = g.add(turn, self._cross(c.arm, pushes[child]))
+                turning = g.mul(g.constant(2.0), g.mul(w, heavy))
+                lag = self._scaled(turning, self._perp(c.sliding))
+                push = self._less(push, lag)
+                turn = g.sub(turn, self._cross(c.arm, lag))
                 if c.group == p.group:
-                    moving = self._sum(moving, moments[child])
+                    shared = self._sum(shared, moments[child])
                     both = g.mul(g.constant(2.0), g.dot(c.arm, moments[child]))
                     second = g.add(second, g.add(seconds[child], both))
-                    turn = g.add(turn, turns[child])
+                    swing = self._scaled(g.mul(w, w), c.arm)
+                    swing = self._less(swing, self._scaled(g.mul(g.constant(2.0), w), self._perp(c.sliding)))
+                    turn = g.add(turn, g.add(turns[child], self._cross(moments[child], swing)))
+            own = self._sum(self._rotated(p.axes, fixed), moving)
             masses[name], seconds[name] = total, second
-            moments[name] = self._sum(self._rotated(p.axes, fixed), moving)
-            pushes[name], turns[name] = push, turn
+            moments[name] = self._sum(own, shared)
+            pushes[name], turns[name] = self._sum(push, self._scaled(g.mul(w, w), own)), turn
+        for name in pushes:  # the accelerations of the points themselves
+            p = self.placed[name]
+            turns[name] = g.sub(turns[name], self._cross(moments[name], p.bias))
+            pushes[name] = self._less(pushes[name], self._scaled(masses[name], p.bias))
         entries: dict[tuple[int, int], int] = {}
         own = [forces[model.size + i] for i in range(self.size)]
         f = [g.zero] * self.size

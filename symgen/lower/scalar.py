@@ -119,6 +119,10 @@ class Scalars(Replay):
         return tuple(g.total(g.mul(e, x[j]) for j, e in row) for row in matrix)
 
     def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+        solved = self.operations[operation.operands[1]]
+        if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
+            half = self._half(solved.operands[0])
+            return tuple(self.graph.dot(scaled, half) for scaled in self._halves(self.rows)[1])
         return self.product(matrix, x)
 
     def _on_transposed(self, operation: Operation, matrix: Rows, y: Nodes) -> Nodes:
@@ -256,20 +260,50 @@ class Scalars(Replay):
                 found[j] = dict.fromkeys(block.columns, 0)
         return found
 
-    def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
-        """Return D M^-1 D^T as nodes."""
-        if not self.mass_entries:
-            return self.gram(matrix, self.inverse_mass)
-        g, factor, halves = self.graph, self.mass_factor, list[list[int]]()
+    def _forward(self, x: Sequence[int]) -> list[int]:
+        """Return L^-1 x of M = L d L^T."""
+        g, found = self.graph, list(x)
+        for k in self.mass_factor.order:
+            for i, entry in self.mass_factor.lower[k]:
+                found[i] = g.sub(found[i], g.mul(entry, found[k]))
+        return found
+
+    def _back(self, half: Sequence[int]) -> Nodes:
+        """Return L^-T d^-1 x."""
+        g, x, factor = self.graph, list(half), self.mass_factor
+        for k in reversed(factor.order):
+            x[k] = g.mul(x[k], factor.reciprocal[k])
+            for i, entry in factor.lower[k]:
+                x[k] = g.sub(x[k], g.mul(entry, x[i]))
+        return tuple(x)
+
+    def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
+        """Return L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
+        g, found = self.graph, list[list[int]]()
         for row in matrix:
             x = [g.zero] * self.equations.nv
             for j, node in row:
                 x[j] = node
-            for k in factor.order:  # L^-1 D^T
-                for i, entry in factor.lower[k]:
-                    x[i] = g.sub(x[i], g.mul(entry, x[k]))
-            halves.append(x)
-        scaled = [[g.mul(factor.reciprocal[k], x) for k, x in enumerate(half)] for half in halves]
+            found.append(self._forward(x))
+        reciprocal = self.mass_factor.reciprocal
+        return found, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in found]
+
+    def _half(self, index: int) -> list[int]:
+        """Return L^-1 of a value of the tape; of sums and of D^T y from what is known of their parts."""
+        g, operation = self.graph, self.operations[index]
+        parts = operation.operands
+        if operation.kind in ("add", "sub") and operation.size == "nv":
+            return [getattr(g, operation.kind)(a, b) for a, b in zip(*map(self._half, parts), strict=True)]
+        if operation.kind == "transposed" and self.values[parts[0]] is self.rows:
+            y, (halves, _) = self.values[parts[1]], self._halves(self.rows)
+            return [g.dot([half[k] for half in halves], y) for k in range(self.equations.nv)]
+        return self._forward(self.values[index])
+
+    def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
+        """Return D M^-1 D^T as nodes."""
+        if not self.mass_entries:
+            return self.gram(matrix, self.inverse_mass)
+        g, (halves, scaled) = self.graph, self._halves(matrix)
         result: dict[tuple[int, int], int] = {}
         for i, near in enumerate(self.neighbours(matrix, self.coupled)):
             for j in (i, *(n for n in sorted(near) if n > i)):
@@ -302,7 +336,7 @@ class Scalars(Replay):
     def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
         g = self.graph
         if self.mass_entries:
-            return tuple(self.mass_factor.solve(g, x))
+            return self._back(self._half(operation.operands[0]))
         result = [g.zero] * len(x)
         for block in self.equations.mass:
             if len(block.columns) == 1:
