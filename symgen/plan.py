@@ -124,7 +124,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         },
     )
     free = "solver" in choice.options and not _asked(s, "solver")
-    if any(body.massless for body in mechanism.bodies):
+    massless = any(body.massless for body in mechanism.bodies)
+    if massless:
         if method.needs_regular_mass(choice.options):
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
@@ -136,7 +137,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
     choice = replace(choice, shape=shape.shape)
     coordinates = choose_coordinates(mechanism, s.coordinates, shape.shape)
-    if coordinates.coordinates == "joint" and "weight" in choice.options and not _asked(s, "weight"):
+    if coordinates.coordinates == "joint" and "weight" in choice.options and not massless and not _asked(s, "weight"):
+        # the identity in angles and displacements of joints depends on which joints carry
         choice = replace(choice, options={**choice.options, "weight": "mass"})
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
     return Plan(

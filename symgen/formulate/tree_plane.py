@@ -301,10 +301,10 @@ class PlanarTree:
                     swing = self._scaled(g.mul(w, w), c.arm)
                     swing = self._less(swing, self._scaled(g.mul(g.constant(2.0), w), self._perp(c.sliding)))
                     turn = g.add(turn, g.add(turns[child], self._cross(moments[child], swing)))
-            own = self._sum(self._rotated(p.axes, fixed), moving)
+            turned = self._sum(self._rotated(p.axes, fixed), moving)
             masses[name], seconds[name] = total, second
-            moments[name] = self._sum(own, shared)
-            pushes[name], turns[name] = self._sum(push, self._scaled(g.mul(w, w), own)), turn
+            moments[name] = self._sum(turned, shared)
+            pushes[name], turns[name] = self._sum(push, self._scaled(g.mul(w, w), turned)), turn
         for name in pushes:  # the accelerations of the points themselves
             p = self.placed[name]
             turns[name] = g.sub(turns[name], self._cross(moments[name], p.bias))
