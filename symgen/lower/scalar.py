@@ -594,7 +594,10 @@ class Scalars(Replay):
             smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
         shortest = g.one
         for i, row in enumerate(self.equations.rows):
-            if row.unit == "rad" and g.value(rank.diagonal[i]) is None:
+            if row.size is not None:  # the row over the velocities of bodies, whatever loops make of it
+                if row.unit == "rad" and g.value(row.size) is None:
+                    shortest = g.call("min", shortest, row.size)
+            elif row.unit == "rad" and g.value(rank.diagonal[i]) is None:
                 shortest = g.call("min", shortest, g.mul(rank.diagonal[i], g.input("row_weight", i)))
         outputs += [to_status("rank", kept), to_status("smallest_pivot", smallest), to_status("shortest_row", shortest)]
         return outputs
