@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.arguments import shown
-from symgen.compiling.choose_coordinates import choose_coordinates
+from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
@@ -56,7 +56,9 @@ class Plan:
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
         """What a compiled model and its start depend on: module, shape and parameters of the method."""
-        return f"{self.choice.stem} {self.choice.shape}", tuple(sorted(self.method_parameters.items()))
+        return f"{self.choice.stem} {self.choice.shape} {self.coordinates}", tuple(
+            sorted(self.method_parameters.items())
+        )
 
 
 def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
@@ -137,9 +139,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
     choice = replace(choice, shape=shape.shape)
     coordinates = choose_coordinates(mechanism, s.coordinates, shape.shape)
-    if coordinates.coordinates == "joint" and "weight" in choice.options and not massless and not _asked(s, "weight"):
-        # the identity in angles and displacements of joints depends on which joints carry
-        choice = replace(choice, options={**choice.options, "weight": "mass"})
+    if coordinates.coordinates == "joint" and not massless and not _asked(s, "weight"):
+        choice = weighed_by_mass(choice)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
     return Plan(
         choice,

@@ -6,13 +6,14 @@ only, so where loops are better the coordinates are those of bodies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from symgen.describe.topology import spanning_tree, state_names
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
 
 
@@ -30,6 +31,16 @@ class CoordinateChoice:
 
     coordinates: str
     reason: str
+
+
+def weighed_by_mass(choice: MethodChoice) -> MethodChoice:
+    """Return a method with corrections in the metric of the masses, where it leaves the choice.
+
+    The identity in the angles and displacements of joints depends on which joints carry, that of the masses does not.
+    """
+    if "weight" not in choice.options:
+        return choice
+    return replace(choice, options={**choice.options, "weight": "mass"})
 
 
 def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:
@@ -53,10 +64,11 @@ def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> Coordina
         return CoordinateChoice("absolute", "it was asked for")
     if asked == "joint":
         if shape == "looped":
-            raise InputError("coordinates", "absolute ones for looped code: loops have no joint coordinates", "joint")
+            expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"
+            raise InputError("coordinates", expected, "joint")
         return CoordinateChoice("joint", "it was asked for")
     if shape == "looped":
-        return CoordinateChoice("absolute", "loops have no joint coordinates")
+        return CoordinateChoice("absolute", "loops, lanes and CUDA have no joint coordinates")
     topology = spanning_tree(mechanism)
     own = sum(len(body.speeds) for body in mechanism.bodies)
     rows = sum(len(joint.rows) for joint in mechanism.joints)

@@ -146,7 +146,7 @@ def test_going_on():
 
 def test_refusals():
     model = symgen.load("four-bar")
-    with pytest.raises(InputError, match="loops have no joint coordinates"):
+    with pytest.raises(InputError, match="loops, lanes and CUDA have no joint coordinates"):
         model.simulate(coordinates="joint", shape="looped")
     with pytest.raises(InputError, match="absolute, joint, auto"):
         model.simulate(coordinates="relative")
