@@ -22,6 +22,7 @@ from symgen.run_setup import give_inputs, ready, start_of, watching
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, default
+from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -213,18 +214,27 @@ class Model:
         before = seconds_in_cache()
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)
-        compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
-        plan = watching(mechanism, plan, compiled, chosen.parameters)
+        tree = None
+        if plan.coordinates == "joint":
+            tree = tree_run(mechanism, plan, chosen.parameters, chosen.strict)
+            compiled, start = tree.compiled, tree.start
+        else:
+            compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
+        plan = watching(mechanism if tree is None else tree.mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
         outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         second = None
         if reasons or asked.verify:  # something was chosen automatically, or the error is asked for
             free = bool(reasons) and asked.rtol is None and asked.atol is None
-            second = settle(mechanism, chosen.parameters, plan, compiled, outcome, free)
+            positions = None if tree is None else tree.positions
+            second = settle(mechanism, chosen.parameters, plan, compiled, outcome, free, positions)
             plan, outcome = second.plan, second.outcome
         # assembly calls emitted functions too: compiling them belongs to the run
         outcome = replace(outcome, compile_seconds=seconds_in_cache() - before)
-        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told)
+        if tree is not None:
+            compiled, outcome = tree.bodies, tree.carried(outcome)
+        state = None if tree is None else tree.compiled
+        return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told, state)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.
@@ -260,7 +270,9 @@ class Model:
         given = give_inputs(self.mechanism, asked)
         mechanism = given.mechanism
         chosen, reasons = resolve(mechanism, given.settings)
-        plan = make_plan(mechanism, replace(chosen, times=()))
+        if chosen.coordinates == "joint":
+            raise InputError("start: coordinates", "absolute ones, as a run is taken step by step", "joint ones")
+        plan = make_plan(mechanism, replace(chosen, times=(), coordinates="absolute"))
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.arguments import shown
+from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
@@ -49,11 +50,15 @@ class Plan:
     holds: tuple[Hold, ...] = ()
     last: LastState | None = None  # what the run goes on from
     events: tuple[Event, ...] = ()
+    coordinates: str = "absolute"
+    coordinates_reason: str = ""
 
     @property
     def key(self) -> tuple[str, tuple[tuple[str, float], ...]]:
         """What a compiled model and its start depend on: module, shape and parameters of the method."""
-        return f"{self.choice.stem} {self.choice.shape}", tuple(sorted(self.method_parameters.items()))
+        return f"{self.choice.stem} {self.choice.shape} {self.coordinates}", tuple(
+            sorted(self.method_parameters.items())
+        )
 
 
 def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
@@ -120,17 +125,22 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
             q.name: float(integrator_options[q.name]) for q in tableau.parameters if q.name in integrator_options
         },
     )
-    asked = any(key.partition(".")[2] == "solver" for key in s.options)
-    free = "solver" in choice.options and not asked
-    if any(body.massless for body in mechanism.bodies):
+    free = "solver" in choice.options and not _asked(s, "solver")
+    massless = any(body.massless for body in mechanism.bodies)
+    if massless:
         if method.needs_regular_mass(choice.options):
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
-    shape = choose_shape(
-        mechanism, choice, _shape(s, last), expected_evaluations(tableau, until - begin, step, adaptive)
-    )
+    asked_shape = _shape(s, last)
+    if s.coordinates == "joint":
+        choose_coordinates(mechanism, s.coordinates, asked_shape)
+        asked_shape = "straight"
+    shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
     choice = replace(choice, shape=shape.shape)
+    coordinates = choose_coordinates(mechanism, s.coordinates, shape.shape)
+    if coordinates.coordinates == "joint" and not massless and not _asked(s, "weight"):
+        choice = weighed_by_mass(choice)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
     return Plan(
         choice,
@@ -143,7 +153,14 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         holds,
         last,
         events_asked(mechanism, s),
+        coordinates.coordinates,
+        coordinates.reason,
     )
+
+
+def _asked(s: Settings, option: str) -> bool:
+    """Whether settings give an option of the method."""
+    return any(key.partition(".")[2] == option for key in s.options)
 
 
 def _check_same(mechanism: Mechanism, last: LastState) -> None:

@@ -14,6 +14,7 @@ from symgen import arguments
 from symgen.errors import InputError, nearest
 
 SHAPES = ("auto", "straight", "looped")
+COORDINATES = ("absolute", "joint", "auto")
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,10 @@ def _repeat(where: str, value: object) -> int:
 
 def _shape(where: str, value: object) -> str:
     return arguments.one_of(where, value, SHAPES)
+
+
+def _coordinates(where: str, value: object) -> str:
+    return arguments.one_of(where, value, COORDINATES)
 
 
 def _conditions(where: str, value: object) -> tuple[str, ...]:
@@ -203,6 +208,12 @@ class Settings:
     )
     repeat: int = _setting(1, "Warm up and time that many runs.", int, _repeat, metavar="N")
     shape: str = _setting("auto", "Shape of the code: auto, straight or looped.", str, _shape)
+    coordinates: str = _setting(
+        "absolute",
+        "Coordinates of the state: absolute (of bodies), joint (of the joints of a tree) or auto.",
+        str,
+        _coordinates,
+    )
 
     def __post_init__(self) -> None:
         for f in fields(self):

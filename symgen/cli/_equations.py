@@ -8,6 +8,11 @@ from typing import Any
 WIDEST = 150
 
 
+def _cut(facts: dict[str, Any]) -> str:
+    """Return the joints that close loops, in words."""
+    return ", ".join(facts["topology"]["cut"]) or "no joint: the mechanism is a tree"
+
+
 def as_text(facts: dict[str, Any]) -> str:
     """Return what ``symgen inspect`` shows as text."""
     sizes, lines = facts["sizes"], list[str]()
@@ -24,6 +29,11 @@ def as_text(facts: dict[str, Any]) -> str:
     shape = facts["shape"]
     kernels = ", ".join(f"{count} {name}" for name, count in shape["kernels"].items())
     lines.append(f"shape: {shape['shape']}, as {shape['reason']}; as loops it has the kernels {kernels}")
+    if "tree" in facts:
+        lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {_cut(facts)}")
+        lines += [
+            f"  {x['body']} " + (f"on {x['on']} by {x['joint']}" if x["joint"] else "free") for x in facts["tree"]
+        ]
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         lines.append(f"rows {label}: {', '.join(rows) or 'none'}")
     section("Coordinates q and velocities v")

@@ -96,7 +96,7 @@ def show_study(study: Study) -> None:
     for row in study.rows:
         error = "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else "")
         table.add_row(
-            row.method,
+            row.label,
             row.integrator,
             f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s",
             Text(row.status, style=COLOURS[row.status]),
@@ -118,4 +118,4 @@ def show_study(study: Study) -> None:
     for row in study.rows:
         steps = f"rtol {row.rtol:g}" if row.rtol is not None else f"step {row.step:g} s"
         for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *row.warnings):
-            out.print(f"{row.method}, {row.integrator}, {steps}: {sentence}", style="dim")
+            out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")

@@ -39,6 +39,11 @@ if TYPE_CHECKING:
     },
 )
 @click.option(
+    *("--coordinates", "states"),
+    metavar="A,B",
+    help="Coordinates of the state: absolute, joint, auto, or several; absolute unless given.",
+)
+@click.option(
     "--reference",
     "reference_by",
     metavar="HOW",
@@ -57,6 +62,7 @@ def command(
     integrators: str | None,
     steps: str | None,
     rtols: str | None,
+    states: str | None,
     reference_by: str,
     output: str | None,
     csv_file: str | None,
@@ -103,6 +109,7 @@ def command(
             jobs=jobs or cores(),
             journal=journal,
             reference_by=reference_by,
+            coordinates=words("--coordinates", states),
             **asked,
         )
     if as_json:

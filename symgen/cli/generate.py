@@ -18,7 +18,7 @@ from symgen.ir.program import PART, TARGETS
 @click.command("generate", short_help="Write the emitted code of a mechanism.")
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
-@setting_options("options", text={"options": "Such as direct-correction.weight=mass."})
+@setting_options("options", "coordinates", text={"options": "Such as direct-correction.weight=mass."})
 @click.option(
     "--shape",
     type=click.Choice(["straight", "looped"]),
@@ -39,6 +39,7 @@ def command(
     model: str,
     methods: tuple[str, ...],
     options: dict[str, str],
+    coordinates: str,
     shape: str,
     target: str,
     output: str | None,
@@ -48,10 +49,12 @@ def command(
 
     The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
     """
+    from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
     from symgen.compiling.pipeline import MethodChoice, choose_method, generate
     from symgen.describe.load import load
     from symgen.lower.looped.law import is_loopable
     from symgen.methods import METHODS
+    from symgen.tree_run import on_tree
 
     names = tuple(dict.fromkeys(METHODS.canonical(m, "--method") for m in methods)) or METHODS.names
     wanted: dict[str, dict[str, str]] = {name: {} for name in names}
@@ -62,6 +65,12 @@ def command(
         wanted[names[0] if owner == "method" else owner][name] = value
     choices: list[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     mechanism = load(model)
+    chosen = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped")
+    if chosen.coordinates == "joint":
+        mechanism = on_tree(mechanism)
+        massless = any(body.massless for body in mechanism.bodies)
+        given = {name for name, asked in wanted.items() if "weight" in asked}
+        choices = [c if c.method.name in given or massless else weighed_by_mass(c) for c in choices]
     folder = Path(mechanism.name if output is None else output)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")

@@ -9,9 +9,11 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import setting_options
+from symgen.describe.topology import state_names
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.describe.mechanism import Mechanism, Topology
     from symgen.formulate.display import Display
     from symgen.formulate.equations import Equations
 
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
 @setting_options(
-    *("options", "shape", "parameters"),
+    *("options", "shape", "coordinates", "parameters"),
     text={"options": "Of the method: weight=mass.", "parameters": "Value of a parameter, for the start."},
 )
 def command(
@@ -32,6 +34,7 @@ def command(
     method: str | None,
     options: dict[str, str],
     shape: str,
+    coordinates: str,
     parameters: dict[str, float],
 ) -> int:
     """Show what symgen derives for MODEL: exactly what is compiled.
@@ -41,7 +44,7 @@ def command(
     """
     given = {key.rpartition(".")[2]: value for key, value in options.items()}
     form = "json" if as_json else form
-    facts = describe(model, method, given, parameters, latex=form == "latex", shape=shape)
+    facts = describe(model, method, given, parameters, form == "latex", shape, coordinates)
     if form == "json":
         write_json(facts)
     else:
@@ -58,6 +61,7 @@ def describe(
     parameters: dict[str, float],
     latex: bool = False,
     shape: str = "auto",
+    coordinates: str = "absolute",
 ) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
@@ -66,19 +70,31 @@ def describe(
     from symgen.formulate.formulate import formulate
     from symgen.plan import make_plan
     from symgen.settings import Settings
+    from symgen.tree_run import tree_run
 
     choice = choose_method(method or "direct-correction", options)
     model = load(name)
-    asked = Settings(method=choice.method.name, options={f"method.{k}": v for k, v in options.items()}, shape=shape)
+    given = {f"method.{k}": v for k, v in options.items()}
+    asked = Settings(choice.method.name, options=given, shape=shape, coordinates=coordinates, parameters=parameters)
     plan = make_plan(model.mechanism, asked)
-    equations = formulate(model.mechanism)
+    choice = replace(choice, shape=plan.choice.shape)
+    of_tree: dict[str, Any] = {}
+    if plan.coordinates == "joint":
+        choice = replace(choice, options=plan.choice.options)
+        run = tree_run(model.mechanism, plan, asked.parameters)
+        mechanism, compiled, start = run.mechanism, run.compiled, run.start
+        of_tree = {"topology": _topology(run.topology, mechanism), "tree": _links(run.topology)}
+    else:
+        mechanism, compiled = model.mechanism, compile_model(model.mechanism, choice)
+        start = model.assemble(compiled, parameters)
+    equations = formulate(mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text
-    compiled = compile_model(model.mechanism, replace(choice, shape=plan.choice.shape))
-    start = model.assemble(compiled, parameters)
     values = model.parameters(parameters)
     facts: dict[str, Any] = {
         "mechanism": model.name,
+        "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
+        **of_tree,
         "title": model.mechanism.title,
         "sizes": _sizes(equations),
         "shape": {"shape": compiled.shape, "reason": plan.shape_reason, "kernels": _kernels(model)},
@@ -132,8 +148,24 @@ def describe(
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
     if method is not None:
-        facts["method"] = _method(model, equations, choice)
+        facts["method"] = _method(mechanism, equations, choice)
     return facts
+
+
+def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
+    """Return which joints carry bodies, which close loops, and which bodies are rigid with what carries them."""
+    moving = {name.partition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
+    return {
+        "tree": [link.joint for link in topology.links if link.joint],
+        "cut": list(topology.cut),
+        "merged": [link.body for link in topology.links if link.joint and not {link.joint, link.body} & moving],
+        "prescribed": [],
+    }
+
+
+def _links(topology: Topology) -> list[dict[str, str | None]]:
+    """Return for each body what carries it, and by which joint."""
+    return [{"body": x.body, "joint": x.joint or None, "on": x.parent if x.joint else None} for x in topology.links]
 
 
 def _kernels(model: Model) -> dict[str, int]:
@@ -184,13 +216,13 @@ def _operations(display: Display) -> dict[str, dict[str, int]]:
     return counts
 
 
-def _method(model: Model, equations: Equations, choice: Any) -> dict[str, Any]:
+def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str, Any]:
     """Return the functions emitted for a method with their operation counts."""
     from symgen.describe.digest import digest
     from symgen.lower.law import lower_law
     from symgen.lower.model import lower_model
 
-    program = lower_model(equations, digest(model.mechanism))
+    program = lower_model(equations, digest(mechanism))
     law = lower_law(equations, program, choice.method, choice.options)
     return {
         "name": choice.method.name,

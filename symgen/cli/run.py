@@ -28,7 +28,7 @@ FIRST_LOOP = 20.0
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),
     *("options", "stop_when", "record_when", "strict", "verify", "max_violation", "max_energy_error"),
-    *("max_steps", "repeat", "shape"),
+    *("max_steps", "repeat", "shape", "coordinates"),
 )
 @click.option(
     "--from",

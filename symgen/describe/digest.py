@@ -41,6 +41,8 @@ def canonical(mechanism: Mechanism) -> str:
         ["joints", [_text(joint) for joint in mechanism.joints]],
         ["forces", [_text(force) for force in mechanism.forces]],
     ]
+    if mechanism.topology is not None:
+        parts.append(["topology", _text(mechanism.topology)])
     return "\n".join(_text(part) for part in parts)
 
 

@@ -35,7 +35,8 @@ class Formulas:
                 self.names[f"{body.name}.{speed}"] = g.input("v", index)
                 index += 1
         self.size = index
-        self._centre = {b.name: b.centre_of_mass for b in self.mechanism.bodies}
+        #: Body -> the point that points of it are relative to: its centre of mass, unless a joint holds it elsewhere.
+        self.references = {b.name: b.centre_of_mass for b in self.mechanism.bodies}
 
     def expression(self, e: Expr, **placeholders: int) -> int:
         """Return the node of a formula of the file."""
@@ -53,10 +54,10 @@ class Formulas:
         raise KeyError(r.name)
 
     def local(self, marker: Marker) -> list[int]:
-        """Return the marker relative to the centre of mass (ground: to the origin)."""
+        """Return the marker relative to the body's point of reference (ground: to the origin)."""
         point = marker.point
         if marker.body != GROUND:
-            point = tuple(call("sub", p, c) for p, c in zip(point, self._centre[marker.body], strict=True))
+            point = tuple(call("sub", p, c) for p, c in zip(point, self.references[marker.body], strict=True))
         return [self.expression(e) for e in point]
 
     def direction(self, along: Direction) -> list[int]:

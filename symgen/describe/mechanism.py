@@ -11,7 +11,7 @@ from symgen.describe.orientation import IDENTITY, Orientation
 from symgen.errors import InputError, nearest
 from symgen.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
 from symgen.vocabulary.expressions import SMOOTH, ZERO, Expr
-from symgen.vocabulary.measures import Effort, Marker, Measure, Row
+from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
 
 #: Velocity -> what its rate is called.
 ACCELERATIONS = {
@@ -161,6 +161,60 @@ class SpatialBody(msgspec.Struct, frozen=True):
 AnyBody = Body | SpatialBody
 
 
+class Articulation(msgspec.Struct, frozen=True):
+    """How the bodies of a joint move against each other: what a joint is that can stand in a tree.
+
+    The second body's marker is the first body's, moved along `slides`, which are directions of the first body; the
+    second body's frame is the first body's, turned as `turn` says.
+
+    Parameters
+    ----------
+    a, b : Marker
+        A point of the first and of the second body.
+    turn : {"fixed", "axis", "cross", "ball"}
+        Not; by an angle, in the plane that of the second body itself, in space about the third direction of the frames;
+        about the third direction of the first frame and then about that of the second, which cross; in any way.
+    slides : tuple of Direction
+        Directions of free displacements.
+    of_a, of_b : tuple of Direction
+        In space, frames of three directions that coincide where the angle is 0; of a cross, its axes and first
+        directions.
+    angle : Expr
+        In the plane, where nothing turns: angle of the second body less that of the first [rad].
+    screw : tuple of Expr
+        Displacement along the axis per radian, and at angle 0, where the angle says it.
+    """
+
+    a: Marker
+    b: Marker
+    turn: str = "fixed"
+    slides: tuple[Direction, ...] = ()
+    of_a: tuple[Direction, ...] = ()
+    of_b: tuple[Direction, ...] = ()
+    angle: Expr = ZERO
+    screw: tuple[Expr, ...] = ()
+
+
+class Link(msgspec.Struct, frozen=True):
+    """How a body hangs in the tree: by a joint on another body, or by none, where it is free.
+
+    `forward` says whether the joint's first body is the one that carries.
+    """
+
+    body: str
+    joint: str = ""
+    parent: str = GROUND
+    forward: bool = True
+    articulation: Articulation | None = None
+
+
+class Topology(msgspec.Struct, frozen=True):
+    """A spanning tree of a mechanism: bodies in an order in which each stands behind what carries it."""
+
+    links: tuple[Link, ...]
+    cut: tuple[str, ...] = ()
+
+
 class Joint(msgspec.Struct, frozen=True):
     """A joint, driver or nonholonomic condition of any kind, resolved to rows on measures.
 
@@ -253,6 +307,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
     holds: tuple[Hold, ...] = ()
     events: tuple[Event, ...] = ()
+    topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
 
     @property
     def inputs(self) -> tuple[str, ...]:
@@ -271,3 +326,7 @@ class Mechanism(msgspec.Struct, frozen=True):
         if name not in known:
             raise InputError("body", f"a body of {self.name}", shown(name), nearest(str(name), known))
         return known[name]
+
+    def joint_named(self, name: str) -> Joint:
+        """Return the joint called `name`, which exists."""
+        return next(joint for joint in self.joints if joint.name == name)

@@ -179,6 +179,9 @@ def make_ensemble(
         raise InputError("repeat", "single runs", "an ensemble")
     if settings.shape == "looped":
         raise InputError("shape", "straight code for an ensemble", "looped")
+    if settings.coordinates == "joint":
+        raise InputError("coordinates", "absolute ones for an ensemble", "joint")
+    settings = replace(settings, coordinates="absolute")
     coordinates, velocities = _names(model)
     if len(coordinates) > LARGEST_STRAIGHT:
         found = f"{len(coordinates)} coordinates"

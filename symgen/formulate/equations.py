@@ -21,6 +21,8 @@ class ConstraintRow:
     """One constraint: ``D v = nu`` and ``D v' = gamma``; `phi` is None for a nonholonomic row.
 
     `entries` holds (velocity index, node) of the structurally nonzero entries of D, in increasing order of index.
+    Where joints of a tree carry the bodies, a row may vanish as a whole, at a dead centre for instance: `size` is what
+    its square is compared with then, the square of the row over the velocities of bodies; None for a row that cannot.
     """
 
     name: str
@@ -30,6 +32,7 @@ class ConstraintRow:
     entries: tuple[tuple[int, int], ...]
     nu: int
     gamma: int
+    size: int | None = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,8 @@ class Equations:
         For each body with Euler parameters where these begin in q, and where its angular velocity begins in v.
     inputs : tuple of str
         Parameters that may change during a run.
+    bodies : tuple of int
+        Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
     """
 
     name: str
@@ -115,6 +120,7 @@ class Equations:
     windings: tuple[int, ...] = ()
     spins: tuple[tuple[int, int], ...] = ()
     inputs: tuple[str, ...] = ()
+    bodies: tuple[int, ...] = ()
 
     @property
     def nq(self) -> int:

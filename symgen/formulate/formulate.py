@@ -6,14 +6,16 @@ system.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 import sympy as sp
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
+from symgen.describe.topology import state_names
 from symgen.errors import InputError
+from symgen.formulate.carried import carried_energies
 from symgen.formulate.efforts import as_symbols, exertion, translated
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
 from symgen.formulate.measures import Model
@@ -50,7 +52,11 @@ def formulate(mechanism: Mechanism) -> Equations:
         model = Model(mechanism)
     rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
-    mass, kinetic, gravity_potential = _inertia(model, forces)
+    if model.tree is None:
+        mass, kinetic, gravity_potential = _inertia(model, forces)
+    else:
+        kinetic, gravity_potential = carried_energies(model, forces)
+        mass, forces = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = quantities(mechanism)
     return Equations(
@@ -69,17 +75,35 @@ def formulate(mechanism: Mechanism) -> Equations:
         potential=model.graph.add(potential, gravity_potential),
         joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
-        spins=tuple(
-            (model.first_q[b.name] + 3, model.first[b.name] + 3)
-            for b in mechanism.bodies
-            if isinstance(b, SpatialBody) and not b.is_point
-        ),
+        spins=_spins(model),
         tables=tuple(t.interpolated for t in mechanism.tables),
         omissions=(
             *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
             *_omissions(mechanism),
         ),
         dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
+        bodies=_bodies(model),
+    )
+
+
+def _bodies(model: Model) -> tuple[int, ...]:
+    """Return what bodies do that joints of a tree carry: coordinates, velocities, accelerations."""
+    if model.tree is None:
+        return ()
+    bodies, rates = model.mechanism.bodies, model.tree.accelerations(model.state_rates)
+    names = [f"{b.name}.{c}" for b in bodies for c in b.coordinates]
+    speeds = [f"{b.name}.{c}" for b in bodies for c in b.speeds]
+    return (*(model.names[n] for n in (*names, *speeds)), *(rates[n] for n in speeds))
+
+
+def _spins(model: Model) -> tuple[tuple[int, int], ...]:
+    """Return where Euler parameters begin in q, and their angular velocities in v."""
+    if model.tree is not None:
+        return model.tree.spins
+    return tuple(
+        (model.first_q[b.name] + 3, model.first[b.name] + 3)
+        for b in model.mechanism.bodies
+        if isinstance(b, SpatialBody) and not b.is_point
     )
 
 
@@ -106,6 +130,10 @@ def _joint_coordinates(model: Model) -> list[JointCoordinate]:
 
 def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
     """Return names and units of q and v."""
+    if mechanism.topology is not None:
+        names = state_names(mechanism, mechanism.topology)
+        q, v = (tuple(Quantity(name, unit) for name, unit in part) for part in names)
+        return q, v
     q = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates)
     v = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds)
     return q, v
@@ -124,12 +152,28 @@ def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
     value, slope, curvature = _time_function(model, row.value)
     if isinstance(row, Holonomic):
         measure = model.measure(row.measure)
-        phi, nu, gamma = g.sub(measure.value, value), slope, g.sub(curvature, measure.bias)
+        phi, nu = g.sub(measure.value, value), slope
     else:
         measure = model.speed(row.speed)
-        phi, nu, gamma = None, value, g.sub(slope, measure.bias)
-    entries = tuple(sorted(measure.row.items()))
-    return ConstraintRow(f"{joint}.{row.label}", joint, row.unit, phi, entries, nu, gamma)
+        phi, nu, curvature = None, value, slope
+    entries, bias = model.pulled(measure.row, measure.bias)
+    gamma = g.sub(curvature, bias)
+    ordered = tuple(sorted(entries.items()))
+    return ConstraintRow(
+        f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row)
+    )
+
+
+def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
+    """Return the square of a row over the velocities of bodies: translations, or rotations where it is an angle."""
+    if model.tree is None or any(i >= model.size for i in entries):
+        return None
+    speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]
+    turning = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "rad/s"]
+    moving = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "m/s"]
+    if row.unit in ("rad", "rad/s"):
+        return None if moving else model.graph.dot(turning, turning)
+    return model.graph.dot(moving, moving) if moving else None
 
 
 def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:
@@ -151,7 +195,7 @@ def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:
 def _forces(model: Model) -> tuple[list[int], int, int]:
     """Return f without gravity, the power of its part without potential, and its potential."""
     g = model.graph
-    forces, power, potential = [g.zero] * model.size, g.zero, g.zero
+    forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
     for force in model.mechanism.forces:
         with _finite(f"forces.{force.name}"):
             for effort in force.efforts:

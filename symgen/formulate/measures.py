@@ -7,9 +7,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.describe.formulas import Formulas
+from symgen.formulate.carried import Carried
+from symgen.formulate.euler import matrix_of, turning
 from symgen.formulate.frames import FRAME_SLOTS
 from symgen.formulate.kernels import derive
 from symgen.formulate.spatial import SPATIAL_SLOTS
+from symgen.formulate.tree_plane import PlanarTree
+from symgen.formulate.tree_space import SpatialTree
 from symgen.ir.graph import Graph
 from symgen.vocabulary.expressions import Reading
 from symgen.vocabulary.measures import (
@@ -57,6 +61,11 @@ class Model(Formulas):
         self.time = self.names["t"]
         self.spatial = self.mechanism.space == "spatial"
         self.velocities = tuple(self.graph.input("v", i) for i in range(self.size))
+        self.tree: Carried | None = None
+        if self.mechanism.topology is not None:
+            tree: Carried = SpatialTree(self) if self.spatial else PlanarTree(self)
+            self.tree, self.velocities = tree, tree.velocities
+            self.names |= tree.names
         self._memo: dict[object, Derived] = {}
         self._frames: dict[str, list[int]] = {}
         #: Raw angles of measures that count turns, in the order of their slots in the section ``winding``.
@@ -70,7 +79,10 @@ class Model(Formulas):
     def frame_inputs(self, body: str) -> list[int]:
         """Return the nodes of a frame's slots."""
         if body not in self._frames:
-            self._frames[body] = self._spatial_inputs(body) if self.spatial else self._planar_inputs(body)
+            if self.tree is not None:
+                self._frames[body] = self.tree.frame(body)
+            else:
+                self._frames[body] = self._spatial_inputs(body) if self.spatial else self._planar_inputs(body)
         return self._frames[body]
 
     def _spatial_inputs(self, body: str) -> list[int]:
@@ -89,40 +101,20 @@ class Model(Formulas):
 
     def rotation_matrix(self, body: str) -> list[int]:
         """Return A row by row in homogeneous form: A' = A skew(omega) for Euler parameters of any length."""
-        g = self.graph
-        a, b, c, d = self.euler_parameters(body)
-
-        def twice(x: int, y: int) -> int:
-            return g.mul(g.constant(2.0), g.mul(x, y))
-
-        aa, bb, cc, dd = (g.mul(x, x) for x in (a, b, c, d))
-        plus, minus = g.add(aa, bb), g.sub(aa, bb)
-        sums, rest = g.add(cc, dd), g.sub(cc, dd)
-        bc, ad, bd, ac, cd, ab = (twice(*pair) for pair in ((b, c), (a, d), (b, d), (a, c), (c, d), (a, b)))
-        return [
-            *(g.sub(plus, sums), g.sub(bc, ad), g.add(bd, ac)),
-            *(g.add(bc, ad), g.add(minus, rest), g.sub(cd, ab)),
-            *(g.sub(bd, ac), g.add(cd, ab), g.sub(minus, rest)),
-        ]
+        return matrix_of(self.graph, self.euler_parameters(body))
 
     def q_rates(self) -> tuple[int, ...]:
         """Return q' = N v: in space e' = G^T omega / 2, which keeps the length of e."""
+        if self.tree is not None:
+            return self.tree.q_rates
         g, rates = self.graph, list[int]()
-        half = g.constant(0.5)
         for body in self.mechanism.bodies:
             j = self.first[body.name]
             if not self.spatial or body.is_point:
                 rates += self.velocities[j : j + len(body.speeds)]
                 continue
             rates += self.velocities[j : j + 3]
-            x, y, z = (g.mul(half, w) for w in self.velocities[j + 3 : j + 6])
-            a, b, c, d = self.euler_parameters(body.name)
-            rates += [
-                g.neg(g.dot((b, c, d), (x, y, z))),
-                g.add(g.mul(a, x), g.sub(g.mul(c, z), g.mul(d, y))),
-                g.add(g.mul(a, y), g.sub(g.mul(d, x), g.mul(b, z))),
-                g.add(g.mul(a, z), g.sub(g.mul(b, y), g.mul(c, x))),
-            ]
+            rates += turning(g, self.euler_parameters(body.name), self.velocities[j + 3 : j + 6])
         return tuple(rates)
 
     def _planar_inputs(self, body: str) -> list[int]:
@@ -148,9 +140,30 @@ class Model(Formulas):
 
     @property
     def accelerations(self) -> tuple[int, ...]:
+        """Nodes of the rates of the velocities of bodies, where the rate of the state is known."""
+        g, rates = self.graph, self.state_rates
+        if self.tree is None:
+            return rates
+        columns = (self.tree.column(i) for i in range(self.size + self.tree.size))
+        found = (g.total(g.mul(node, rates[j]) for j, node in sorted(column.items())) for column in columns)
+        return tuple(g.add(a, b) for a, b in zip(found, self.tree.biases, strict=True))
+
+    @property
+    def state_rates(self) -> tuple[int, ...]:
         """Nodes of v', where the rate of the state is known."""
-        nq = sum(len(body.coordinates) for body in self.mechanism.bodies)
-        return tuple(self.graph.input("ydot", nq + i) for i in range(self.size))
+        nq, nv = len(self.q_rates()), self.size if self.tree is None else self.tree.size
+        return tuple(self.graph.input("ydot", nq + i) for i in range(nv))
+
+    def pulled(self, row: Mapping[int, int], bias: int) -> tuple[dict[int, int], int]:
+        """Return a row over the velocities of the state, and its quadratic velocity term."""
+        if self.tree is None:
+            return dict(row), bias
+        g, found = self.graph, dict[int, int]()
+        for i, node in sorted(row.items()):
+            for j, entry in sorted(self.tree.column(i).items()):
+                found[j] = g.add(found.get(j, g.zero), g.mul(node, entry))
+            bias = g.add(bias, g.mul(node, self.tree.biases[i]))
+        return {j: node for j, node in found.items() if node != g.zero}, bias
 
     # -- measures ----------------------------------------------------------------------------------------------------
 
@@ -158,8 +171,16 @@ class Model(Formulas):
         """Return value, row and bias of a measure; equal measures are derived once."""
         found = self._memo.get(m)
         if found is None:
-            found = self._memo[m] = self._measure(m)
+            found = self._memo[m] = self._coordinate(m) or self._measure(m)
         return found
+
+    def _coordinate(self, m: Measure) -> Derived | None:
+        """Return a measure that is a coordinate of the state: its rate stands behind the velocities of bodies."""
+        if self.tree is None or m not in self.tree.known:
+            return None
+        g, (coordinate, velocity, sign) = self.graph, self.tree.known[m]
+        factor = g.constant(sign)
+        return Derived(g.mul(factor, g.input("q", coordinate)), {self.size + velocity: factor}, g.zero)
 
     def _measure(self, m: Measure) -> Derived:
         if isinstance(m, Sum):
@@ -262,7 +283,7 @@ class Model(Formulas):
         for body, sign in ((m.b, g.one), (m.a, g.constant(-1.0))):
             if body != GROUND:
                 i = self.first[body] + 2
-                value = g.add(value, g.mul(sign, g.input("q", i)))
+                value = g.add(value, g.mul(sign, self.names[f"{body}.theta"]))
                 row[i] = g.add(row.get(i, g.zero), sign)
         return Derived(value, {i: n for i, n in row.items() if n != g.zero}, g.zero)
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from symgen.describe.mechanism import Joint
 from symgen.describe.scope import Scope
 from symgen.describe.triads import Triad
-from symgen.vocabulary.expressions import call, number
+from symgen.vocabulary.expressions import Expr, Number, call, number
 from symgen.vocabulary.measures import GROUND, Component, Direction, Dot, Holonomic, Marker, Sum, Turn, axes
 
 _MINUS = number(-1.0)
@@ -58,3 +59,46 @@ def plane_of_ground(
 def angle(a: Triad, b: Triad) -> Turn:
     """Angle that the second body has turned about the axis, from the first body's first direction."""
     return Turn(a.first, a.second, b.first)
+
+
+# -- what the rows of a joint say of its bodies ------------------------------------------------------------------------
+
+
+def markers(joint: Joint) -> tuple[Marker, Marker]:
+    """Return the points that a joint holds together, or on a line or plane of each other."""
+    first = joint.rows[0]
+    assert isinstance(first, Holonomic) and isinstance(first.measure, Component), "the first row is of two points"
+    return first.measure.a, first.measure.b
+
+
+def third(pair: tuple[Direction, Direction]) -> Direction:
+    """Return the direction that makes a right-handed frame of two perpendicular ones."""
+    (ax, ay, az), (bx, by, bz) = (d.vector for d in pair)
+    products = ((ay, bz, az, by), (az, bx, ax, bz), (ax, by, ay, bx))
+    return Direction(pair[0].body, tuple(_determinant(*four) for four in products))
+
+
+def _determinant(a: Expr, b: Expr, c: Expr, d: Expr) -> Expr:
+    """Return a b - c d, as a number where all of them are numbers."""
+    if isinstance(a, Number) and isinstance(b, Number) and isinstance(c, Number) and isinstance(d, Number):
+        return number(a.value * b.value - c.value * d.value)
+    return call("sub", call("mul", a, b), call("mul", c, d))
+
+
+def frames(joint: Joint) -> tuple[tuple[Direction, ...], tuple[Direction, ...]]:
+    """Return the frames of a joint whose axes are parallel: `parallel`, with an angle or with `not_turned`."""
+    rows = {row.label: row.measure for row in joint.rows if isinstance(row, Holonomic)}
+    across, first = rows["first"], rows["second"]
+    assert isinstance(across, Sum) and isinstance(first, Dot), "parallel axes are two products of directions"
+    ((_, second),) = across.terms
+    if "angle" in rows:
+        held = rows["angle"]
+        assert isinstance(held, Dot), "an angle that is held is a product of directions"
+        of_b = held.v
+    else:
+        turn = next(m for _, m in joint.coordinates if isinstance(m, Turn))
+        of_b = turn.pointer
+    assert isinstance(second, Dot), "parallel axes are two products of directions"
+    of_a, axis = (first.u, second.u), first.v
+    # axis x first = second
+    return (*of_a, third(of_a)), (of_b, third((axis, of_b)), axis)

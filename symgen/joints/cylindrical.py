@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import angle, on_axis, parallel
+from symgen.joints._space import angle, frames, markers, on_axis, parallel
 from symgen.vocabulary.measures import Component
 
 
@@ -56,6 +56,12 @@ class Cylindrical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
                 ("angle", angle(triad_a, triad_b)),
             ),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        of_a, of_b = frames(joint)
+        return Articulation(*markers(joint), "axis", (of_a[2],), of_a, of_b)
 
 
 KIND = Cylindrical

@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import angle, coincident, parallel
+from symgen.joints._space import angle, coincident, frames, markers, parallel
 from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
 
 
@@ -76,6 +76,13 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             ),
             coordinates=(("angle", angle(triad_a, triad_b)),),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        if len(joint.rows) < 5:
+            return Articulation(*markers(joint), turn="axis")
+        return Articulation(*markers(joint), "axis", (), *frames(joint))
 
 
 KIND = Revolute

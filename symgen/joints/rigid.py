@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import coincident, not_turned, parallel
+from symgen.joints._space import coincident, frames, markers, not_turned, parallel
 from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
 
 
@@ -65,6 +65,13 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
                 Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad"),
             ),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        if len(joint.rows) < 6:
+            return Articulation(*markers(joint), angle=joint.rows[2].value)
+        return Articulation(*markers(joint), "fixed", (), *frames(joint))
 
 
 KIND = Rigid

@@ -8,9 +8,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import angle, on_axis, parallel
+from symgen.joints._space import angle, frames, markers, on_axis, parallel
 from symgen.vocabulary.expressions import ONE, call, number
 from symgen.vocabulary.measures import Component, Holonomic, Sum
 
@@ -64,6 +64,14 @@ class Screw(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
             rows=(*on_axis(point_a, point_b, triad_a), *parallel(triad_a, triad_b), thread),
             coordinates=(("displacement", displacement), ("angle", turn)),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        thread = joint.rows[-1]
+        assert isinstance(thread, Holonomic) and isinstance(thread.measure, Sum), "a thread ties two coordinates"
+        slope = call("neg", thread.measure.terms[1][0])
+        return Articulation(*markers(joint), "axis", (), *frames(joint), screw=(slope, thread.value))
 
 
 KIND = Screw

@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import BodyPair, PointPair
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import coincident
+from symgen.joints._space import coincident, markers
 
 
 class Spherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -37,6 +37,11 @@ class Spherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         a, b = scope.pair("between", self.between)
         rows = coincident(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
         return Joint(name=scope.name, kind=scope.kind, bodies=(a, b), rows=rows)
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        return Articulation(*markers(joint), "ball")
 
 
 KIND = Spherical

@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import not_turned, on_axis, parallel
+from symgen.joints._space import frames, markers, not_turned, on_axis, parallel
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
 
@@ -78,6 +78,16 @@ class Translational(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
             ),
             coordinates=(("displacement", Component(point_a, point_b, along)),),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        ((_, displacement),) = joint.coordinates
+        assert isinstance(displacement, Component), "a displacement is a component"
+        slides = (displacement.along,)
+        if len(joint.rows) < 5:
+            return Articulation(*markers(joint), "fixed", slides, angle=joint.rows[1].value)
+        return Articulation(*markers(joint), "fixed", slides, *frames(joint))
 
 
 KIND = Translational

@@ -7,9 +7,9 @@ from typing import ClassVar
 import msgspec
 
 from symgen.describe.fields import BodyPair, DirectionPair, PointPair
-from symgen.describe.mechanism import Joint
+from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
-from symgen.joints._space import coincident
+from symgen.joints._space import coincident, markers, third
 from symgen.vocabulary.expressions import number
 from symgen.vocabulary.measures import Dot, Holonomic, Sum, Turn
 
@@ -60,6 +60,16 @@ class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
                 ("angle2", Sum(((number(-1.0), Turn(of_b.first, of_b.second, of_a.axis)),))),
             ),
         )
+
+    @staticmethod
+    def articulate(joint: Joint) -> Articulation:
+        """Return how the second body moves against the first."""
+        turns = [m for _, m in joint.coordinates]
+        of_a = turns[0]
+        of_b = turns[1].terms[0][1] if isinstance(turns[1], Sum) else None
+        assert isinstance(of_a, Turn) and isinstance(of_b, Turn), "both coordinates are angles"
+        frame_a, frame_b = (of_a.zero, of_a.quarter), (of_b.zero, of_b.quarter)
+        return Articulation(*markers(joint), "cross", (), (*frame_a, third(frame_a)), (*frame_b, third(frame_b)))
 
 
 KIND = Universal

@@ -16,6 +16,8 @@ from symgen.methods._base import Method
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
+#: Functions that leave M in w for those that are called behind them.
+_KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
 #: Arguments of the functions of a law.
 _ARGUMENTS = {
     **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
@@ -89,8 +91,13 @@ def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
 
 
 def part_outputs(scalars: Scalars, part: Part) -> Outputs:
-    """Return what a function of a law writes."""
-    return [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    """Return what a function of a law writes; where M changes with the position, those without the state read it."""
+    if scalars.mass_entries and "y" not in _ARGUMENTS[part.name]:
+        scalars = scalars.with_stored_mass
+    found = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
+    if part.name in _KEEPS_MASS:
+        found += [(Target("mass_entry", k), node) for k, node in enumerate(scalars.mass_entries)]
+    return found
 
 
 def _outputs(scalars: Scalars, place: str, index: int) -> Outputs:

@@ -45,6 +45,8 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         "lower": len(scalars.kept["lower"]),
         "reciprocal": len(scalars.kept["reciprocal"]),
     }
+    if scalars.mass_entries:
+        sizes["mass_entry"] = len(scalars.mass_entries)
     for name, size in sizes.items():
         if name == "winding" and not size:
             continue
@@ -60,11 +62,15 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         hoister.block(
             "masses",
             "diagonal of M",
-            [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)],
+            _diagonal(scalars),
             ("p", "w"),
         ),
         *manifold_blocks(hoister, equations),
     ]
+    if equations.bodies:
+        outputs = [(Target("out", i), node) for i, node in enumerate(equations.bodies)]
+        purpose = "coordinates, velocities and accelerations of bodies"
+        blocks.append(hoister.block("bodies", purpose, outputs, ("t", "y", "p", "w", "ydot", "out")))
     blocks.insert(0, hoister.prepare())
     return ModelProgram(
         name=equations.name,
@@ -77,6 +83,16 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         fill=sum(len(c) for c in factor.lower.values()) - sum(i > j for i, j in scalars.gram(scalars.rows)),
         tables=equations.tables,
     )
+
+
+def _diagonal(scalars: Scalars) -> Outputs:
+    """Return the diagonal of M; where it changes with the position, that at coordinates of 0."""
+    equations, g = scalars.equations, scalars.graph
+    found = [(Target("mass", j), b.entries[k][k]) for b in equations.mass for k, j in enumerate(b.columns)]
+    if not scalars.mass_entries:
+        return found
+    origin = {("q", i): g.zero for i in range(equations.nq)} | {("q", i): g.one for i, _ in equations.spins}
+    return [(target, node) for (target, _), node in zip(found, g.replaced([n for _, n in found], origin), strict=True)]
 
 
 # -- blocks of the model ----------------------------------------------------------------------------------------------

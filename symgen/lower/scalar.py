@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 from symgen.formulate.equations import Equations, MassBlock
 from symgen.ir.derivative import jacobian
+from symgen.ir.graph import PARAMETER
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.program import STATUS, Entry, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
@@ -117,6 +119,10 @@ class Scalars(Replay):
         return tuple(g.total(g.mul(e, x[j]) for j, e in row) for row in matrix)
 
     def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+        solved = self.operations[operation.operands[1]]
+        if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
+            half = self._half(solved.operands[0])
+            return tuple(self.graph.dot(scaled, half) for scaled in self._halves(self.rows)[1])
         return self.product(matrix, x)
 
     def _on_transposed(self, operation: Operation, matrix: Rows, y: Nodes) -> Nodes:
@@ -174,12 +180,137 @@ class Scalars(Replay):
                 result[j] = g.add(result[j], g.mul(rate, factor))
         return tuple(result)
 
+    def _on_mass_rate(self, operation: Operation, x: Nodes, v: Nodes) -> Nodes:
+        g, e = self.graph, self.equations
+        result = [g.zero] * e.nv
+        if self.mass_entries:
+            rates = self._on_at_velocity(operation, e.q_rates, v)
+            slopes = jacobian(g, self.mass_entries, [("t", 0), *(("q", i) for i in range(e.nq))])
+            changes = {
+                entry: g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(found.items()))
+                for entry, found in zip(self.mass_entries, slopes, strict=True)
+            }
+            for (i, j), node in sorted(self.mass_matrix.items()):
+                if node in changes:
+                    result[i] = g.add(result[i], g.mul(changes[node], x[j]))
+        return tuple(result)
+
     def _on_at_velocity(self, operation: Operation, x: Nodes | int, v: Nodes) -> Any:
         vector = isinstance(x, tuple)
         found = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
         return tuple(found) if vector else found[0]
 
     # -- M -------------------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def mass_entries(self) -> tuple[int, ...]:
+        """Entries of M that change with the position, each once; none where bodies have coordinates of their own."""
+        g = self.graph
+        nodes = (n for block in self.equations.mass for row in block.entries for n in row)
+        return tuple(dict.fromkeys(n for n in nodes if g.depends[n] & ~PARAMETER))
+
+    @cached_property
+    def with_stored_mass(self) -> Scalars:
+        """The same tape with M as the section ``mass_entry`` holds it, for functions that are not given the state.
+
+        M is replaced before anything is made of it: products with it do not keep its entries together.
+        """
+        g, other = self.graph, copy(self)
+        places = {node: g.input("mass_entry", k) for k, node in enumerate(self.mass_entries)}
+        blocks = (
+            MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries))
+            for b in self.equations.mass
+        )
+        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
+            other.__dict__.pop(name, None)
+        other.equations = replace(self.equations, mass=tuple(blocks))
+        other.values, other.kept, other.flags = {}, {}, []
+        other.run(range(len(other.operations)))
+        return other
+
+    @cached_property
+    def mass_matrix(self) -> dict[tuple[int, int], int]:
+        """The entries of M that are not structurally zero."""
+        return {
+            (i, j): node
+            for block in self.equations.mass
+            for i, row in zip(block.columns, block.entries, strict=True)
+            for j, node in zip(block.columns, row, strict=True)
+            if node != self.graph.zero or i == j
+        }
+
+    @cached_property
+    def mass_factor(self) -> Factor:
+        """The factor of an M that changes, from the leaves of the tree inwards: nothing is filled in."""
+        near: list[set[int]] = [set() for _ in range(self.equations.nv)]
+        for i, j in self.mass_matrix:
+            if i != j:
+                near[i].add(j)
+        order, _ = minimum_degree([frozenset(n) for n in near])
+        return factorise(self.graph, self.mass_matrix, order, self._reciprocal)
+
+    @cached_property
+    def coupled(self) -> Sequence[Mapping[int, int]]:
+        """For each velocity those that M^-1 couples it with."""
+        if not self.mass_entries:
+            return self.inverse_mass
+        found: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
+        for block in self.equations.mass:
+            for j in block.columns:
+                found[j] = dict.fromkeys(block.columns, 0)
+        return found
+
+    def _forward(self, x: Sequence[int]) -> list[int]:
+        """Return L^-1 x of M = L d L^T."""
+        g, found = self.graph, list(x)
+        for k in self.mass_factor.order:
+            for i, entry in self.mass_factor.lower[k]:
+                found[i] = g.sub(found[i], g.mul(entry, found[k]))
+        return found
+
+    def _back(self, half: Sequence[int]) -> Nodes:
+        """Return L^-T d^-1 x."""
+        g, x, factor = self.graph, list(half), self.mass_factor
+        for k in reversed(factor.order):
+            x[k] = g.mul(x[k], factor.reciprocal[k])
+            for i, entry in factor.lower[k]:
+                x[k] = g.sub(x[k], g.mul(entry, x[i]))
+        return tuple(x)
+
+    def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
+        """Return L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
+        g, found = self.graph, list[list[int]]()
+        for row in matrix:
+            x = [g.zero] * self.equations.nv
+            for j, node in row:
+                x[j] = node
+            found.append(self._forward(x))
+        reciprocal = self.mass_factor.reciprocal
+        return found, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in found]
+
+    def _half(self, index: int) -> list[int]:
+        """Return L^-1 of a value of the tape; of sums and of D^T y from what is known of their parts."""
+        g, operation = self.graph, self.operations[index]
+        parts = operation.operands
+        if operation.kind in ("add", "sub") and operation.size == "nv":
+            return [getattr(g, operation.kind)(a, b) for a, b in zip(*map(self._half, parts), strict=True)]
+        if operation.kind == "transposed" and self.values[parts[0]] is self.rows:
+            y, (halves, _) = self.values[parts[1]], self._halves(self.rows)
+            return [g.dot([half[k] for half in halves], y) for k in range(self.equations.nv)]
+        return self._forward(self.values[index])
+
+    def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
+        """Return D M^-1 D^T as nodes."""
+        if not self.mass_entries:
+            return self.gram(matrix, self.inverse_mass)
+        g, (halves, scaled) = self.graph, self._halves(matrix)
+        result: dict[tuple[int, int], int] = {}
+        for i, near in enumerate(self.neighbours(matrix, self.coupled)):
+            for j in (i, *(n for n in sorted(near) if n > i)):
+                node = g.dot(scaled[i], halves[j])
+                if node != g.zero or i == j:
+                    result[i, j] = result[j, i] = node
+        return result
 
     @cached_property
     def inverse_mass(self) -> list[dict[int, int]]:
@@ -204,6 +335,8 @@ class Scalars(Replay):
 
     def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
         g = self.graph
+        if self.mass_entries:
+            return self._back(self._half(operation.operands[0]))
         result = [g.zero] * len(x)
         for block in self.equations.mass:
             if len(block.columns) == 1:
@@ -283,7 +416,7 @@ class Scalars(Replay):
     @cached_property
     def order(self) -> tuple[int, ...]:
         """Elimination order of the rows; one for S and D D^T, whose pattern is contained in S's."""
-        return minimum_degree(self.neighbours(self.rows, self.inverse_mass))[0]
+        return minimum_degree(self.neighbours(self.rows, self.coupled))[0]
 
     def gram(self, matrix: Rows, weight: Weight | None = None) -> dict[tuple[int, int], int]:
         """Return D W D^T as nodes; `weight` None is the identity, else rows of W."""
@@ -308,7 +441,7 @@ class Scalars(Replay):
 
     def _on_schur(self, operation: Operation) -> Factor:
         """Return the factor of S = D M^-1 D^T; masked rows get a reciprocal pivot of 0, small pivots a flag."""
-        return self._masked_factor(self.gram(self.rows, self.inverse_mass))
+        return self._masked_factor(self.mass_gram(self.rows))
 
     def _on_pseudoinverse(self, operation: Operation, matrix: Rows) -> Factor:
         return self._masked_factor(self.gram(matrix))
@@ -342,40 +475,56 @@ class Scalars(Replay):
     def _decided(self, row: int, pivot: int, diagonal: int) -> int:
         """Return 1 where a pivot of D G D^T says that its row is kept, else 0; a row eliminated alone always is."""
         g = self.graph
-        if pivot == diagonal:
+        if self._certain(row, pivot, diagonal):
             return g.one
         # near a singular position rounding lifts the pivot of a masked row above SKIP: the mask keeps it out
-        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), diagonal), self.mask[row]))
+        usual = self._usual(row, diagonal)
+        return g.call("step", pivot, g.add(g.mul(g.constant(SKIP), usual), self.mask[row]))
+
+    def _certain(self, row: int, pivot: int, diagonal: int) -> bool:
+        """Whether a row is kept whatever the position: it is eliminated alone, and cannot vanish."""
+        return pivot == diagonal and self.equations.rows[row].size is None
+
+    def _usual(self, row: int, diagonal: int) -> int:
+        """Return what the pivot of a row in D G D^T is compared with: its square, or what it was before."""
+        g, found = self.graph, self.equations.rows[row]
+        if found.size is None:
+            return diagonal
+        if found.unit not in ("rad", "rad/s"):
+            return g.call("max", diagonal, found.size)
+        turns = [next(iter(self.gauge[j].values())) for j, _ in found.entries]
+        gauge = g.mul(g.constant(1.0 / max(1, len(turns))), g.total(turns))
+        return g.call("max", diagonal, g.mul(found.size, gauge))
 
     def _kept(self, keep: int, pivot: int) -> int:
         """Return 1 / pivot where `keep` is 1, else 0."""
         g = self.graph
         return g.div(g.one, pivot) if keep == g.one else g.div(keep, g.call("max", pivot, g.constant(TINY)))
 
-    def _weighted(self, rows: Rows, keep: Callable[[int], int], weight: Weight | None) -> Factor:
+    def _weighted(self, matrix: Mapping[tuple[int, int], int], keep: Callable[[int], int]) -> Factor:
         """Return the factor of D W D^T, of the rows for which `keep` gives 1."""
 
         def reciprocal(row: int, pivot: int, _: int) -> int:
             return self._kept(keep(row), pivot)
 
-        return factorise(self.graph, self.gram(rows, weight), self.order, reciprocal)
+        return factorise(self.graph, matrix, self.order, reciprocal)
 
-    def _weighted_apart(self, rank: Factor, weight: Weight | None) -> Factor:
+    def _weighted_apart(self, rank: Factor, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> Factor:
         """Return the same from what ``geometry`` left in w."""
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
 
         def keep(row: int) -> int:
-            certain = rank.pivots[row] == rank.diagonal[row]
+            certain = self._certain(row, rank.pivots[row], rank.diagonal[row])
             return g.one if certain else g.call("step", stored.reciprocal[row], g.zero)
 
-        return self._weighted(self.stored_constraints(), keep, weight)
+        return self._weighted(gram(self.stored_constraints()), keep)
 
     def _on_weighted_mass(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D M^-1 D^T without the rows that D D^T leaves out."""
-        return self._weighted_apart(rank, self.inverse_mass)
+        return self._weighted_apart(rank, self.mass_gram)
 
     def _on_weighted_identity(self, operation: Operation, rank: Factor) -> Factor:
-        return self._weighted_apart(rank, None)
+        return self._weighted_apart(rank, self.gram)
 
     def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
@@ -384,7 +533,7 @@ class Scalars(Replay):
             return self._decided(row, rank.pivots[row], rank.diagonal[row])
 
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
-        return self._weighted(self.rows, keep, [{j: node} for j, node in enumerate(dependent)])
+        return self._weighted(self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]), keep)
 
     def _on_partition_quality(self, operation: Operation, rank: Factor, factor: Factor) -> int:
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""
@@ -404,12 +553,7 @@ class Scalars(Replay):
     def _augmented(self, constraints: Rows, penalties: Nodes) -> Factor:
         """Return the factor of M + D^T a D."""
         g = self.graph
-        matrix: dict[tuple[int, int], int] = {}
-        for block in self.equations.mass:
-            for i, row in zip(block.columns, block.entries, strict=True):
-                for j, node in zip(block.columns, row, strict=True):
-                    if node != g.zero or i == j:
-                        matrix[i, j] = node
+        matrix = dict(self.mass_matrix)
         for entries, penalty in zip(constraints, penalties, strict=True):
             for i, a in entries:
                 scaled = g.mul(penalty, a)
@@ -441,16 +585,19 @@ class Scalars(Replay):
         outputs += [(Target("jacobian", slot), n) for slot, n in slots if slot is not None]
         kept, smallest = g.zero, g.one
         for i in range(len(rank.order)):
-            if rank.pivots[i] == rank.diagonal[i]:
+            if self._certain(i, rank.pivots[i], rank.diagonal[i]):
                 kept = g.add(kept, g.one)
                 continue
-            relative = g.div(rank.pivots[i], rank.diagonal[i])
+            relative = g.div(rank.pivots[i], self._usual(i, rank.diagonal[i]))
             outputs.append((Target("pivot", i), relative))
             kept = g.add(kept, self._decided(i, rank.pivots[i], rank.diagonal[i]))
             smallest = g.call("min", smallest, g.add(relative, self.mask[i]))
         shortest = g.one
         for i, row in enumerate(self.equations.rows):
-            if row.unit == "rad" and g.value(rank.diagonal[i]) is None:
+            if row.size is not None:  # the row over the velocities of bodies, whatever loops make of it
+                if row.unit == "rad" and g.value(row.size) is None:
+                    shortest = g.call("min", shortest, row.size)
+            elif row.unit == "rad" and g.value(rank.diagonal[i]) is None:
                 shortest = g.call("min", shortest, g.mul(rank.diagonal[i], g.input("row_weight", i)))
         outputs += [to_status("rank", kept), to_status("smallest_pivot", smallest), to_status("shortest_row", shortest)]
         return outputs

@@ -63,9 +63,13 @@ class SideModel(Model):
     def __post_init__(self) -> None:
         super().__post_init__()
         self._places = {measure: i for i, measure in enumerate(self.turning)}
-        speeds = ((body.name, speed) for body in self.mechanism.bodies for speed in body.speeds)
-        for (body, speed), node in zip(speeds, self.accelerations, strict=True):
-            self.names[f"{body}.{ACCELERATIONS[speed]}"] = node
+        speeds = [(body.name, speed) for body in self.mechanism.bodies for speed in body.speeds]
+        if self.tree is None:
+            rates = {f"{body}.{speed}": n for (body, speed), n in zip(speeds, self.accelerations, strict=True)}
+        else:
+            rates = self.tree.accelerations(self.state_rates)
+        for body, speed in speeds:
+            self.names[f"{body}.{ACCELERATIONS[speed]}"] = rates[f"{body}.{speed}"]
 
     def reading(self, r: Reading) -> int:
         """Return the node of what is read: a measure, or what is exerted along measures."""
@@ -86,10 +90,10 @@ class SideModel(Model):
 
     def rates(self, nodes: Sequence[int]) -> list[int]:
         """Return the derivatives of `nodes` along the motion: q' = N v, and v' as ``ydot`` has it."""
-        g, nq = self.graph, len(self.q_rates())
+        g = self.graph
         known = {("t", 0): g.one}
         known |= {("q", i): rate for i, rate in enumerate(self.q_rates())}
-        known |= {("v", i): g.input("ydot", nq + i) for i in range(self.size)}
+        known |= {("v", i): node for i, node in enumerate(self.state_rates)}
         return [
             g.total(g.mul(slope, known[key]) for key, slope in sorted(slopes.items()))
             for slopes in jacobian(g, nodes, known)

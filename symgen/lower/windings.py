@@ -7,6 +7,7 @@ from typing import Any
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.repeats import without_repeats
+from symgen.describe.topology import known_coordinates
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import Bearing, Measure, Sum, Turn
 
@@ -43,12 +44,16 @@ def winding_order(mechanism: Mechanism, shape: str) -> tuple[Measure, ...]:
     """
     if mechanism.space == "planar":
         return ()
+    known = {} if mechanism.topology is None else known_coordinates(mechanism, mechanism.topology)
     kept, _ = without_repeats(mechanism)
     efforts = [m for force in kept.forces for m in measures_of(force)]
     if shape == "looped":
         return turns([m for joint in kept.joints for m in turns(measures_of(joint))] + efforts)
     rows = [m for joint in kept.joints for m in _held(joint)]
-    return turns([*rows, *efforts, *(m for joint in kept.joints for _, m in joint.coordinates)])
+    found = turns(
+        m for m in (*rows, *efforts, *(m for joint in kept.joints for _, m in joint.coordinates)) if m not in known
+    )
+    return tuple(m for m in found if m not in known)
 
 
 def _held(joint: Joint) -> list[Any]:

@@ -304,6 +304,10 @@ class System(Protocol):
         """Return a vector with the velocities replaced by `v`."""
         return x.made(Vector, "at_velocity", x, v, size=x.size)
 
+    def mass_rate(self, x: Vector, v: Vector) -> Vector:
+        """Return (dM/dt) x along the motion with velocities `v`; 0 where bodies have coordinates of their own."""
+        return x.made(Vector, "mass_rate", x, v, size="nv")
+
     def constraint_rate_transposed(self, y: Vector, v: Vector) -> Vector:
         """Return (dD/dt)^T y along the motion with velocities `v`."""
         return y.made(Vector, "constraint_rate_transposed", y, v, size="nv")

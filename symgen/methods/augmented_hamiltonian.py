@@ -18,9 +18,10 @@ class AugmentedHamiltonian(Method):
 
     ``(M + a D^T D) dv = p - M v - D^T (sigma + a (D v - nu))``, ``sigma += a (D v - nu)`` until v changes no more, so
     that the velocity constraint holds in every evaluation and only one derivative of the constraints is needed. The
-    state holds M^-1 p in place of v. sigma is the impulse of the constraint forces; it starts from 0 at every step,
-    where p becomes M v again (a change of gauge), so methods with memory over steps cannot use it. Readings differ:
-    Bayo and Avello let sigma grow and add penalties in Phi, which this gauge makes superfluous.
+    state holds u = M^-1 p in place of v, whose rate has a part ``M^-1 (dM/dt) (v - u)`` where M changes. sigma is the
+    impulse of the constraint forces; it starts from 0 at every step, where p becomes M v again (a change of gauge), so
+    methods with memory over steps cannot use it. Readings differ: Bayo and Avello let sigma grow and add penalties in
+    Phi, which this gauge makes superfluous.
     """
 
     name = "augmented-hamiltonian"
@@ -49,6 +50,7 @@ class AugmentedHamiltonian(Method):
         following = v + increment
         raised = impulse + penalties.times(constraints @ following - target)
         force = system.at_velocity(system.f, v) + system.constraint_rate_transposed(impulse, v)
+        force = force + system.mass_rate(v - system.v, v)
         position = system.at_velocity(system.q_rates, v)
         multipliers = system.at_velocity(multiplier_law(system, system.gamma).multipliers, v)
         return Iteration(

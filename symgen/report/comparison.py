@@ -72,7 +72,7 @@ def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
 def _across(studies: Sequence[Study]) -> Section:
     """Return the section that puts the mechanisms side by side."""
     every = list(dict.fromkeys(method for study in studies for method in methods(study)))
-    by_study = [{row.method: row for row, _ in representatives(study)} for study in studies]
+    by_study = [{row.label: row for row, _ in representatives(study)} for study in studies]
     names = tuple(study.mechanism for study in studies)
     errors = tuple((method, *(_error_cell(rows.get(method)) for rows in by_study)) for method in every)
     ratios = tuple(
@@ -123,7 +123,7 @@ def _summary(study: Study) -> Table:
     for row, _ in representatives(study):
         rows.append(
             (
-                row.method,
+                row.label,
                 Cell(row.status, _MOODS[row.status]),
                 _error_text(row),
                 words.seconds(row.run_seconds),
@@ -171,14 +171,14 @@ def _all_rows(study: Study) -> Table:
             both += f" ± {words.ratio(row.cost_ratio_spread)}"
         rows.append(
             (
-                *(row.method, row.integrator, words.setting(row.step, row.rtol), Cell(row.status, _MOODS[row.status])),
+                *(row.label, row.integrator, words.setting(row.step, row.rtol), Cell(row.status, _MOODS[row.status])),
                 *(_error_text(row), words.seconds(row.run_seconds), words.percent(spread), both),
                 *(str(row.evaluations), str(row.iterations), words.number(row.energy_drift_max)),
             )
         )
     notes = ["* below the error of the reference itself"] if any(row.below_reference for row in study.rows) else []
     for row in study.rows:
-        where = f"{row.method}, {row.integrator}, {words.setting(row.step, row.rtol)}"
+        where = f"{row.label}, {row.integrator}, {words.setting(row.step, row.rtol)}"
         notes += [f"{where}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
     return Table("Error, run time and counts.", headings, tuple(rows), words=4, notes=tuple(notes))
 
@@ -190,5 +190,5 @@ def _all_violations(study: Study) -> Table:
     rows = []
     for row in study.rows:
         values = [words.number(getattr(row, f"{level}_violation_{kind}")) for _, level in levels for _, kind in kinds]
-        rows.append((row.method, row.integrator, words.setting(row.step, row.rtol), *values))
+        rows.append((row.label, row.integrator, words.setting(row.step, row.rtol), *values))
     return Table("Violations at position, velocity and acceleration level.", headings, tuple(rows), words=3)

@@ -46,7 +46,7 @@ def _groups(study: Study) -> list[tuple[str, list[tuple[str, str]]]]:
     The usual method-integrator pairs of one integrator are told apart by the method; in the picture of the rest the
     label says both.
     """
-    pairs = list(dict.fromkeys((row.method, row.integrator) for row in study.rows))
+    pairs = list(dict.fromkeys((row.label, row.integrator) for row in study.rows))
     integrators = list(dict.fromkeys(integrator for _, integrator in pairs))
     own = {name: [pair for pair in pairs if pair[1] == name] for name in integrators}
     several = len(methods(study)) >= FEW
@@ -72,7 +72,7 @@ def _errors_against_time(study: Study) -> list[Picture]:
     for title, lines in groups:
         # pictures of one integrator share their axes, so that they can be compared; the rest would stretch them
         together = set(lines) if _mixed(lines) else usual
-        rows = [r for r in shown if (r.method, r.integrator) in together]
+        rows = [r for r in shown if (r.label, r.integrator) in together]
         if rows:
             limits = _limits([r.run_seconds for r in rows]), _limits([max(r.error or 0.0, FLOOR) for r in rows])
             found.append(_error_against_time(study, title, lines, limits))
@@ -94,12 +94,12 @@ def _error_against_time(
     study: Study, title: str, lines: list[tuple[str, str]], limits: tuple[tuple[float, float], tuple[float, float]]
 ) -> Picture:
     mixed = _mixed(lines)
-    rows = [row for row in study.rows if (row.method, row.integrator) in lines]
+    rows = [row for row in study.rows if (row.label, row.integrator) in lines]
 
     def draw(figure: Figure) -> None:
         ax = figure.subplots()
         for method, integrator in lines:
-            own = [r for r in rows if (r.method, r.integrator) == (method, integrator) and _drawable(r)]
+            own = [r for r in rows if (r.label, r.integrator) == (method, integrator) and _drawable(r)]
             look = style(line_number(method))
             label = f"{method}, {integrator}" if mixed else method
             errors = [max(r.error or 0.0, FLOOR) for r in own]
@@ -151,7 +151,7 @@ def _curves(study: Study, get: Callable[[Trace], tuple[float, ...]]) -> list[tup
     for row, trace in representatives(study):
         values = np.abs(np.array(get(trace), dtype=float))
         if len(values) > 1 and len(values) == len(trace.t):
-            found.append((row.method, trace, values))
+            found.append((row.label, trace, values))
     return found
 
 
@@ -233,8 +233,6 @@ def _energies(study: Study) -> Picture | None:
         below(figure, 3, columns=3)
 
     which = "the most accurate run" if row.error is not None else "a run that ended"
-    caption = (
-        f"Energies of the motion in {which} ({row.method}, {row.integrator}, {words.setting(row.step, row.rtol)})."
-    )
+    caption = f"Energies of the motion in {which} ({row.label}, {row.integrator}, {words.setting(row.step, row.rtol)})."
     alternative = f"Kinetic, potential and total energy of {study.mechanism} over time."
     return drawn(f"{anchor(study.mechanism)}-energy", caption, alternative, draw)

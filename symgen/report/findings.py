@@ -41,7 +41,7 @@ def findings(study: Study) -> tuple[str, ...]:
 
 
 def _name(row: Row) -> str:
-    return f"{row.method} with {row.integrator} at {words.setting(row.step, row.rtol)}"
+    return f"{row.label} with {row.integrator} at {words.setting(row.step, row.rtol)}"
 
 
 def _reference(study: Study) -> str:
@@ -75,10 +75,10 @@ def _cheapest(study: Study) -> str:
             continue
         best = good[0]
         text = f"below {words.exact(target)} m, {_name(best)} ({words.seconds(best.run_seconds)}"
-        other = next((r for r in good if r.method != best.method), None)
+        other = next((r for r in good if r.label != best.label), None)
         if other is not None:
             times = words.ratio(other.run_seconds / best.run_seconds)
-            text += f"; the next method, {other.method}, takes {times} times that"
+            text += f"; the next method, {other.label}, takes {times} times that"
         parts.append(text + ")")
     return f"cheapest runs that ended ok, by their error: {'; '.join(parts)}" if parts else ""
 
@@ -114,7 +114,7 @@ def _statuses(study: Study) -> list[str]:
             if len(rows) == 1:
                 found.append(f"1 run {one}: {first}")
             else:
-                each = words.listed([f"{m} ({n})" for m, n in _counts(r.method for r in rows)])
+                each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
                 found.append(f"{len(rows)} runs {many} for one reason: {each}; e.g. {first}")
     return found
 
@@ -132,7 +132,7 @@ def _wrong(study: Study) -> str:
         return f"no run that ended ok is off by more than {words.exact(WRONG)} m"
     worst = max(rows, key=lambda r: r.error or 0.0)
     count = words.counted(len(rows), "run")
-    each = words.listed([f"{m} ({n})" for m, n in _counts(r.method for r in rows)])
+    each = words.listed([f"{m} ({n})" for m, n in _counts(r.label for r in rows)])
     return (
         f"{count} ended ok although off by more than {words.exact(WRONG)} m, as steps or tolerances were too "
         f"coarse or another branch was taken: {each}; the worst is {_name(worst)}, {words.number(worst.error)} m"
@@ -154,7 +154,7 @@ def _ranked(study: Study, values: dict[str, float], unit: str) -> str:
 
 def _violations(study: Study) -> str:
     rows = [row for row, _ in representatives(study) if row.ended]
-    values = {r.method: r.position_violation_max for r in rows if math.isfinite(r.position_violation_max)}
+    values = {r.label: r.position_violation_max for r in rows if math.isfinite(r.position_violation_max)}
     if not values:
         return ""
     return f"largest position violation ({settings_text(study)}): {_ranked(study, values, 'm')}"
@@ -169,8 +169,8 @@ def _energy(study: Study) -> str:
     if words.number(low.energy_drift_max) == words.number(high.energy_drift_max):
         return f"largest energy error at the same settings: {words.number(low.energy_drift_max)} J with every method"
     return (
-        f"largest energy error at the same settings: from {words.number(low.energy_drift_max)} J with {low.method} to "
-        f"{words.number(high.energy_drift_max)} J with {high.method}"
+        f"largest energy error at the same settings: from {words.number(low.energy_drift_max)} J with {low.label} to "
+        f"{words.number(high.energy_drift_max)} J with {high.label}"
     )
 
 
@@ -178,7 +178,7 @@ def costs(study: Study) -> list[tuple[str, float, float, float, int]]:
     """Return method, median, smallest and largest cost ratio, and their number, for all but the yardstick."""
     found = []
     for method in methods(study):
-        ratios = [r.cost_ratio for r in study.rows if r.method == method and r.cost_ratio is not None]
+        ratios = [r.cost_ratio for r in study.rows if r.label == method and r.cost_ratio is not None]
         if ratios and method != YARDSTICK:
             found.append((method, median(ratios), min(ratios), max(ratios), len(ratios)))
     return found
@@ -213,7 +213,7 @@ def _orders(study: Study) -> str:
     for integrator in dict.fromkeys(r.integrator for r in study.rows if r.step is not None):
         slopes = []
         for method in methods(study):
-            own = [r for r in study.rows if (r.method, r.integrator) == (method, integrator)]
+            own = [r for r in study.rows if (r.label, r.integrator) == (method, integrator)]
             slope = order(own, study.estimated_error)
             if slope is not None:
                 slopes.append((slope, method))

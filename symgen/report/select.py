@@ -12,7 +12,7 @@ USUAL = "rk4"
 
 def methods(study: Study) -> list[str]:
     """Return the methods of a study in order."""
-    return list(dict.fromkeys(row.method for row in study.rows))
+    return list(dict.fromkeys(row.label for row in study.rows))
 
 
 def line_number(method: str) -> int:
@@ -34,7 +34,7 @@ def representatives(study: Study) -> list[tuple[Row, Trace]]:
     """Return one row a method: with the usual integrator where it was run, at the step nearest to the mechanism's."""
     found = []
     for method in methods(study):
-        own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.method == method]
+        own = [(row, trace) for row, trace in zip(study.rows, study.traces, strict=True) if row.label == method]
         usual = [pair for pair in own if pair[0].integrator == USUAL]
         first = [pair for pair in own if pair[0].integrator == own[0][0].integrator]
         found.append(min(usual or first, key=lambda pair: _closeness(pair[0], study.step)))
@@ -56,5 +56,5 @@ def settings_text(study: Study) -> str:
     from symgen.report.words import setting
 
     text = f"{integrator}, {setting(step, rtol)}"
-    others = [f"{row.method} ({row.integrator}, {setting(row.step, row.rtol)})" for row in rows if row.setting != most]
+    others = [f"{row.label} ({row.integrator}, {setting(row.step, row.rtol)})" for row in rows if row.setting != most]
     return text + (f"; {', '.join(others)}" if others else "")

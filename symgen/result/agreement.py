@@ -23,7 +23,7 @@ from symgen.runtime import abi
 from symgen.runtime.run import integrate
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
@@ -124,7 +124,14 @@ class Rerun:
         return "it takes too many evaluations" if self.outcome.code == abi.STOPPED else self.outcome.reason
 
 
-def run_again(compiled: CompiledModel, plan: Plan, outcome: Outcome, points: Points, tolerance: float = TENTH) -> Rerun:
+def run_again(
+    compiled: CompiledModel,
+    plan: Plan,
+    outcome: Outcome,
+    points: Points,
+    tolerance: float = TENTH,
+    positions: Callable[[Outcome], Array] | None = None,
+) -> Rerun:
     """Run again from the same start with finer steps, and compare positions at all outputs.
 
     Parameters
@@ -135,6 +142,8 @@ def run_again(compiled: CompiledModel, plan: Plan, outcome: Outcome, points: Poi
         What distances are measured between.
     tolerance : float, optional
         Tolerances of an adaptive run are multiplied by it; a constant step is halved.
+    positions : callable, optional
+        Returns the coordinates of bodies at the outputs, shape (k, nq), where they are not the state's.
     """
     spec = plan.spec
     if spec.adaptive:
@@ -148,7 +157,8 @@ def run_again(compiled: CompiledModel, plan: Plan, outcome: Outcome, points: Poi
     found = None
     if second.code == abi.DONE:
         a, b = _comparable(outcome, second)
-        found = agreement(points, outcome.states[a, :nq], second.states[b, :nq])
+        first, other_one = (o.states[:, :nq] if positions is None else positions(o) for o in (outcome, second))
+        found = agreement(points, first[a], other_one[b])
     return Rerun(other, second, f"a run with {steps_of(other)}", found)
 
 
@@ -204,6 +214,7 @@ def settle(
     compiled: CompiledModel,
     outcome: Outcome,
     free: bool = False,
+    positions: Callable[[Outcome], Array] | None = None,
 ) -> Settled:
     """Compare a run with a finer one.
 
@@ -216,6 +227,8 @@ def settle(
     free : bool
         Whether nobody asked for the tolerances of an adaptive run: they are made smaller then until two runs agree, and
         the finer one of these is reported.
+    positions : callable, optional
+        See `run_again`.
 
     Returns
     -------
@@ -231,7 +244,7 @@ def settle(
         if error is not None and plan.spec.rtol * share < SMALLEST_RTOL:
             doubt = f"two runs still differ by {error:.2g} m at {steps_of(plan)}"
             return Settled(plan, outcome, doubt, None, error, total)
-        second = run_again(compiled, plan, outcome, points, share)
+        second = run_again(compiled, plan, outcome, points, share, positions)
         total += second.outcome.evaluations
         if second.outcome.interrupted:
             doubt = "the check with finer steps was interrupted"

@@ -22,6 +22,7 @@ from symgen.runtime import abi
 from symgen.runtime.event_records import record_of, stopped
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
+from symgen.tree_run import CarriedOutcome
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,6 +44,7 @@ def build_result(
     run_spread: float = 0.0,
     second: Settled | None = None,
     inputs: Mapping[str, str | float] | None = None,
+    state: CompiledModel | None = None,
 ) -> Result:
     """Label and judge the outcome of a run.
 
@@ -62,6 +64,8 @@ def build_result(
         What a run with finer steps said of this one.
     inputs : mapping, optional
         What inputs were, in words or numbers.
+    state : CompiledModel, optional
+        What was run where it was in joint coordinates; `compiled` and `outcome` are of bodies then.
 
     Returns
     -------
@@ -108,8 +112,8 @@ def build_result(
         evaluations=outcome.evaluations,
         iterations=outcome.counters.get("iterations", 0),
         seconds=Seconds(
-            compiled.derive_seconds,
-            compiled.emit_seconds,
+            compiled.derive_seconds + (0.0 if state is None else state.derive_seconds),
+            compiled.emit_seconds + (0.0 if state is None else state.emit_seconds),
             outcome.compile_seconds,
             outcome.run_seconds,
             run_spread,
@@ -125,6 +129,8 @@ def build_result(
         events=tuple(record_of(info, event) for event in outcome.happened),
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
+        coordinates=plan.coordinates,
+        state=tuple(x.name for own in [(state or compiled).info] for x in (*own.coordinates, *own.velocities)),
         ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )
 
@@ -133,7 +139,10 @@ def _last_state(
     mechanism: Mechanism, plan: Plan, compiled: CompiledModel, outcome: Outcome, parameters: Mapping[str, float]
 ) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
-    info, arrays, start = compiled.info, outcome.simulation.save(), outcome.start
+    info, start = compiled.info, outcome.start
+    if isinstance(outcome, CarriedOutcome):
+        return _last_of_bodies(mechanism, compiled, outcome)
+    arrays = outcome.simulation.save()
     y, w = arrays["y"], arrays["w"]
     shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
     if len(outcome.times) and outcome.times[-1] == outcome.end:
@@ -153,6 +162,23 @@ def _last_state(
         made=made_of(compiled, plan, parameters),
         failed="" if whole else outcome.reason,
         arrays=arrays,
+    )
+
+
+def _last_of_bodies(mechanism: Mechanism, compiled: CompiledModel, outcome: CarriedOutcome) -> LastState:
+    """Return where a run in joint coordinates ended: the coordinates of bodies, and nothing else."""
+    info, start, last = compiled.info, outcome.start, outcome.end_state
+    return LastState(
+        mechanism=mechanism.name,
+        digest=digest(mechanism),
+        t=outcome.end,
+        q={q.name: float(x) for q, x in zip(info.coordinates, last, strict=False)},
+        v={v.name: float(x) for v, x in zip(info.velocities, last[info.nq :], strict=False)},
+        work=float(outcome.work + start.work),
+        work_before=start.work,
+        windings=tuple(float(x) for x in outcome.w[abi.WINDING : abi.WINDING + info.windings]),
+        rank=start.rank,
+        failed="" if outcome.code in (abi.DONE, abi.STOPPED) else outcome.reason,
     )
 
 

@@ -18,6 +18,8 @@ def contract(result: Result) -> dict[str, Any]:
             "method": result.method,
             "integrator": result.integrator,
             "shape": result.shape,
+            "coordinates": result.coordinates,
+            "state": list(result.state),
             "step": result.step,
             "rtol": result.rtol,
             "atol": result.atol,

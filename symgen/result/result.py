@@ -97,6 +97,10 @@ class Result:
         Counters: accepted and rejected steps, right-hand sides, iterations of corrections.
     seconds : Seconds
         Where the time went.
+    coordinates : {"absolute", "joint"}
+        What the state was made of: coordinates of bodies, or of the joints of a tree.
+    state : tuple of str
+        Names of the coordinates and velocities that were integrated.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -147,6 +151,8 @@ class Result:
     end: float = math.nan
     events: tuple[EventRecord, ...] = ()
     accumulation: float | None = None
+    coordinates: str = "absolute"
+    state: tuple[str, ...] = ()
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 

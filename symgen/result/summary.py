@@ -22,6 +22,7 @@ def lines(result: Result) -> list[tuple[str, str]]:
     found = [
         ("mechanism", result.mechanism),
         ("method", f"{result.method}, {result.integrator}, {steps}, until {result.until:g} s"),
+        *([("coordinates", _coordinates(result))] if result.coordinates != "absolute" else []),
         ("status", status_in_words(result)),
         ("steps", f"{result.steps}{rejected}, {result.evaluations} evaluations of the right-hand side"),
         ("time", f"run {s.run:.4g} s{spread}; compiled code ready in {s.compile:.3g} s{made}"),
@@ -38,6 +39,12 @@ def lines(result: Result) -> list[tuple[str, str]]:
     if len(result.t):
         found.append(("outputs", f"{len(result.t)}, the last at t = {result.t[-1]:g} s"))
     return found
+
+
+def _coordinates(result: Result) -> str:
+    """Return what the state was made of, in words."""
+    count = len(result.state)
+    return f"{result.coordinates}, {count} numbers of the state; the rank is that over all rows of the mechanism"
 
 
 def status_in_words(result: Result) -> str:

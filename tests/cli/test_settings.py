@@ -27,9 +27,12 @@ EVENTS = ("stop_when", "record_when", "events")
 #: Settings that a command goes without, since it has a list of them, or no use for them.
 WITHOUT = {
     "run": {"times", "events"},
-    "compare": {"method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", *EVENTS},
+    "compare": {
+        *("method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", "coordinates"),
+        *EVENTS,
+    },
     "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps"},
-    "sweep": {"verify", "repeat", "shape", "inputs", *EVENTS},
+    "sweep": {"verify", "repeat", "shape", "inputs", "coordinates", *EVENTS},
 }
 #: Defaults of commands that are not those of a single run.
 OTHER = {("compare", "repeat"): 3}

@@ -28,10 +28,11 @@ def verified(output: Path, *words: str) -> list[dict]:
     return [line for line in lines(output) if "runs" in line]
 
 
+@pytest.mark.parametrize("shape", ["straight", "joint"])
 @pytest.mark.parametrize("space", ["planar", "spatial"])
-def test_a_few_random_mechanisms(space: str, tmp_path: Path) -> None:
+def test_a_few_random_mechanisms(space: str, shape: str, tmp_path: Path) -> None:
     """Emitted code is run as Python here, so that nothing has to be compiled."""
-    words = ("--interpreted", "--shapes", "straight", "--mechanisms", "3", "--seed", "21", "--space", space)
+    words = ("--interpreted", "--shapes", shape, "--mechanisms", "3", "--seed", "21", "--space", space)
     moving = [line for line in verified(tmp_path / "verify.jsonl", *words) if "contradiction" not in line]
     assert moving and all(run["right"] and run["status"] == "ok" for line in moving for run in line["runs"])
     again = run("benchmarks.verify", "--output", str(tmp_path / "verify.jsonl"), "--jobs", "1", *words)
@@ -47,13 +48,13 @@ def test_random_mechanisms_in_all_shapes(space: str, tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_many_random_mechanisms(tmp_path: Path) -> None:
-    words = ("--interpreted", "--shapes", "straight", "--mechanisms", "60", "--seed", "23")
+    words = ("--interpreted", "--shapes", "straight,joint", "--mechanisms", "60", "--seed", "23")
     assert len(verified(tmp_path / "verify.jsonl", *words)) > 40
 
 
 @pytest.mark.slow
 def test_random_mechanisms_by_every_method(tmp_path: Path) -> None:
-    words = ("--interpreted", "--shapes", "straight", "--methods", "--mechanisms", "4", "--seed", "24")
+    words = ("--interpreted", "--shapes", "straight,joint", "--methods", "--mechanisms", "4", "--seed", "24")
     assert len(verified(tmp_path / "verify.jsonl", *words)) > 1
 
 

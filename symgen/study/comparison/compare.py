@@ -20,10 +20,10 @@ from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events
 from symgen.result.points import Points
 from symgen.runtime import abi
 from symgen.runtime.timing import timed
-from symgen.settings import SHAPES, Settings, default
+from symgen.settings import COORDINATES, SHAPES, Settings, default
 from symgen.study.comparison.kept import Kept
 from symgen.study.comparison.measured import measured
-from symgen.study.comparison.prepare import Task, prepare
+from symgen.study.comparison.prepare import Task, prepare, ready_for
 from symgen.study.comparison.rows import Row, Study, Trace, save_csv, with_ratios
 from symgen.study.journal import Journal
 from symgen.study.references.reference import Array, Reference, reference
@@ -32,6 +32,7 @@ from symgen.study.references.solvers import AUTO, check_solver
 if TYPE_CHECKING:
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
+    from symgen.tree_run import TreeRun
 
 __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
@@ -87,6 +88,7 @@ def compare(
     max_energy_error: float = default("max_energy_error"),
     max_steps: float | None = None,
     start: Mapping[str, float] | None = None,
+    coordinates: Sequence[str] = (),
 ) -> Study:
     """Run a model with every combination and measure error and run time.
 
@@ -124,6 +126,8 @@ def compare(
         times compare methods and not shapes.
     max_violation, max_energy_error, max_steps : float
         As for `symgen.Settings`.
+    coordinates : sequence of str
+        ``absolute``, ``joint`` or both, side by side; absolute ones unless given.
 
     Returns
     -------
@@ -137,7 +141,7 @@ def compare(
     """
     asked = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
     further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps, start)
-    return compare_all([model], *asked, *further)[0]
+    return compare_all([model], *asked, *further, coordinates)[0]
 
 
 @dataclass
@@ -198,6 +202,7 @@ def compare_all(
     max_energy_error: float = default("max_energy_error"),
     max_steps: float | None = None,
     start: Mapping[str, float] | None = None,
+    coordinates: Sequence[str] = (),
 ) -> list[Study]:
     """Compare on several models; arguments and errors as for `compare`.
 
@@ -219,6 +224,9 @@ def compare_all(
     )
     check_solver(reference_by)
     arguments.one_of("shape", shape, SHAPES)
+    states = tuple(dict.fromkeys(arguments.words("coordinates", coordinates))) or COORDINATES[:1]
+    for state in states:
+        arguments.one_of("coordinates", state, COORDINATES)
     methods, integrators = arguments.words("methods", methods), arguments.words("integrators", integrators)
     steps = arguments.numbers("step", steps, positive=True)
     rtols = arguments.numbers("rtol", rtols, positive=True)
@@ -233,7 +241,13 @@ def compare_all(
         times = _times(chosen, end, asked.output_step)
         small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
         base = replace(asked, output_step=None, shape="straight" if shape == "auto" and small else shape)
-        settings = list(_combinations(chosen, base, methods, integrators, steps, rtols, end, times))
+        settings = [
+            s
+            for state in states
+            for s in _combinations(
+                chosen, replace(base, coordinates=state), methods, integrators, steps, rtols, end, times
+            )
+        ]
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         refuse_events("compare", chosen.mechanism, asked)
         works.append(
@@ -298,7 +312,7 @@ def _prepare(works: Sequence[_Work], jobs: int, report: Progress, later: float) 
 def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     """Run all rows of a model, one at a time."""
     rows, traces = list[Row](), list[Trace]()
-    ready: dict[Any, tuple[CompiledModel, Start]] = {}
+    ready: dict[Any, tuple[CompiledModel, Start, TreeRun | None]] = {}
     points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
     interrupted = False
     try:
@@ -307,15 +321,18 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
             found = work.kept.row(s)
             if found is None:
                 if plan.key not in ready:
-                    ready[plan.key] = work.model.ready(plan, s.parameters)
-                compiled, start = ready[plan.key]
+                    ready[plan.key] = ready_for(work.model, plan, s.parameters)
+                compiled, start, tree = ready[plan.key]
                 if work.known is None and not work.note:
                     say("reference", 0.0)
-                    _find_reference(work, compiled, start, lambda f: say("reference", f))
+                    of_bodies = (compiled, start) if tree is None else (tree.bodies, tree.body_start)
+                    _find_reference(work, *of_bodies, lambda f: say("reference", f))
                 say(f"{s.method}, {s.integrator}", 1.0 + i)
                 runs = timed(compiled, plan.tableau, start, plan.spec, s.repeat, None, AT_LEAST)
                 interrupted = runs.outcome.interrupted
                 if runs.outcome.code != abi.STOPPED:
+                    if tree is not None:
+                        runs = replace(runs, outcome=tree.carried(runs.outcome))
                     found = measured(plan, runs, work.known, points)
                     work.kept.add_row(s, *found)
             if found is not None:

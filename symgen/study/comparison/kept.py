@@ -46,6 +46,8 @@ class Kept:
         if what == "reference":
             return cell_key(what=what, **self._base, **shared)
         own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in (*shared, "shape")}
+        if own["coordinates"] == "absolute":
+            del own["coordinates"]  # rows were kept before there were others
         return cell_key(what=what, **self._base, **shared, **own)
 
     def _get(self, settings: Settings, what: str) -> dict[str, Any] | None:

@@ -47,6 +47,7 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
     position, velocity = status[:, abi.PHI], status[:, abi.DRIFT]
     row = Row(
         method=plan.choice.method.name,
+        coordinates=plan.coordinates,
         integrator=plan.tableau.name,
         step=None if adaptive else plan.spec.step,
         rtol=plan.spec.rtol if adaptive else None,

@@ -16,12 +16,15 @@ import numpy as np
 from symgen.api import Model
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SymgenError
-from symgen.plan import make_plan
+from symgen.plan import Plan, make_plan
+from symgen.runtime.assembly import Start
+from symgen.runtime.compiled import CompiledModel
 from symgen.settings import Settings
 from symgen.study.journal import Journal
 from symgen.study.references.reference import Array, Reference, reference
 from symgen.study.references.solvers import AUTO
 from symgen.study.runner import Cell, run_cells
+from symgen.tree_run import TreeRun, tree_run
 
 #: Work that the first task shows to be shorter [s] is not worth starting processes for.
 PATIENCE = 1.0
@@ -83,15 +86,24 @@ def from_entry(entry: Mapping[str, Any], times: Array) -> Reference:
     return Reference(entry["how"], entry["estimated_error"], times, np.array(entry["q"]), entry["note"])
 
 
+def ready_for(model: Model, plan: Plan, parameters: Mapping[str, float]) -> tuple[CompiledModel, Start, TreeRun | None]:
+    """Return the compiled model and the start of a run, and what carries one in joint coordinates to bodies."""
+    if plan.coordinates == "joint":
+        tree = tree_run(model.mechanism, plan, parameters)
+        return tree.compiled, tree.start, tree
+    return *model.ready(plan, parameters), None
+
+
 def warm(model: Model, settings: Settings) -> None:
     """Compile everything that a run with these settings calls, by one that is over at once."""
     from symgen.runtime.run import integrate
 
     plan = make_plan(model.mechanism, settings)
-    compiled, start = model.ready(plan, settings.parameters)
+    compiled, start, tree = ready_for(model, plan, settings.parameters)
     spec = replace(plan.spec, until=1e-9, times=np.zeros(1))
     outcome = integrate(compiled, plan.tableau, start, spec)
     if len(outcome.times):
+        outcome = outcome if tree is None else tree.carried(outcome)
         _ = outcome.acceleration_violations
 
 

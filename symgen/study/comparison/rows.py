@@ -58,6 +58,8 @@ class Row:
         Largest energy error [J].
     warnings : tuple of str
         Sentences: what to be careful with.
+    coordinates : {"absolute", "joint"}
+        What the state was made of. Violations of joint coordinates are those of the loops.
     """
 
     method: str
@@ -86,6 +88,12 @@ class Row:
     position_violation_final: float | None = None
     velocity_violation_final: float | None = None
     acceleration_violation_final: float | None = None
+    coordinates: str = "absolute"
+
+    @property
+    def label(self) -> str:
+        """The method, with the coordinates where these are not those of bodies: ``lagrange, joint``."""
+        return self.method if self.coordinates == "absolute" else f"{self.method}, {self.coordinates}"
 
     @property
     def setting(self) -> tuple[str, float | None, float | None]:
@@ -130,7 +138,9 @@ class Trace:
 
 def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     """Return the rows with cost ratios, which need the rows of `YARDSTICK`."""
-    base = {row.setting: row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0}
+    # of both coordinates the first ones asked for are the yardstick, so that ratios tell them apart
+    usable = [row for row in rows if row.method == YARDSTICK and row.ended and row.run_seconds > 0.0]
+    base = {row.setting: row for row in reversed(usable)}
     found = []
     for row in rows:
         other = base.get(row.setting)

@@ -1,0 +1,186 @@
+"""M and f of bodies in space on a tree: composite inertias, and the recursion of Newton and Euler from the leaves in.
+
+Bodies that are welded to what carries them are one body with it: their inertia is added to its own where it is
+constant, and only the forces on them are carried in.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from symgen.describe.mechanism import Link, SpatialBody
+from symgen.formulate.equations import MassBlock
+from symgen.formulate.tree_plane import blocks_of
+from symgen.formulate.vectors import Matrix, Triple, Vectors
+from symgen.vocabulary.measures import GROUND
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from symgen.formulate.measures import Model
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What a velocity of the state does to the body of its link: turns it about, and moves it along, in its axes."""
+
+    about: Triple
+    along: Triple
+
+
+class Placed(Protocol):
+    """What is asked of a body in its place; see `symgen.formulate.tree_space`."""
+
+    link: Link
+    turn: Matrix
+    arm: Triple
+    own: bool
+    axes: Matrix
+    omega: Triple
+    alpha: Triple
+    bias: Triple
+    motions: dict[int, Motion]
+    centre: Triple
+    children: list[str]
+
+
+@dataclass(frozen=True)
+class Inertia:
+    """Mass, first and second moment about the point of a body, in its axes."""
+
+    mass: int
+    first: Triple
+    second: Matrix
+
+
+def welded(p: Placed) -> bool:
+    """Whether a body is rigid with the body that carries it."""
+    return not p.motions and not p.own and p.link.parent != GROUND
+
+
+class Composite:
+    """The bodies of a tree with all that hangs on them.
+
+    Parameters
+    ----------
+    model : Model
+        The mechanism.
+    placed : mapping of str to Placed
+        Its bodies in an order in which each stands behind what carries it, the ground among them.
+    forces : list of int
+        On the velocities of bodies, and behind these on those of the state; gravity and inertia apart.
+    """
+
+    def __init__(self, model: Model, placed: Mapping[str, Placed], forces: list[int]) -> None:
+        self.model, self.placed, self.forces = model, placed, forces
+        self.v = Vectors(model.graph)
+        self.order = [name for name in placed if name != GROUND]
+        self.rigid: dict[str, Inertia] = {}
+        self.hanging: dict[str, Inertia] = {}
+        self.push: dict[str, Triple] = {}
+        self.torque: dict[str, Triple] = {}
+        for name in reversed(self.order):
+            self.rigid[name] = self._rigid(name)
+        for name in reversed(self.order):
+            self.hanging[name] = self._hanging(name)
+            self.push[name], self.torque[name] = self._taken(name)
+
+    # -- inertia -------------------------------------------------------------------------------------------------------
+
+    def _rigid(self, name: str) -> Inertia:
+        """Return the inertia of a body with all that is welded to it."""
+        v, body, p = self.v, self.model.mechanism.body(name), self.placed[name]
+        assert isinstance(body, SpatialBody), "bodies in space"
+        m = self.model.expression(body.mass)
+        second = v.second(m, p.centre)
+        if body.inertia is not None:
+            xx, yy, zz, xy, xz, yz = (self.model.expression(e) for e in body.inertia)
+            second = v.plus(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), second)
+        found = Inertia(m, v.scale(m, p.centre), second)
+        for child in p.children:
+            if welded(self.placed[child]):
+                found = self._joined(found, self._carried(self.placed[child], self.rigid[child]))
+        return found
+
+    def _hanging(self, name: str) -> Inertia:
+        """Return the inertia of a body with all that hangs on it."""
+        found, v = self.rigid[name], self.v
+        for child in self.placed[name].children:
+            c, own = self.placed[child], self.hanging[child]
+            if welded(c):  # what is rigid with it is there already
+                less = self.rigid[child]
+                second = tuple(v.sub(a, b) for a, b in zip(own.second, less.second, strict=True))
+                rest = v.sub(own.first, less.first), (second[0], second[1], second[2])
+                own = Inertia(self.model.graph.sub(own.mass, less.mass), *rest)
+            found = self._joined(found, self._carried(c, own))
+        return found
+
+    def _joined(self, a: Inertia, b: Inertia) -> Inertia:
+        v = self.v
+        return Inertia(self.model.graph.add(a.mass, b.mass), v.add(a.first, b.first), v.plus(a.second, b.second))
+
+    def _carried(self, c: Placed, own: Inertia) -> Inertia:
+        """Return an inertia about the point of what carries it, in the axes of that."""
+        v = self.v
+        shift = v.scale(own.mass, c.arm)
+        if c.own:  # a body that is turned by nothing else counts as a point in its joint
+            return Inertia(own.mass, shift, v.shifted(shift, c.arm))
+        turned = v.times(c.turn, own.first)
+        double = v.add(shift, turned, turned)
+        return Inertia(own.mass, v.add(shift, turned), v.plus(v.turned(c.turn, own.second), v.shifted(double, c.arm)))
+
+    # -- forces --------------------------------------------------------------------------------------------------------
+
+    def _taken(self, name: str) -> tuple[Triple, Triple]:
+        """Return force and torque about its point that a body takes from its joint where v' is 0."""
+        v, p, first = self.v, self.placed[name], self.model.first[name]
+        is_point = self.model.mechanism.body(name).is_point
+        push = v.neg(v.back(p.axes, v.triple(self.forces[first : first + 3])))
+        torque = v.zero if is_point else v.neg(v.triple(self.forces[first + 3 : first + 6]))
+        if not welded(p):  # else its inertia is part of that of what carries it
+            m, h, j = self.rigid[name].mass, self.rigid[name].first, self.rigid[name].second
+            w, a = p.omega, p.bias
+            push = v.add(push, v.scale(m, a), v.cross(p.alpha, h), v.cross(w, v.cross(w, h)))
+            torque = v.add(torque, v.times(j, p.alpha), v.cross(w, v.times(j, w)), v.cross(h, a))
+        for child in p.children:
+            c = self.placed[child]
+            passed = v.times(c.turn, self.push[child])
+            push = v.add(push, passed)
+            torque = v.add(torque, v.cross(c.arm, passed))
+            if not c.own:
+                torque = v.add(torque, v.times(c.turn, self.torque[child]))
+        return push, torque
+
+    def force(self, size: int) -> list[int]:
+        """Return f of the state."""
+        g, v = self.model.graph, self.v
+        f = [self.forces[self.model.size + i] for i in range(size)]
+        for name in self.order:
+            for i, motion in self.placed[name].motions.items():
+                held = g.add(v.dot(motion.about, self.torque[name]), v.dot(motion.along, self.push[name]))
+                f[i] = g.sub(f[i], held)
+        return f
+
+    def mass(self, size: int) -> tuple[MassBlock, ...]:
+        """Return M of the state: what each velocity gives of momentum, carried in to the velocities before it."""
+        g, v = self.model.graph, self.v
+        entries: dict[tuple[int, int], int] = {}
+        for name in self.order:
+            p, own = self.placed[name], self.hanging[name]
+            for i, motion in p.motions.items():
+                momentum = v.add(v.cross(motion.about, own.first), v.scale(own.mass, motion.along))
+                angular = v.add(v.times(own.second, motion.about), v.cross(own.first, motion.along))
+                at = p
+                while True:
+                    for k, other in at.motions.items():
+                        if at is not p or k >= i:
+                            node = g.add(v.dot(other.about, angular), v.dot(other.along, momentum))
+                            entries[i, k] = entries[k, i] = node
+                    if at.link.parent == GROUND:
+                        break
+                    momentum = v.times(at.turn, momentum)
+                    lever = v.cross(at.arm, momentum)
+                    angular = lever if at.own else v.add(v.times(at.turn, angular), lever)
+                    at = self.placed[at.link.parent]
+        return blocks_of(entries, size, g.zero)

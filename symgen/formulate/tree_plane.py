@@ -1,0 +1,371 @@
+"""Bodies of the plane on a tree of joints: positions, velocities, M and f from the angles of bodies and displacements.
+
+The point of a body that moves with its joint is the origin of its frame here, so that the angle of the body itself does
+not move it. Angles are those of bodies against the ground: the entry of M between two angles is one product of two
+vectors then, and there are no sums of angles. Bodies that do not turn against what carries them share its angle.
+
+Composite bodies: with m, mu and J the mass, first and second moment about the joint's point of all that hangs on a body
+(bodies that turn by an angle of their own count as points in their joints), the velocity of an angle gives the
+momentum perp(mu), and one of a displacement along e the momentum m e; Featherstone, Rigid Body Dynamics Algorithms
+(2008), chapter 6, written for angles against the ground. What v' = 0 leaves of the accelerations is carried outwards
+and the forces it takes inwards, as in the recursion of Newton and Euler (chapter 5).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from symgen.describe.mechanism import Body, Link, Vec
+from symgen.describe.topology import known_coordinates
+from symgen.formulate.equations import MassBlock
+from symgen.vocabulary.measures import GROUND
+
+if TYPE_CHECKING:
+    from symgen.formulate.measures import Model
+
+Pair = tuple[int, int]
+
+
+@dataclass
+class _Placed:
+    """A body where its joint holds it, as nodes.
+
+    Attributes
+    ----------
+    at, velocity, bias : pair of int
+        Of the joint's point: position, velocity, and acceleration where v' is 0.
+    axes : pair of int
+        Cosine and sine of the angle.
+    group : int
+        The velocity of the state that is the body's angular velocity, -1 for a body that does not turn.
+    offset, angle, spin : int
+        By how much the body is turned against the angle of its group, its angle, and its angular velocity.
+    arm : pair of int
+        From the point of what carries it to its own.
+    local : pair of int, optional
+        The same in the frame of what carries it, where it is constant there.
+    columns : mapping of int to pair
+        Velocity of the state -> derivative of `velocity` by it.
+    slides : mapping of int to pair
+        Those of the body's own displacements, with their directions.
+    sliding : pair of int
+        The velocity of the arm by these.
+    centre : pair of int
+        The centre of mass from the joint's point, in the body's frame.
+    """
+
+    link: Link
+    at: Pair
+    velocity: Pair
+    bias: Pair
+    axes: Pair
+    group: int
+    offset: int
+    angle: int
+    spin: int
+    arm: Pair
+    local: Pair | None
+    columns: dict[int, Pair]
+    slides: dict[int, Pair] = field(default_factory=dict)
+    sliding: Pair = (0, 0)
+    centre: Pair = (0, 0)
+
+
+class PlanarTree:
+    """Planar bodies on a tree; see `symgen.formulate.carried.Carried`."""
+
+    spins: tuple[tuple[int, int], ...] = ()
+
+    def __init__(self, model: Model) -> None:
+        self.model, self.graph = model, model.graph
+        topology = model.mechanism.topology
+        assert topology is not None, "a tree belongs to it"
+        g = self.graph
+        nothing, still = (g.zero, g.zero), (g.one, g.zero)
+        ground = Link(GROUND)
+        self.placed = {
+            GROUND: _Placed(
+                *(ground, nothing, nothing, nothing, still, -1, g.zero, g.zero, g.zero, nothing, nothing, {}, {}),
+                *(nothing, nothing),
+            )
+        }
+        self.size = 0
+        self.children: dict[str, list[str]] = {GROUND: []}
+        self.names: dict[str, int] = {}
+        for link in topology.links:
+            self._place(link)
+        self.q_rates = tuple(g.input("v", i) for i in range(self.size))
+        velocities, biases = list[int](), list[int]()
+        self._columns: list[Mapping[int, int]] = []
+        for body in model.mechanism.bodies:
+            assert isinstance(body, Body), "bodies of the plane"
+            p = self.placed[body.name]
+            velocities += p.velocity
+            biases += p.bias
+            self._columns += [{i: c[k] for i, c in p.columns.items() if c[k] != g.zero} for k in range(2)]
+            if not body.is_point:
+                velocities.append(p.spin)
+                biases.append(g.zero)
+                self._columns.append({p.group: g.one} if p.group >= 0 else {})
+            self._name(body, p)
+        self._columns += [{i: g.one} for i in range(self.size)]
+        self.velocities = (*velocities, *self.q_rates)
+        self.biases = (*biases, *(g.zero for _ in range(self.size)))
+        self.known = known_coordinates(model.mechanism, topology)
+
+    # -- positions and velocities --------------------------------------------------------------------------------------
+
+    def _next(self) -> int:
+        self.size += 1
+        return self.size - 1
+
+    def _place(self, link: Link) -> None:
+        g, model = self.graph, self.model
+        body = model.mechanism.body(link.body)
+        assert isinstance(body, Body), "bodies of the plane"
+        self.children[link.body] = []
+        self.children[link.parent].append(link.body)
+        found, parent = link.articulation, self.placed[link.parent]
+        if found is None:
+            self._free(link, body)
+            return
+        carrier, own = (found.a, found.b) if link.forward else (found.b, found.a)
+        model.references[link.body] = own.point
+        slides: dict[int, Pair] = {self._next(): (g.zero, g.zero) for _ in found.slides}
+        sign = g.one if link.forward else g.constant(-1.0)
+        if found.turn == "fixed":
+            group, angle = parent.group, model.expression(found.angle)
+            change = angle if link.forward else g.neg(angle)
+            offset = g.add(parent.offset, change)
+            turned, spin = g.add(parent.angle, change), parent.spin
+            c, s = g.call("cos", change), g.call("sin", change)
+            (a, b) = parent.axes
+            axes = (g.sub(g.mul(a, c), g.mul(b, s)), g.add(g.mul(b, c), g.mul(a, s)))
+        elif body.is_point:
+            group, offset, turned, spin, axes = -1, g.zero, g.zero, g.zero, (g.one, g.zero)
+        else:
+            group, offset = self._next(), g.zero
+            turned, spin = g.input("q", group), g.input("v", group)
+            axes = (g.call("cos", turned), g.call("sin", turned))
+        local = self._pair(model.local(carrier))
+        arm = self._rotated(parent.axes, local)
+        sliding = (g.zero, g.zero)
+        for i, direction in zip(list(slides), found.slides, strict=True):
+            holder = parent.axes if direction.body == link.parent else axes
+            along = self._pair(model.direction(direction))
+            e = self._scaled(sign, self._rotated(holder, along))
+            slides[i] = e
+            arm = self._sum(arm, self._scaled(g.input("q", i), e))
+            sliding = self._sum(sliding, self._scaled(g.input("v", i), e))
+        w = parent.spin
+        at = self._sum(parent.at, arm)
+        velocity = self._sum(self._sum(parent.velocity, self._scaled(w, self._perp(arm))), sliding)
+        bias = self._less(parent.bias, self._scaled(g.mul(w, w), arm))
+        bias = self._sum(bias, self._scaled(g.mul(g.constant(2.0), w), self._perp(sliding)))
+        columns = dict(parent.columns)
+        if parent.group >= 0:
+            before = columns.get(parent.group, (g.zero, g.zero))
+            columns[parent.group] = self._sum(before, self._perp(arm))
+        columns |= slides
+        self.placed[link.body] = _Placed(
+            link,
+            at,
+            velocity,
+            bias,
+            axes,
+            group,
+            offset,
+            turned,
+            spin,
+            arm,
+            None if slides else local,
+            columns,
+            slides,
+            sliding,
+            self._centre(body, own.point),
+        )
+
+    def _free(self, link: Link, body: Body) -> None:
+        """Place a body that no joint holds: its centre of mass moves as it likes."""
+        g = self.graph
+        x, y = self._next(), self._next()
+        at, velocity = (g.input("q", x), g.input("q", y)), (g.input("v", x), g.input("v", y))
+        slides = {x: (g.one, g.zero), y: (g.zero, g.one)}
+        nothing = (g.zero, g.zero)
+        if body.is_point:
+            axes, group, turned, spin = (g.one, g.zero), -1, g.zero, g.zero
+        else:
+            group = self._next()
+            turned, spin = g.input("q", group), g.input("v", group)
+            axes = (g.call("cos", turned), g.call("sin", turned))
+        self.placed[link.body] = _Placed(
+            *(link, at, velocity, nothing, axes, group, g.zero, turned, spin, at, None, dict(slides), slides),
+            *(nothing, nothing),
+        )
+
+    def _centre(self, body: Body, reference: Vec) -> Pair:
+        """Return the centre of mass relative to the joint's point, in the body's frame."""
+        g = self.graph
+        com = [self.model.expression(e) for e in body.centre_of_mass]
+        at = [self.model.expression(e) for e in reference]
+        return g.sub(com[0], at[0]), g.sub(com[1], at[1])
+
+    def _name(self, body: Body, p: _Placed) -> None:
+        """Note the coordinates and velocities of a body by their names."""
+        rho = self._rotated(p.axes, p.centre)
+        place = self._sum(p.at, rho)
+        speed = self._sum(p.velocity, self._scaled(p.spin, self._perp(rho)))
+        self.names |= {f"{body.name}.{n}": x for n, x in zip(("x", "y", "vx", "vy"), (*place, *speed), strict=True)}
+        if not body.is_point:
+            self.names |= {f"{body.name}.theta": p.angle, f"{body.name}.omega": p.spin}
+
+    def frame(self, body: str) -> list[int]:
+        """Return the nodes of a frame's slots."""
+        p = self.placed[body]
+        return [*p.at, *p.axes, *p.velocity, p.spin]
+
+    def column(self, index: int) -> Mapping[int, int]:
+        """Return the row of B for a velocity of a body."""
+        return self._columns[index]
+
+    def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
+        """Return the accelerations of centres of mass and angles, by the names of their velocities."""
+        g, found = self.graph, dict[str, int]()
+        for body in self.model.mechanism.bodies:
+            p = self.placed[body.name]
+            rho, w = self._rotated(p.axes, p.centre), p.spin
+            turning = rates[p.group] if p.group >= 0 else g.zero
+            total = self._less(p.bias, self._scaled(g.mul(w, w), rho))
+            total = self._sum(total, self._scaled(turning, self._perp(rho)))
+            for i, c in sorted(p.columns.items()):
+                total = self._sum(total, self._scaled(rates[i], c))
+            found |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
+            if not body.is_point:
+                found[f"{body.name}.omega"] = turning
+        return found
+
+    def speed(self, body: str) -> list[int]:
+        """Return the velocity of a centre of mass in some axes."""
+        return [self.names[f"{body}.{name}"] for name in ("vx", "vy")]
+
+    def weight(self, body: str, force: list[int]) -> dict[int, int]:
+        """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
+        p, first = self.placed[body], self.model.first[body]
+        found = {first: force[0], first + 1: force[1]}
+        if not self.model.mechanism.body(body).is_point:
+            found[first + 2] = self._cross(self._rotated(p.axes, p.centre), self._pair(force))
+        return found
+
+    # -- M and f -------------------------------------------------------------------------------------------------------
+
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
+        """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
+        g, model = self.graph, self.model
+        masses, moments, seconds = dict[str, int](), dict[str, Pair](), dict[str, int]()
+        pushes, turns = dict[str, Pair](), dict[str, int]()
+        for name in reversed(list(self.placed)):
+            if name == GROUND:
+                continue
+            body, p = model.mechanism.body(name), self.placed[name]
+            assert isinstance(body, Body), "bodies of the plane"
+            m = model.expression(body.mass)
+            fixed = self._scaled(m, p.centre)  # of the first moment, what is constant in the body's frame
+            second = g.mul(m, g.dot(p.centre, p.centre))
+            if body.inertia is not None:
+                second = g.add(model.expression(body.inertia), second)
+            first, w = model.first[name], p.spin
+            push: Pair = (forces[first], forces[first + 1])
+            turn = g.zero if body.is_point else forces[first + 2]
+            total, moving, shared = m, (g.zero, g.zero), (g.zero, g.zero)
+            for child in self.children[name]:
+                c, heavy = self.placed[child], masses[child]
+                total = g.add(total, heavy)
+                if c.local is not None:
+                    fixed = self._sum(fixed, self._scaled(heavy, c.local))
+                    second = g.add(second, g.mul(heavy, g.dot(c.local, c.local)))
+                else:
+                    moving = self._sum(moving, self._scaled(heavy, c.arm))
+                    second = g.add(second, g.mul(heavy, g.dot(c.arm, c.arm)))
+                push = self._sum(push, pushes[child])
+                turn = g.add(turn, self._cross(c.arm, pushes[child]))
+                turning = g.mul(g.constant(2.0), g.mul(w, heavy))
+                lag = self._scaled(turning, self._perp(c.sliding))
+                push = self._less(push, lag)
+                turn = g.sub(turn, self._cross(c.arm, lag))
+                if c.group == p.group:
+                    shared = self._sum(shared, moments[child])
+                    both = g.mul(g.constant(2.0), g.dot(c.arm, moments[child]))
+                    second = g.add(second, g.add(seconds[child], both))
+                    swing = self._scaled(g.mul(w, w), c.arm)
+                    swing = self._less(swing, self._scaled(g.mul(g.constant(2.0), w), self._perp(c.sliding)))
+                    turn = g.add(turn, g.add(turns[child], self._cross(moments[child], swing)))
+            turned = self._sum(self._rotated(p.axes, fixed), moving)
+            masses[name], seconds[name] = total, second
+            moments[name] = self._sum(turned, shared)
+            pushes[name], turns[name] = self._sum(push, self._scaled(g.mul(w, w), turned)), turn
+        for name in pushes:  # the accelerations of the points themselves
+            p = self.placed[name]
+            turns[name] = g.sub(turns[name], self._cross(moments[name], p.bias))
+            pushes[name] = self._less(pushes[name], self._scaled(masses[name], p.bias))
+        entries: dict[tuple[int, int], int] = {}
+        own = [forces[model.size + i] for i in range(self.size)]
+        f = [g.zero] * self.size
+        for name, p in self.placed.items():
+            mu = moments.get(name, (g.zero, g.zero))
+            for i, e in p.slides.items():
+                momentum = self._scaled(masses[name], e)
+                for j, column in p.columns.items():
+                    entry = g.dot(momentum, column)
+                    if j == p.group:
+                        entry = g.add(entry, self._cross(mu, e))
+                    entries[i, j] = entries[j, i] = entry
+                entries[i, i] = masses[name]  # directions have length 1
+                f[i] = g.dot(e, pushes[name])
+            if name != GROUND and p.group >= 0 and self.placed[p.link.parent].group != p.group:
+                for j, column in p.columns.items():
+                    entries[p.group, j] = entries[j, p.group] = g.dot(self._perp(mu), column)
+                entries[p.group, p.group] = seconds[name]
+                f[p.group] = turns[name]
+        return blocks_of(entries, self.size, g.zero), [g.add(a, b) for a, b in zip(f, own, strict=True)]
+
+    # -- vectors -------------------------------------------------------------------------------------------------------
+
+    @staticmethod
+    def _pair(vector: list[int]) -> Pair:
+        x, y = vector
+        return x, y
+
+    def _rotated(self, axes: Pair, vector: Pair) -> Pair:
+        g, (c, s), (x, y) = self.graph, axes, vector
+        return g.sub(g.mul(c, x), g.mul(s, y)), g.add(g.mul(s, x), g.mul(c, y))
+
+    def _scaled(self, factor: int, vector: Pair) -> Pair:
+        return self.graph.mul(factor, vector[0]), self.graph.mul(factor, vector[1])
+
+    def _sum(self, a: Pair, b: Pair) -> Pair:
+        return self.graph.add(a[0], b[0]), self.graph.add(a[1], b[1])
+
+    def _less(self, a: Pair, b: Pair) -> Pair:
+        return self.graph.sub(a[0], b[0]), self.graph.sub(a[1], b[1])
+
+    def _perp(self, a: Pair) -> Pair:
+        return self.graph.neg(a[1]), a[0]
+
+    def _cross(self, a: Pair, b: Pair) -> int:
+        return self.graph.sub(self.graph.mul(a[0], b[1]), self.graph.mul(a[1], b[0]))
+
+
+def blocks_of(entries: Mapping[tuple[int, int], int], size: int, zero: int) -> tuple[MassBlock, ...]:
+    """Return a symmetric matrix as blocks of velocities that depend on each other."""
+    label = list(range(size))
+    for (i, j), node in entries.items():
+        if node != zero and label[i] != label[j]:
+            old, new = max(label[i], label[j]), min(label[i], label[j])
+            label = [new if x == old else x for x in label]
+    found = list[MassBlock]()
+    for root in sorted(set(label)):
+        columns = tuple(i for i in range(size) if label[i] == root)
+        found.append(MassBlock(columns, tuple(tuple(entries.get((i, j), zero) for j in columns) for i in columns)))
+    return tuple(found)

@@ -1,0 +1,347 @@
+"""Bodies in space on a tree of joints: positions, velocities, M and f from joint coordinates.
+
+The point of a body that moves with its joint is the origin of its frame here. Vectors of a body stand in its own axes,
+where its inertia is constant: velocities are carried outwards, forces and composite inertias inwards (the recursive
+Newton-Euler and the composite-rigid-body algorithm; Featherstone, Rigid Body Dynamics Algorithms, 2008, chapters 5 and
+6). Gravity is an acceleration of the ground. Balls and free bodies have Euler parameters and angular velocities of
+their own, against the ground: what carries such a body moves its joint's point but does not turn it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from symgen.describe.mechanism import Articulation, Link, SpatialBody
+from symgen.describe.topology import known_coordinates
+from symgen.formulate.equations import MassBlock
+from symgen.formulate.euler import composed, half_turn, inverse, matrix_of, parameters_of, turning
+from symgen.formulate.tree_inertia import Composite, Motion
+from symgen.formulate.vectors import Matrix, Triple, Vectors
+from symgen.vocabulary.measures import GROUND, Direction
+
+if TYPE_CHECKING:
+    from symgen.formulate.measures import Model
+
+
+@dataclass
+class _Placed:
+    """A body where its joint holds it, as nodes; vectors in the body's axes unless said otherwise.
+
+    Attributes
+    ----------
+    turn : Matrix
+        From the body's axes to those of what carries it.
+    arm : Triple
+        From the point of what carries it to its own, in the axes of what carries it.
+    own : bool
+        Whether its orientation is its own, so that what carries it does not turn it.
+    axes : Matrix
+        From its axes to the ground's.
+    at : Triple
+        Its point, in ground axes.
+    omega, velocity : Triple
+        Angular velocity, and velocity of its point.
+    alpha, bias : Triple
+        Angular acceleration, and acceleration of its point less gravity, where v' is 0.
+    motions : mapping of int to Motion
+        Velocities of the state that belong to its link.
+    columns : mapping of int to (Triple, Triple)
+        Velocity of the state -> derivative of `omega` and `velocity` by it.
+    centre : Triple
+        Its centre of mass, from its point.
+    euler : sequence of int
+        Euler parameters.
+    """
+
+    link: Link
+    turn: Matrix
+    arm: Triple
+    own: bool
+    axes: Matrix
+    at: Triple
+    omega: Triple
+    velocity: Triple
+    alpha: Triple
+    bias: Triple
+    motions: dict[int, Motion]
+    columns: dict[int, tuple[Triple, Triple]]
+    centre: Triple
+    euler: Sequence[int]
+    children: list[str] = field(default_factory=list)
+
+
+class SpatialTree:
+    """Bodies in space on a tree; see `symgen.formulate.carried.Carried`."""
+
+    def __init__(self, model: Model) -> None:
+        self.model, self.graph = model, model.graph
+        topology = model.mechanism.topology
+        assert topology is not None, "a tree belongs to it"
+        g = self.graph
+        self.v = v = Vectors(g)
+        self.gravity = v.triple([model.expression(e) for e in model.mechanism.gravity])
+        self.size = self.count = 0
+        self.rates: list[int] = []
+        self.found_spins: list[tuple[int, int]] = []
+        still = v.zero
+        self.placed = {
+            GROUND: _Placed(
+                *(Link(GROUND), v.units, still, True, v.units, still, still, still, still, v.neg(self.gravity)),
+                *({}, {}, still, (g.one, g.zero, g.zero, g.zero)),
+            )
+        }
+        for link in topology.links:
+            self._place(link)
+        self.q_rates, self.spins = tuple(self.rates), tuple(self.found_spins)
+        self.names = dict[str, int]()
+        velocities, biases = list[int](), list[int]()
+        self._columns: list[Mapping[int, int]] = []
+        for body in model.mechanism.bodies:
+            p = self.placed[body.name]
+            velocities += v.times(p.axes, p.velocity)
+            biases += v.add(v.times(p.axes, p.bias), self.gravity)
+            moved = {i: v.times(p.axes, along) for i, (_, along) in p.columns.items()}
+            self._columns += [{i: c[k] for i, c in moved.items() if c[k] != g.zero} for k in range(3)]
+            if not body.is_point:
+                velocities += p.omega
+                biases += p.alpha
+                self._columns += [
+                    {i: about[k] for i, (about, _) in p.columns.items() if about[k] != g.zero} for k in range(3)
+                ]
+            self._name(body.name, body.is_point, p)
+        self._columns += [{i: g.one} for i in range(self.size)]
+        self.velocities = (*velocities, *(g.input("v", i) for i in range(self.size)))
+        self.biases = (*biases, *(g.zero for _ in range(self.size)))
+        self.known = known_coordinates(model.mechanism, topology)
+
+    # -- positions and velocities --------------------------------------------------------------------------------------
+
+    def _next(self, kind: str = "") -> int:
+        """Return the index of another velocity of the state, with a coordinate of its own unless it is a ball's."""
+        self.size += 1
+        if kind != "ball":
+            self.count += 1
+            self.rates.append(self.graph.input("v", self.size - 1))
+        return self.size - 1
+
+    def _ball(self) -> tuple[list[int], list[int]]:
+        """Return Euler parameters, and the indices of the angular velocity that goes with them."""
+        g = self.graph
+        e = [g.input("q", self.count + k) for k in range(4)]
+        indices = [self._next("ball") for _ in range(3)]
+        self.found_spins.append((self.count, indices[0]))
+        self.count += 4
+        self.rates += turning(g, e, [g.input("v", i) for i in indices])
+        return e, indices
+
+    def _place(self, link: Link) -> None:
+        g, v, model = self.graph, self.v, self.model
+        body, parent = model.mechanism.body(link.body), self.placed[link.parent]
+        assert isinstance(body, SpatialBody), "bodies in space"
+        parent.children.append(link.body)
+        found = link.articulation
+        motions: dict[int, Motion] = {}
+        rate = v.zero  # of the arm, in the parent's axes
+        if found is None:
+            reference = body.centre_of_mass
+            first = self.count
+            slides = [self._next() for _ in range(3)]
+            arm = v.triple([g.input("q", first + k) for k in range(3)])
+            rate = v.triple([g.input("v", i) for i in slides])
+            directions = dict(zip(slides, v.units, strict=True))
+        else:
+            carrier, own = (found.a, found.b) if link.forward else (found.b, found.a)
+            reference = own.point
+            arm = v.triple(model.local(carrier))
+            sign = g.one if link.forward else g.constant(-1.0)
+            directions = dict[int, Triple]()
+            for direction in found.slides:
+                q = g.input("q", self.count)
+                i = self._next()
+                e = v.scale(sign, self._carried(found, link, direction))
+                arm = v.add(arm, v.scale(q, e))
+                rate = v.add(rate, v.scale(g.input("v", i), e))
+                directions[i] = e
+        model.references[link.body] = reference
+        own_turn = found is None or found.turn == "ball"
+        relative = extra = v.zero
+        euler: Sequence[int]
+        if body.is_point:
+            turn, euler, own_turn = v.transposed(parent.axes), (g.one, g.zero, g.zero, g.zero), True
+            axes = v.units
+        elif own_turn:
+            euler, indices = self._ball()
+            axes = _rows(v, matrix_of(g, euler))
+            turn = axes if link.parent == GROUND else v.product(v.transposed(parent.axes), axes)
+            motions |= {i: Motion(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
+        else:
+            assert found is not None, "it is no free body"
+            first = self.count
+            turn, quaternion, abouts, twisted = self._turn(found, link)
+            for i, about in abouts.items():
+                along = v.zero
+                if found.screw:
+                    slope, offset = (model.expression(e) for e in found.screw)
+                    sign = g.one if link.forward else g.constant(-1.0)
+                    axis = v.scale(sign, v.triple(model.direction(found.of_a[2] if link.forward else found.of_b[2])))
+                    place = g.add(g.mul(slope, g.input("q", first)), offset)
+                    arm = v.add(arm, v.scale(place, axis))
+                    rate = v.add(rate, v.scale(g.mul(slope, g.input("v", i)), axis))
+                    along = v.back(turn, v.scale(slope, axis))
+                motions[i] = Motion(about, along)
+                relative = v.add(relative, v.scale(g.input("v", i), about))
+            extra = twisted
+            axes = v.product(parent.axes, turn)
+            euler = composed(g, parent.euler, quaternion)
+        motions |= {i: Motion(v.zero, v.back(turn, e)) for i, e in directions.items()}
+        if body.is_point:
+            omega = alpha = v.zero
+        elif own_turn:
+            start = next(i for i, m in motions.items() if m.about != v.zero)
+            omega, alpha = v.triple([g.input("v", start + k) for k in range(3)]), v.zero
+        else:
+            carried = v.back(turn, parent.omega)
+            omega = v.add(carried, relative)
+            alpha = v.add(v.back(turn, parent.alpha), v.cross(carried, relative), extra)
+        w = parent.omega
+        moved = v.add(parent.velocity, v.cross(w, arm), rate)
+        swing = v.add(v.cross(w, arm), v.scale(g.constant(2.0), rate))
+        bias = v.add(parent.bias, v.cross(parent.alpha, arm), v.cross(w, swing))
+        columns: dict[int, tuple[Triple, Triple]] = {}
+        for i, (about, along) in parent.columns.items():
+            turned = v.zero if own_turn else v.back(turn, about)
+            columns[i] = turned, v.back(turn, v.add(along, v.cross(about, arm)))
+        columns |= {i: (m.about, m.along) for i, m in motions.items()}
+        com, at = (v.triple([model.expression(e) for e in point]) for point in (body.centre_of_mass, reference))
+        self.placed[link.body] = _Placed(
+            link,
+            turn,
+            arm,
+            own_turn,
+            axes,
+            v.add(parent.at, v.times(parent.axes, arm)),
+            omega,
+            v.back(turn, moved),
+            alpha,
+            v.back(turn, bias),
+            motions,
+            columns,
+            v.sub(com, at),
+            euler,
+        )
+
+    def _carried(self, found: Articulation, link: Link, direction: Direction) -> Triple:
+        """Return a direction of displacement in the axes of what carries the body."""
+        vector = self.v.triple(self.model.direction(direction))
+        if direction.body == link.parent:
+            return vector
+        # it is the axis, or nothing turns: the same in both frames
+        of, to = (found.of_a, found.of_b) if link.forward is False else (found.of_b, found.of_a)
+        parts = [self.v.dot(vector, self.v.triple(self.model.direction(d))) for d in of]
+        axes = [self.v.triple(self.model.direction(d)) for d in to]
+        return self.v.add(*(self.v.scale(x, axis) for x, axis in zip(parts, axes, strict=True)))
+
+    def _turn(self, found: Articulation, link: Link) -> tuple[Matrix, Sequence[int], dict[int, Triple], Triple]:
+        """Return how the axes are turned against those of what carries them.
+
+        The matrix, its Euler parameters, the axes of the joint's angles in the body's axes, and what angular
+        acceleration two angles make where their rates are constant.
+        """
+        g, v, model = self.graph, self.v, self.model
+        mine, other = (found.of_b, found.of_a) if link.forward else (found.of_a, found.of_b)
+        to_parent = v.transposed(_rows(v, [n for d in other for n in model.direction(d)]))  # columns are directions
+        to_body = v.transposed(_rows(v, [n for d in mine for n in model.direction(d)]))
+        sign = g.one if link.forward else g.constant(-1.0)
+        if found.turn == "fixed":
+            turn = v.product(to_parent, v.transposed(to_body))
+            return turn, parameters_of(g, turn), {}, v.zero
+        if found.turn == "axis":
+            q = g.input("q", self.count)
+            i = self._next()
+            c, s = g.call("cos", q), g.mul(sign, g.call("sin", q))
+            z = g.zero
+            about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
+            turn = v.product(v.product(to_parent, about_axis), v.transposed(to_body))
+            half = half_turn(g, g.mul(sign, q), 3)
+            euler = composed(g, composed(g, parameters_of(g, to_parent), half), inverse(g, parameters_of(g, to_body)))
+            axis = v.scale(sign, v.triple(model.direction(mine[2])))
+            return turn, euler, {i: axis}, v.zero
+        first = self.count
+        one, two = self._next(), self._next()
+        qa, qb = g.input("q", first), g.input("q", first + 1)
+        fa, sa, za = (v.triple(model.direction(d)) for d in found.of_a)
+        fb, sb, zb = (v.triple(model.direction(d)) for d in found.of_b)
+        c1, s1, c2, s2 = g.call("cos", qa), g.call("sin", qa), g.call("cos", qb), g.call("sin", qb)
+        # the cross: its second axis, the product of both, its first axis; in the first body's axes, and the second's
+        in_a = v.add(v.scale(c1, fa), v.scale(s1, sa)), v.sub(v.scale(c1, sa), v.scale(s1, fa)), za
+        in_b = zb, v.neg(v.add(v.scale(s2, fb), v.scale(c2, sb))), v.sub(v.scale(c2, fb), v.scale(s2, sb))
+        into_a, into_b = v.transposed(in_a), v.transposed(in_b)
+        flip = parameters_of(
+            g,
+            v.product(
+                ((g.zero, g.zero, g.one), (g.zero, g.constant(-1.0), g.zero), (g.one, g.zero, g.zero)),
+                _rows(v, [n for d in (fb, sb, zb) for n in d]),
+            ),
+        )
+        of_a = parameters_of(g, v.transposed((fa, sa, za)))
+        forwards = composed(g, composed(g, of_a, half_turn(g, qa, 3)), composed(g, half_turn(g, qb, 1), flip))
+        product = g.mul(g.input("v", one), g.input("v", two))
+        if link.forward:
+            turn = v.product(into_a, v.transposed(into_b))
+            return turn, forwards, {one: in_b[2], two: zb}, v.scale(product, in_b[1])
+        turn = v.product(into_b, v.transposed(into_a))
+        return turn, inverse(g, forwards), {one: v.neg(za), two: v.neg(in_a[0])}, v.neg(v.scale(product, in_a[1]))
+
+    def _name(self, name: str, is_point: bool, p: _Placed) -> None:
+        """Note the coordinates and velocities of a body by their names."""
+        v = self.v
+        place = v.add(p.at, v.times(p.axes, p.centre))
+        speed = v.times(p.axes, v.add(p.velocity, v.cross(p.omega, p.centre)))
+        labels = ("x", "y", "z", "vx", "vy", "vz")
+        self.names |= {f"{name}.{n}": x for n, x in zip(labels, (*place, *speed), strict=True)}
+        if not is_point:
+            self.names |= {f"{name}.e{k}": e for k, e in enumerate(p.euler)}
+            self.names |= {f"{name}.w{axis}": w for axis, w in zip("xyz", p.omega, strict=True)}
+
+    def frame(self, body: str) -> list[int]:
+        """Return the nodes of a frame's slots."""
+        p, v = self.placed[body], self.v
+        return [*p.at, *(n for row in p.axes for n in row), *v.times(p.axes, p.velocity), *p.omega]
+
+    def column(self, index: int) -> Mapping[int, int]:
+        """Return the row of B for a velocity of a body."""
+        return self._columns[index]
+
+    def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
+        """Return the accelerations of centres of mass, and angular ones, by the names of their velocities."""
+        v, found = self.v, dict[str, int]()
+        for body in self.model.mechanism.bodies:
+            p = self.placed[body.name]
+            alpha = v.add(p.alpha, *(v.scale(rates[i], about) for i, (about, _) in sorted(p.columns.items())))
+            at = v.add(p.bias, *(v.scale(rates[i], along) for i, (_, along) in sorted(p.columns.items())))
+            at = v.add(at, v.cross(alpha, p.centre), v.cross(p.omega, v.cross(p.omega, p.centre)))
+            at = v.add(v.times(p.axes, at), self.gravity)
+            found |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
+            if not body.is_point:
+                found |= {f"{body.name}.w{axis}": x for axis, x in zip("xyz", alpha, strict=True)}
+        return found
+
+    def speed(self, body: str) -> list[int]:
+        """Return the velocity of a centre of mass in some axes."""
+        p = self.placed[body]
+        return list(self.v.add(p.velocity, self.v.cross(p.omega, p.centre)))
+
+    def weight(self, body: str, force: list[int]) -> dict[int, int]:
+        """Return nothing: gravity is an acceleration of the ground."""
+        return {}
+
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
+        """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
+        found = Composite(self.model, self.placed, forces)
+        return found.mass(self.size), found.force(self.size)
+
+
+def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:
+    return v.triple(nodes[:3]), v.triple(nodes[3:6]), v.triple(nodes[6:])

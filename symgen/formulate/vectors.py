@@ -1,0 +1,108 @@
+"""Vectors and matrices of nodes: what the recursions over bodies in space are written in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symgen.ir.graph import Graph
+
+Triple = tuple[int, int, int]
+#: Three rows of a matrix.
+Matrix = tuple[Triple, Triple, Triple]
+
+
+class Vectors:
+    """Operations on triples of nodes of one graph."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+        z, o = graph.zero, graph.one
+        self.zero: Triple = (z, z, z)
+        self.units: Matrix = ((o, z, z), (z, o, z), (z, z, o))
+
+    def triple(self, nodes: Sequence[int]) -> Triple:
+        """Return three nodes as a vector."""
+        x, y, z = nodes
+        return x, y, z
+
+    def add(self, *vectors: Triple) -> Triple:
+        """Return a sum."""
+        g = self.graph
+        return self.triple([g.total(parts) for parts in zip(*vectors, strict=True)])
+
+    def sub(self, a: Triple, b: Triple) -> Triple:
+        """Return a - b."""
+        return self.triple([self.graph.sub(x, y) for x, y in zip(a, b, strict=True)])
+
+    def neg(self, a: Triple) -> Triple:
+        """Return -a."""
+        return self.triple([self.graph.neg(x) for x in a])
+
+    def scale(self, factor: int, a: Triple) -> Triple:
+        """Return a times a number."""
+        return self.triple([self.graph.mul(factor, x) for x in a])
+
+    def dot(self, a: Triple, b: Triple) -> int:
+        """Return the inner product."""
+        return self.graph.dot(a, b)
+
+    def cross(self, a: Triple, b: Triple) -> Triple:
+        """Return a x b."""
+        g = self.graph
+        return (
+            g.sub(g.mul(a[1], b[2]), g.mul(a[2], b[1])),
+            g.sub(g.mul(a[2], b[0]), g.mul(a[0], b[2])),
+            g.sub(g.mul(a[0], b[1]), g.mul(a[1], b[0])),
+        )
+
+    def times(self, m: Matrix, a: Triple) -> Triple:
+        """Return a matrix times a vector."""
+        return self.triple([self.graph.dot(row, a) for row in m])
+
+    def back(self, m: Matrix, a: Triple) -> Triple:
+        """Return the transposed matrix times a vector."""
+        return self.times(self.transposed(m), a)
+
+    def transposed(self, m: Matrix) -> Matrix:
+        """Return the transposed matrix."""
+        a, b, c = (self.triple(column) for column in zip(*m, strict=True))
+        return a, b, c
+
+    def product(self, a: Matrix, b: Matrix) -> Matrix:
+        """Return a product of matrices."""
+        columns = [self.times(a, column) for column in self.transposed(b)]
+        x, y, z = (self.triple(row) for row in zip(*columns, strict=True))
+        return x, y, z
+
+    def plus(self, a: Matrix, b: Matrix) -> Matrix:
+        """Return a sum of matrices."""
+        x, y, z = (self.add(p, q) for p, q in zip(a, b, strict=True))
+        return x, y, z
+
+    def turned(self, r: Matrix, j: Matrix) -> Matrix:
+        """Return R J R^T of a symmetric J; the lower triangle is the upper one."""
+        half = self.product(r, j)
+        g = self.graph
+        entries = [[g.zero] * 3 for _ in range(3)]
+        for i in range(3):
+            for k in range(i, 3):
+                entries[i][k] = entries[k][i] = g.dot(half[i], r[k])
+        x, y, z = (self.triple(row) for row in entries)
+        return x, y, z
+
+    def second(self, m: int, a: Triple) -> Matrix:
+        """Return m (|a|^2 1 - a a^T): the second moment of a mass at a point."""
+        return self.shifted(self.scale(m, a), a)
+
+    def shifted(self, h: Triple, a: Triple) -> Matrix:
+        """Return ((a . h) 1 - (a h^T + h a^T) / 2), which is symmetric."""
+        g = self.graph
+        half = g.constant(0.5)
+        entries = [[g.zero] * 3 for _ in range(3)]
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            entries[i][i] = g.add(g.mul(a[j], h[j]), g.mul(a[k], h[k]))
+            mixed = g.add(g.mul(a[i], h[j]), g.mul(h[i], a[j]))
+            entries[i][j] = entries[j][i] = g.neg(g.mul(half, mixed))
+        x, y, z = (self.triple(row) for row in entries)
+        return x, y, z

@@ -1,0 +1,154 @@
+"""Runs in joint coordinates: the same motions, reactions and energies as in the coordinates of bodies."""
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import InputError
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
+
+#: Two runs at this tolerance differ by at most what their errors add up to over the span, a thousand tolerances.
+TIGHT = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-13}
+MOTION, REACTION = 1e-8, 1e-6
+
+#: Model -> time [s]. A loop, a loop in space with a redundant row, drivers, nonholonomic rows, springs, welds, trees.
+SPANS = {
+    **{"four-bar": 0.5, "bricard": 0.5, "driven-four-bar": 0.3, "rolling-disc": 0.5, "flyball-governor": 0.05},
+    **{"scissor-lift": 0.3, "spherical-double-pendulum": 0.5, "spatial-slider-crank": 0.2, "pendulum": 0.5},
+    **{"stewart-platform": 0.1, "front-suspension": 0.1, "heavy-top": 0.1, "cart-pole": 0.5, "wiper": 0.2},
+}
+QUICK = ("four-bar", "bricard", "driven-four-bar", "rolling-disc", "scissor-lift", "spherical-double-pendulum")
+
+
+def both(name, until, method="direct-correction", **settings):
+    model = symgen.load(name)
+    settings = {"method": method, "until": until, "output_step": until / 4, **settings}
+    return model.simulate(**settings), model.simulate(coordinates="joint", **settings)
+
+
+def check_same(bodies, joints, motion=MOTION):
+    assert bodies.status == joints.status == "ok", (bodies.reason, joints.reason)
+    assert bodies.coordinates == "absolute" and joints.coordinates == "joint"
+    for table in ("q", "v", "joint_coordinates"):
+        a, b = getattr(bodies, table), getattr(joints, table)
+        assert a.names == b.names and a.units == b.units
+        size = max(1.0, float(np.abs(a.values).max(initial=0.0)))
+        np.testing.assert_allclose(b.values, a.values, rtol=0.0, atol=motion * size, err_msg=table)
+    a, b = bodies.reactions, joints.reactions
+    size = max(1.0, float(np.abs(a.values).max(initial=0.0)))
+    np.testing.assert_allclose(b.values, a.values, rtol=0.0, atol=100.0 * motion * size, err_msg="reactions")
+    np.testing.assert_allclose(joints.kinetic + joints.potential - joints.work, bodies.kinetic[0] + bodies.potential[0])
+    assert joints.rank == bodies.rank
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_motions_of_the_catalogue(name):
+    check_same(*both(name, SPANS[name], **TIGHT))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [name for name in SPANS if name not in QUICK])
+def test_other_motions_of_the_catalogue(name):
+    check_same(*both(name, SPANS[name], **TIGHT))
+
+
+def pairs(integrators):
+    for name in METHODS.names:
+        method = METHODS.get(name, "")
+        for integrator in integrators:
+            if set(method.forms) & set(INTEGRATORS.get(integrator, "").forms):
+                yield name, integrator
+
+
+def check_pair(model, method, integrator):
+    adaptive = INTEGRATORS.get(integrator, "").adaptive
+    steps = {"rtol": 1e-9, "atol": 1e-11} if adaptive else {"step": 1e-3}
+    bodies, joints = both(model, 0.25, method, integrator=integrator, **steps)
+    # penalties give by 1e-7, and schemes of second order are off by as much at this step
+    check_same(bodies, joints, 2e-5)
+
+
+SAMPLED = (
+    ("augmented-hamiltonian", "rk4"),
+    ("coordinate-partitioning", "rk4"),
+    ("null-space", "rk4"),
+    ("ggl", "radau5"),
+)
+
+
+@pytest.mark.parametrize(("method", "integrator"), SAMPLED)
+def test_methods_where_the_mass_matrix_changes(method, integrator):
+    check_pair("four-bar", method, integrator)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("method", "integrator"), [p for p in pairs(INTEGRATORS.names) if p not in SAMPLED])
+def test_all_methods_and_integrators(method, integrator):
+    check_pair("four-bar", method, integrator)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("method", "integrator"), list(pairs(("rk4", "radau5", "generalized-alpha", "rkmk4"))))
+def test_all_methods_in_space(method, integrator):
+    check_pair("spatial-slider-crank", method, integrator)
+
+
+def test_what_the_state_is():
+    model = symgen.load("slider-crank")
+    result = model.simulate(until=0.01, coordinates="joint")
+    angles = ("crank.theta", "guide.displacement", "rod.theta")
+    rates = ("crank.omega", "guide.displacement.rate", "rod.omega")
+    assert result.state == (*angles, *rates)
+    assert model.simulate(until=0.01).state[:3] == ("crank.x", "crank.y", "crank.theta")
+    assert model.simulate(until=0.01, coordinates="auto").coordinates == "joint"
+
+
+def test_a_tree_needs_no_method():
+    """Without loops all methods are one ordinary differential equation: bit for bit the same motion."""
+    model = symgen.load("spherical-double-pendulum")
+    names = ("lagrange", "direct-correction", "baumgarte", "velocity-projection")
+    found = [model.simulate(method=n, until=0.2, integrator="rk4", step=1e-3, coordinates="joint") for n in names]
+    for other in found[1:]:
+        np.testing.assert_array_equal(other.q.values, found[0].q.values)
+
+
+def test_rows_of_a_loop_that_vanish():
+    """Where all bars of the flat four-bar are in line, rows of its loop vanish as a whole: no run is ok unwarned."""
+    settings = {"until": 1.4, "integrator": "rk4", "step": 1e-3, "output_step": 0.2}
+    bodies, joints = both("n-four-bar:2", method="direct-correction", **settings)
+    assert bodies.rank_event_count == joints.rank_event_count > 0
+    np.testing.assert_allclose(joints.q.values, bodies.q.values, rtol=0.0, atol=1e-5)
+    assert any("singular position" in warning for warning in joints.warnings)
+    plain = symgen.load("n-four-bar:2").simulate(method="lagrange", coordinates="joint", **settings)
+    assert plain.status == "unverified"
+
+
+def test_events_outputs_and_inputs():
+    """A motor that an input drives, stopped at an angle: what is integrated and noted is that of the bodies."""
+    model = symgen.load("four-bar")
+    settings = {"until": 2.0, "stop_when": "crank.theta < 0.9", "output_step": 0.1, **TIGHT}
+    bodies, joints = model.simulate(**settings), model.simulate(coordinates="joint", **settings)
+    assert bodies.end == pytest.approx(joints.end, abs=1e-9) and bodies.end < 2.0
+    ((a,), (b,)) = bodies.events, joints.events
+    assert a.q.keys() == b.q.keys() and b.q["crank.theta"] == pytest.approx(0.9, abs=1e-9)
+
+
+def test_going_on():
+    """From the last state of a run in joint coordinates: its coordinates and velocities."""
+    model = symgen.load("four-bar")
+    whole = model.simulate(until=0.4, coordinates="joint", **TIGHT)
+    first = model.simulate(until=0.2, coordinates="joint", **TIGHT)
+    second = model.simulate(until=0.4, start=first, coordinates="joint", **TIGHT)
+    np.testing.assert_allclose(second.q.values[-1], whole.q.values[-1], rtol=0.0, atol=MOTION)
+    assert second.t[0] == 0.2 and second.energy_error[-1] == pytest.approx(0.0, abs=REACTION)
+
+
+def test_refusals():
+    model = symgen.load("four-bar")
+    with pytest.raises(InputError, match="loops, lanes and CUDA have no joint coordinates"):
+        model.simulate(coordinates="joint", shape="looped")
+    with pytest.raises(InputError, match="absolute, joint, auto"):
+        model.simulate(coordinates="relative")
+    with pytest.raises(InputError, match="step by step"):
+        model.start(coordinates="joint")
