@@ -1,0 +1,97 @@
+"""Coordinates of bodies beside those of joints: operations, run time, and error against run time.
+
+    python -m benchmarks.coordinates [MODEL ...]
+
+Operations are those of the emitted right-hand side of `lagrange`, and of the tangent of its descriptor form. Run times
+are of `direct-correction`: with `rk4` at the mechanism's own step, runs in both coordinates in turns, medians of their
+ratios; and with `dop853` at the largest of some tolerances whose error is below the one asked for.
+"""
+
+from __future__ import annotations
+
+import sys
+from statistics import median
+from typing import Any
+
+import numpy as np
+
+import symgen
+from symgen.api import Model
+from symgen.describe.mechanism import Mechanism
+from symgen.formulate.formulate import formulate
+from symgen.lower.law import lower_law
+from symgen.lower.model import lower_model
+from symgen.methods import METHODS
+from symgen.result.points import Points
+from symgen.tree_run import on_tree
+
+MODELS = (
+    *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "bricard", "spatial-slider-crank"),
+    *("front-suspension", "stewart-platform", "flyball-governor", "chain:6"),
+)
+#: Error that `dop853` is asked for [m], and what is tried.
+ERROR = 1e-6
+TOLERANCES = tuple(10.0 ** (-k / 2) for k in range(8, 26))
+TURNS = 9
+
+
+def operations(mechanism: Mechanism) -> tuple[int, int]:
+    """Return those of the right-hand side and of the tangent."""
+    method = METHODS.get("lagrange", "")
+    equations = formulate(mechanism)
+    law = lower_law(equations, lower_model(equations, ""), method, method.complete_options({}), implicit=True)
+    counts = {block.name: block.operations for block in law.blocks}
+    return counts["rhs"], counts["tangent"]
+
+
+def span(model: Model) -> float:
+    """Return how long a run is [s]: no longer than the motion is predictable."""
+    defaults = model.mechanism.defaults
+    return min(defaults.until, defaults.predictable_until or np.inf, 10.0)
+
+
+def run(model: Model, coordinates: str, **settings: Any) -> symgen.Result:
+    """Return a run of `direct-correction`, the shortest of three."""
+    end = span(model)
+    return model.simulate(coordinates=coordinates, until=end, output_step=end / 50, repeat=3, **settings)
+
+
+def at_equal_error(model: Model, coordinates: str, exact: np.ndarray, points: Points) -> tuple[float, float]:
+    """Return run time [s] and error [m] at the largest tolerance whose error is below `ERROR`."""
+    found = np.nan, np.nan
+    for rtol in TOLERANCES:
+        result = run(model, coordinates, integrator="dop853", rtol=rtol, atol=1e-2 * rtol)
+        if result.status == "failed" or len(result.t) != len(exact):
+            continue
+        error = float(points.distances(np.asarray(result.q), exact).max())
+        if error < ERROR:
+            found = result.seconds.run, error
+            break
+    return found
+
+
+def main(names: list[str]) -> None:
+    """Print a line a model."""
+    print(f"{'':22} {'rhs':>12} {'tangent':>14}   rk4 (spread)      dop853 to {ERROR:g} m")
+    for name in names:
+        model = symgen.load(name)
+        absolute, joint = operations(model.mechanism), operations(on_tree(model.mechanism))
+        ratios, seconds = [], [0.0, 0.0]
+        for _ in range(TURNS):
+            a, b = (run(model, c, integrator="rk4").seconds.run for c in ("absolute", "joint"))
+            ratios.append(a / b)
+            seconds = [a, b]
+        points = Points.of(model.mechanism, model.parameters())
+        exact = np.asarray(run(model, "joint", integrator="dop853", rtol=1e-13, atol=1e-14).q)
+        timed = [at_equal_error(model, c, exact, points) for c in ("absolute", "joint")]
+        low, high = np.quantile(ratios, [0.1, 0.9])
+        print(
+            f"{name:22} {absolute[0]:5}/{joint[0]:<6} {absolute[1]:6}/{joint[1]:<7} "
+            f"{median(ratios):5.2f} ({low:.2f}-{high:.2f})   {timed[0][0] / timed[1][0]:5.2f}"
+            f"   {1e3 * seconds[0]:.3g}/{1e3 * seconds[1]:.3g} ms, {1e3 * timed[0][0]:.3g}/{1e3 * timed[1][0]:.3g} ms",
+            flush=True,
+        )
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:] or list(MODELS))
