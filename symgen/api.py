@@ -190,7 +190,8 @@ class Model:
             the error by a second run with finer steps, which also settles an `unverified` run), ``max_violation`` and
             ``max_energy_error`` (what ends a run as failed), ``max_steps`` (attempts at steps after which it has),
             ``repeat`` (warm up, then time that many runs and report the shortest), ``shape`` (``auto``, ``straight``
-            or ``looped``).
+            or ``looped``), ``coordinates`` (``absolute``, ``joint`` or ``auto``: those of bodies, or of the joints of a
+            tree).
 
         Returns
         -------
