@@ -17,13 +17,13 @@ import numpy as np
 
 import symgen
 from symgen.api import Model
+from symgen.compiling.choose_tree import on_tree
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.methods import METHODS
 from symgen.result.points import Points
-from symgen.tree_run import on_tree
 
 MODELS = (
     *("four-bar", "slider-crank", "andrews", "n-four-bar:10", "bricard", "spatial-slider-crank"),

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.choose_tree import on_tree
 from symgen.describe.mechanism import Topology
-from symgen.describe.topology import known_coordinates, spanning_tree, state_names, with_joint_coordinates
+from symgen.describe.topology import known_coordinates, state_names
 from symgen.lower.windings import winding_order
 from symgen.run_setup import compiled_for, ready
 from symgen.runtime import abi
@@ -27,8 +28,6 @@ from symgen.runtime.probe import Ready
 from symgen.runtime.tree_start import settle_tree
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.runtime.compiled import CompiledModel
@@ -165,11 +164,6 @@ class CarriedOutcome(Outcome):
     inner: Outcome = field(kw_only=True, repr=False)
     end_state: Array = field(kw_only=True, repr=False)
     work: float = field(kw_only=True)
-
-
-def on_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Mechanism:
-    """Return a mechanism whose state is that of the joints of its tree."""
-    return with_joint_coordinates(mechanism, spanning_tree(mechanism, cut))
 
 
 def tree_run(

@@ -50,11 +50,11 @@ def command(
     The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
     """
     from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
+    from symgen.compiling.choose_tree import on_tree
     from symgen.compiling.pipeline import MethodChoice, choose_method, generate
     from symgen.describe.load import load
     from symgen.lower.looped.law import is_loopable
     from symgen.methods import METHODS
-    from symgen.tree_run import on_tree
 
     names = tuple(dict.fromkeys(METHODS.canonical(m, "--method") for m in methods)) or METHODS.names
     wanted: dict[str, dict[str, str]] = {name: {} for name in names}

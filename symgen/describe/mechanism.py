@@ -307,6 +307,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     seats: tuple[tuple[str, Marker], ...] = ()  # joint -> its point ``at`` on its first body, where it has one
     holds: tuple[Hold, ...] = ()
     events: tuple[Event, ...] = ()
+    cuts: tuple[str, ...] = ()  # joints that carry nothing where the state is that of a tree
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
 
     @property

@@ -9,7 +9,7 @@ from typing import Any
 import msgspec
 
 from symgen.describe.events import EventSection
-from symgen.describe.fields import JointStart
+from symgen.describe.fields import Flag, JointStart
 from symgen.describe.sections import (
     BodySection,
     InputSection,
@@ -43,7 +43,7 @@ def schema() -> dict[str, Any]:
             "inputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(InputSection)]}),
             "tables": _named(_table(TableSection)),
             "bodies": _named({"anyOf": [_table(BodySection), _table(SpatialBodySection)]}) | {"minProperties": 1},
-            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart)}),
+            "joints": _named({"oneOf": _kinds(JOINTS.items(), JOINTS.aliases, start=JointStart, cut=Flag)}),
             "outputs": _named({"anyOf": [{"type": ["number", "string"]}, _table(OutputSection)]}),
             "forces": _named({"oneOf": _kinds(FORCES.items(), FORCES.aliases)}),
             "events": _named(_table(EventSection)),

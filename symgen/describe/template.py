@@ -84,6 +84,7 @@ type = "revolute"                         # or JOINTS
 between = ["ground", "rod"]
 at = [[0.0, 0.0], "top"]                  # a point of each body: a name, "centre" or coordinates in its frame
 # start = { angle = 0.5 }                 # the joint's coordinate at the start, kept as well; rate = 1.0 is its rate
+# cut = true                              # with joint coordinates: it closes a loop, and carries nothing
 
 [forces.friction]
 type = "torsional-spring-damper"          # or FORCES

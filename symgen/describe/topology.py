@@ -93,6 +93,25 @@ def _suits(link: Link, points: set[str], spatial: bool) -> bool:
     return link.forward or not found.slides or found.turn == "fixed" or len(found.slides) == 1
 
 
+def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...], ...]:
+    """Return for each joint that closes a loop and could stand in a tree the joints of the tree in that loop."""
+    links = {link.body: link for link in topology.links}
+
+    def path(body: str) -> list[str]:
+        found = list[str]()
+        while body != GROUND and links[body].joint:
+            found.append(links[body].joint)
+            body = links[body].parent
+        return found
+
+    loops = list[tuple[str, ...]]()
+    for name, articulation in edges_of(mechanism).items():
+        if name in topology.cut:
+            a, b = path(articulation.a.body), path(articulation.b.body)
+            loops.append(tuple([j for j in a if j not in b] + [j for j in b if j not in a]))
+    return tuple(loops)
+
+
 def with_joint_coordinates(mechanism: Mechanism, topology: Topology) -> Mechanism:
     """Return a mechanism whose state is that of the joints of a tree: these have no rows any more."""
     inside = {link.joint for link in topology.links}

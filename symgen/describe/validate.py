@@ -13,7 +13,7 @@ from symgen.describe.bounds import DEEPEST
 from symgen.describe.derived import in_order
 from symgen.describe.evaluate import evaluate
 from symgen.describe.events import read_event
-from symgen.describe.fields import JointStart, OutputFunction, Scalar, found, read, read_value
+from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
 from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Table
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
@@ -29,6 +29,7 @@ from symgen.describe.sections import (
     RunSection,
     TableSection,
 )
+from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import names
 from symgen.vocabulary.measures import Marker
@@ -62,6 +63,7 @@ class _Validator:
         self._joints: dict[str, Joint | None] = {}
         self._seats: dict[str, Marker] = {}
         self._open = 0  # joints being resolved, each because the one before refers to it
+        self._cuts: list[str] = []
         self._starts: dict[str, tuple[Hold, ...]] = {}  # what joints say of the start
 
     def where(self, path: str) -> str:
@@ -116,6 +118,7 @@ class _Validator:
             defaults=self.defaults(line(head.source)),
             outputs=tuple(self.output(name, value) for name, value in self.entries("outputs")),
             seats=tuple(self._seats.items()),
+            cuts=tuple(self._cuts),
             holds=tuple(
                 hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
             ),
@@ -269,11 +272,11 @@ class _Validator:
         if self._open > DEEPEST:
             raise InputError(where, f"joints that refer to each other in at most {DEEPEST} steps", "more")
         path = f"joints.{name}"
-        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start")
+        kind, table = self.split(path, self.raw["joints"][name], "joint type", "start", "cut")
         struct = JOINTS.get(kind, self.where(f"{path}.type"))
         scope = Scope(self.model, path, name, JOINTS.canonical(kind))
         scope.check_space(struct.SPACES)
-        section = read(struct, table, self.where(path), ("type", "start"))
+        section = read(struct, table, self.where(path), ("type", "start", "cut"))
         joint = section.build(scope)
         at = getattr(section, "at", None)
         if at is not None:
@@ -282,6 +285,11 @@ class _Validator:
         if "start" in self.raw["joints"][name]:
             given = read_value(JointStart, self.raw["joints"][name]["start"], self.where(f"{path}.start"))
             self._starts[name] = joint_holds(scope, given, joint)
+        if read_value(Flag, self.raw["joints"][name].get("cut", False), self.where(f"{path}.cut")):
+            if articulation_of(joint) is None:
+                got = f"a {joint.kind} joint, which has rows in any case"
+                raise InputError(self.where(f"{path}.cut"), "a joint that can carry a body", got)
+            self._cuts.append(name)
         self._joints[name] = joint
         self._open -= 1
         return joint

@@ -28,16 +28,16 @@ def facts(cli, *words):
 
 
 def test_a_run_says_what_its_state_is(cli):
-    joint = facts(cli, "run", "slider-crank", "--until", "0.05", "--coordinates", "joint")
-    plain = facts(cli, "run", "slider-crank", "--until", "0.05")
+    joint = facts(cli, "run", "cart-pole", "--until", "0.05", "--coordinates", "joint")
+    plain = facts(cli, "run", "cart-pole", "--until", "0.05")
     assert joint["coordinates"] == "joint" and plain["coordinates"] == "absolute"
-    assert joint["state"][:3] == ["crank.theta", "guide.displacement", "rod.theta"]
+    assert joint["state"][:3] == ["rail.displacement", "pole.theta", "rail.displacement.rate"]
     assert set(plain["state"]) == {*plain["final"]["q"], *plain["final"]["v"]}
     assert joint["final"]["q"].keys() == plain["final"]["q"].keys()
     for name, value in plain["final"]["q"].items():
         assert joint["final"]["q"][name] == pytest.approx(value, abs=1e-8)  # two runs of rk4 at 1e-3 s
-    code, out, _ = cli("run", "slider-crank", "--until", "0.05", "--coordinates", "auto")
-    assert code == 0 and "coordinates" in out and "joint, 6 numbers of the state" in out
+    code, out, _ = cli("run", "cart-pole", "--until", "0.05", "--coordinates", "auto")
+    assert code == 0 and "coordinates" in out and "joint, 4 numbers of the state" in out
 
 
 def test_inspect_shows_the_tree(cli):

@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+from support.emitted import mechanism_of
 
 import symgen
+from symgen.catalogue import raw
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
@@ -95,13 +97,27 @@ def test_all_methods_in_space(method, integrator):
 
 
 def test_what_the_state_is():
-    model = symgen.load("slider-crank")
+    model = symgen.load("cart-pole")
     result = model.simulate(until=0.01, coordinates="joint")
-    angles = ("crank.theta", "guide.displacement", "rod.theta")
-    rates = ("crank.omega", "guide.displacement.rate", "rod.omega")
-    assert result.state == (*angles, *rates)
-    assert model.simulate(until=0.01).state[:3] == ("crank.x", "crank.y", "crank.theta")
+    assert result.state == ("rail.displacement", "pole.theta", "rail.displacement.rate", "pole.omega")
+    assert model.simulate(until=0.01).state[:3] == ("cart.x", "cart.y", "cart.theta")
     assert model.simulate(until=0.01, coordinates="auto").coordinates == "joint"
+
+
+def test_which_joint_is_cut():
+    """The one with the fewest operations, unless the file says which; the motion is the same."""
+    described = raw("slider-crank")
+    settings = {"until": 0.05, "coordinates": "joint", **TIGHT}
+    found = [symgen.load(mechanism_of(described)).simulate(**settings)]
+    for joint in ("Q", "P"):
+        joints = {name: {**table, "cut": name == joint} for name, table in described["joints"].items()}
+        found.append(symgen.load(mechanism_of({**described, "joints": joints})).simulate(**settings))
+    chosen, slide, turn = (result.state[: len(result.state) // 2] for result in found)
+    assert chosen == ("crank.theta", "rod.theta", "slider.theta")
+    assert slide == ("crank.theta", "guide.displacement", "rod.theta")
+    assert set(turn) == {"crank.theta", "guide.displacement", "rod.theta"} and turn != slide
+    for other in found[1:]:
+        np.testing.assert_allclose(other.q.values, found[0].q.values, rtol=0.0, atol=MOTION)
 
 
 def test_a_tree_needs_no_method():
