@@ -9,7 +9,6 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import setting_options
-from symgen.describe.topology import state_names
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -154,6 +153,8 @@ def describe(
 
 def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
     """Return which joints carry bodies, which close loops, and which bodies are rigid with what carries them."""
+    from symgen.describe.topology import state_names
+
     moving = {name.partition(".")[0] for name, _ in state_names(mechanism, topology)[1]}
     return {
         "tree": [link.joint for link in topology.links if link.joint],

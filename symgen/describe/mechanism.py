@@ -329,5 +329,14 @@ class Mechanism(msgspec.Struct, frozen=True):
         return known[name]
 
     def joint_named(self, name: str) -> Joint:
-        """Return the joint called `name`, which exists."""
-        return next(joint for joint in self.joints if joint.name == name)
+        """Return the joint called `name`.
+
+        Raises
+        ------
+        InputError
+            If there is none; says the nearest name.
+        """
+        known = {joint.name: joint for joint in self.joints}
+        if name not in known:
+            raise InputError("joint", f"a joint of {self.name}", shown(name), nearest(str(name), known))
+        return known[name]

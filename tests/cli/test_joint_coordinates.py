@@ -36,7 +36,7 @@ def test_a_run_says_what_its_state_is(cli):
     assert joint["final"]["q"].keys() == plain["final"]["q"].keys()
     for name, value in plain["final"]["q"].items():
         assert joint["final"]["q"][name] == pytest.approx(value, abs=1e-8)  # two runs of rk4 at 1e-3 s
-    code, out, _ = cli("run", "cart-pole", "--until", "0.05", "--coordinates", "auto")
+    code, out, _ = cli("run", "cart-pole", "--until", "0.05", "--coordinates", "auto", "--shape", "straight")
     assert code == 0 and "coordinates" in out and "joint, 4 numbers of the state" in out
 
 

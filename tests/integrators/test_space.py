@@ -120,6 +120,7 @@ def errors(method: str, integrator: str, step: float) -> list[float]:
     return found
 
 
+@pytest.mark.slow
 def test_explicit_exponentials_are_of_order_four():
     coarse, fine = errors("lagrange", "rkmk4", 0.005)
     assert 2.0**3.8 < coarse / fine < 2.0**4.5

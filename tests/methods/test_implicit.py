@@ -218,6 +218,7 @@ def test_other_methods_have_no_such_licence():
     ).spec.velocity_limit == pytest.approx(1e-3)
 
 
+@pytest.mark.slow
 def test_scipy_agrees_on_the_stiff_case():
     """Radau of SciPy on independently derived equations, its Jacobian by differences: nothing is shared."""
     from symgen.study.references.reference import reference

@@ -84,9 +84,15 @@ def name(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
+#: Pages whose commands take longer than those of all others together.
+LONG = ("docs/command-line.md", "docs/stress.md")
+
+
 def with_language(language: str) -> list[object]:
     """Return the pages that have blocks of a language."""
-    return [pytest.param(page, id=name(page)) for page in PAGES if fenced(page, language)]
+    found = [page for page in PAGES if fenced(page, language)]
+    slow = {name(page): pytest.mark.slow for page in found if language == "console" and name(page) in LONG}
+    return [pytest.param(page, id=name(page), marks=slow.get(name(page), ())) for page in found]
 
 
 @pytest.mark.parametrize("page", with_language("console"))

@@ -52,6 +52,7 @@ ALLOWED = {
     "stepping": {"numpy"},
     "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
     "study": {"numpy", "pandas", "scipy"},
+    "tree_run": {"numpy"},
     "vocabulary": {"msgspec"},
 }
 #: What single files may import beyond that: the references of studies rest on a second, independent derivation.

@@ -187,6 +187,8 @@ def rows():
     yield "assemble strict", lambda x: x.model.assemble(x.compiled, strict="no"), "strict: expected True or False"
     yield "assemble alpha", lambda x: x.model.assemble(x.compiled, {}, {"alpha": 1.0}), "a parameter of lagrange, got"
     yield "body", lambda x: x.model.mechanism.body("bo"), "body: expected a body of pendulum, got 'bo'; did you mean"
+    wrong = "joint: expected a joint of pendulum, got 'hinge'"
+    yield "joint", lambda x: x.model.mechanism.joint_named("hinge"), wrong
     yield "body 3", lambda x: x.model.mechanism.body(3), "body: expected a body of pendulum, got 3"
     # results
     for shown, value in {"-1": -1, "None": None, "a tuple of 2": (0, 1), "1.5": 1.5, "a slice": slice(3)}.items():
@@ -416,7 +418,14 @@ def test_no_function_with_arguments_is_left_out():
     """Every public name that can be called, and every method of a public class that takes something, has rows."""
     tested = {
         *("load", "simulate", "compare", "sweep", "Model", "Settings", "MechanismBuilder"),
-        *("Model.parameters", "Model.compile", "Model.assemble", "Model.simulate", "Mechanism.body"),
+        *(
+            "Model.parameters",
+            "Model.compile",
+            "Model.assemble",
+            "Model.simulate",
+            "Mechanism.body",
+            "Mechanism.joint_named",
+        ),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),

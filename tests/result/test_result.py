@@ -25,6 +25,8 @@ RUN_KEYS = {
         "status",
         "reason",
         "error_estimate",
+        "coordinates",
+        "state",
         "start",
         "inputs",
         "warnings",

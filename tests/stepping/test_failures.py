@@ -3,6 +3,7 @@
 import _thread
 import math
 import pickle
+import signal
 import threading
 
 import numpy as np
@@ -95,11 +96,15 @@ def test_an_interrupt_ends_a_long_run_at_an_accepted_state(four_bar):
     settings = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "shape": "straight"}
     sim = four_bar.start(**settings)
     sim.run(0.01)  # everything is loaded: what frees memory meanwhile may swallow an interrupt
-    timer = threading.Timer(0.3, _thread.interrupt_main)
-    timer.start()
-    with pytest.raises(KeyboardInterrupt):
-        sim.run(1e6)
-    timer.join()
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)  # it is ignored where a shell runs behind
+    try:
+        timer = threading.Timer(0.3, _thread.interrupt_main)
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            sim.run(1e6)
+        timer.join()
+    finally:
+        signal.signal(signal.SIGINT, before)
     steps, state = sim.steps, sim.state.copy()
     sim.step(1e-3)
     assert sim.steps == steps + 1

@@ -28,8 +28,13 @@ def verified(output: Path, *words: str) -> list[dict]:
     return [line for line in lines(output) if "runs" in line]
 
 
-@pytest.mark.parametrize("shape", ["straight", "joint"])
-@pytest.mark.parametrize("space", ["planar", "spatial"])
+@pytest.mark.parametrize(
+    ("space", "shape"),
+    [
+        *(("planar", "straight"), ("spatial", "straight"), ("planar", "joint")),
+        pytest.param("spatial", "joint", marks=pytest.mark.slow),
+    ],
+)
 def test_a_few_random_mechanisms(space: str, shape: str, tmp_path: Path) -> None:
     """Emitted code is run as Python here, so that nothing has to be compiled."""
     words = ("--interpreted", "--shapes", shape, "--mechanisms", "3", "--seed", "21", "--space", space)
@@ -79,6 +84,7 @@ def flipped(output: Path, count: int) -> None:
     assert len(lines(output)) == count
 
 
+@pytest.mark.slow
 def test_a_few_flipped_bits(tmp_path: Path) -> None:
     flipped(tmp_path / "flips.jsonl", 4)
 
