@@ -15,9 +15,11 @@ from pathlib import Path
 
 import pytest
 
+from symgen.compiling.choose_tree import on_tree
 from symgen.compiling.looped import generate_looped
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe import load
+from symgen.describe.mechanism import Mechanism
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
 from symgen.methods._base import Method
@@ -25,7 +27,10 @@ from symgen.methods._base import Method
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"
 UPDATE = "SYMGEN_UPDATE_GENERATED"
-MODELS = ("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard")
+MODELS = (
+    *("pendulum", "four-bar", "slider-crank", "n-four-bar:2", "andrews", "driven-four-bar", "bricard"),
+    *("four-bar joint", "bricard joint"),  # with the joints of a tree for coordinates
+)
 THOROUGH = ("pendulum", "four-bar")
 #: Also emitted for CUDA and in lanes, by the methods of `CORE`.
 OTHER_TARGETS = ("four-bar",)
@@ -40,7 +45,13 @@ HOW = f"if the change is wanted, run `make generated` (or set {UPDATE}=1) and co
 
 def folder(model: str) -> str:
     """Return the folder's name: an identifier, so that the folder can be imported as a package."""
-    return model.replace("-", "_").replace(":", "_")
+    return model.replace("-", "_").replace(":", "_").replace(" ", "_")
+
+
+def described(model: str) -> Mechanism:
+    """Return a mechanism, on its tree where its name says so."""
+    name, _, coordinates = model.partition(" ")
+    return on_tree(load(name)) if coordinates == "joint" else load(name)
 
 
 def choices(model: str) -> tuple[MethodChoice, ...]:
@@ -68,7 +79,7 @@ def choices(model: str) -> tuple[MethodChoice, ...]:
 @cache
 def emitted(model: str) -> dict[str, str]:
     """Return file name -> source."""
-    made = dict(generate(load(model), choices(model)).modules)
+    made = dict(generate(described(model), choices(model)).modules)
     if model in OTHER_TARGETS:
         core = tuple(choose_method(name) for name in CORE)
         for target in ("cuda", "lanes"):

@@ -1,0 +1,16 @@
+"""Method `baumgarte` for model `bricard`. Emitted by symgen; do not edit.
+
+violations decay like a damped oscillator with gains alpha, beta
+Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
+digest a434bc1850619abf59df99cd3f4a7f7d5156b781c8aa985ea07043e50b30d3a4, format 3, templates a694aa875a452a90
+option solver = elimination
+p[2] alpha (default 5.0)
+p[3] beta (default 5.0)
+"""
+
+from .accept_measured_ff439807c5f4f6fd import accept
+from .confirm_e148129e20861585 import confirm
+from .prepare_1f74b046b7d0a206 import prepare
+from .rhs_direct_a9985d3555f2d14c import rhs
+
+__all__ = ["accept", "confirm", "prepare", "rhs"]

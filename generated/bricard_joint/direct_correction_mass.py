@@ -1,0 +1,17 @@
+"""Method `direct-correction` for model `bricard`. Emitted by symgen; do not edit.
+
+positions and velocities are projected after each step with the pseudoinverse of D
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+digest a434bc1850619abf59df99cd3f4a7f7d5156b781c8aa985ea07043e50b30d3a4, format 3, templates a694aa875a452a90
+option solver = elimination
+option weight = mass
+p[0] tolerance (default 1e-13)
+"""
+
+from .accept_mass_9d9cbe3617e89e57 import accept
+from .confirm_aa79d436568dc7a9 import confirm
+from .metric_mass_a57708865562b44e import geometry, spread
+from .prepare_069764e87980f98a import prepare
+from .rhs_direct_53d4d8918848d8af import rhs
+
+__all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

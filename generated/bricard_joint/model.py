@@ -1,0 +1,831 @@
+"""Model `bricard`: what every method of it shares. Emitted by symgen; do not edit.
+
+digest a434bc1850619abf59df99cd3f4a7f7d5156b781c8aa985ea07043e50b30d3a4, format 3, templates a694aa875a452a90
+5 coordinates, 5 velocities, 5 constraint rows, 0 parameters,
+0 fill-ins in the factor of D D^T
+
+Functions take the time t, the state y = (q, v, work), parameters p, scratch w and integers iw.
+
+y[0]     P0.angle [rad]
+y[1]     P5.angle [rad]
+y[2]     P1.angle [rad]
+y[3]     P4.angle [rad]
+y[4]     P2.angle [rad]
+y[5]     P0.angle.rate [rad/s]
+y[6]     P5.angle.rate [rad/s]
+y[7]     P1.angle.rate [rad/s]
+y[8]     P4.angle.rate [rad/s]
+y[9]     P2.angle.rate [rad/s]
+y[10]    work of forces without potential and of drivers [J]
+row 0    P3.x [m]
+row 1    P3.y [m]
+row 2    P3.z [m]
+row 3    P3.first [rad]
+row 4    P3.second [rad]
+
+Left out:
+- columns of the ground: the ground does not move
+- centre-of-mass offset of rod1: its centre of mass is the frame's origin
+- centre-of-mass offset of rod2: its centre of mass is the frame's origin
+- centre-of-mass offset of rod3: its centre of mass is the frame's origin
+- centre-of-mass offset of rod4: its centre of mass is the frame's origin
+- centre-of-mass offset of rod5: its centre of mass is the frame's origin
+"""
+
+import math
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 0 operations, 0 before sharing."""
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """Phi, nu, D, and the factorisation of D G D^T that decides rank: 458 operations, 837806 before sharing."""
+    # inputs
+    q0 = y[0]  # P0.angle [rad]
+    q1 = y[1]  # P5.angle [rad]
+    q2 = y[2]  # P1.angle [rad]
+    q3 = y[3]  # P4.angle [rad]
+    q4 = y[4]  # P2.angle [rad]
+    mask_0 = w[25]
+    mask_1 = w[26]
+    mask_2 = w[27]
+    mask_3 = w[28]
+    mask_4 = w[29]
+    gauge_0 = w[60]
+    gauge_1 = w[61]
+    gauge_2 = w[62]
+    gauge_3 = w[63]
+    gauge_4 = w[64]
+    status_6 = w[6]
+    # intermediate terms
+    s0 = math.cos(q0)
+    s1 = math.sin(q0)
+    s2 = math.cos(q1)
+    s3 = math.sin(q1)
+    s4 = math.cos(q2)
+    s5 = math.sin(q2)
+    s6 = s0*s4
+    s7 = s1*s4
+    s8 = s0*s5
+    s9 = s1*s5
+    s10 = math.cos(q3)
+    s11 = math.sin(q3)
+    s12 = s2*s11
+    s13 = s3*s11
+    s14 = s2*s10
+    s15 = s3*s10
+    s16 = math.cos(q4)
+    s17 = math.sin(q4)
+    s18 = s8*s16
+    s19 = s1*s17
+    s20 = s19 - s18
+    s21 = s4*s16
+    s22 = s9*s16 + s0*s17
+    s23 = s8*s17 + s1*s16
+    s24 = s4*s17
+    s25 = s9*s17
+    s26 = s0*s16
+    s27 = s26 - s25
+    s28 = -1.0 - s5
+    s29 = s17*s28
+    s30 = s16*s28
+    s31 = s2 + s12
+    s32 = s10 - (s23 + s0 + s8)
+    s33 = s4 + s24 - s31
+    s34 = s13 + 1.0 + s3 - (s27 - (s1 + s9))
+    s35 = s5*s20 - (s20*s29 + s23*s30) - s6*s21
+    s36 = s6 + s6*s17
+    s37 = s5*s21
+    s38 = s24*s30 - s21*s29 + s37 - s37
+    s39 = s5 + s5*s17
+    s40 = s3 + s13
+    s41 = s5*s22 - (s22*s29 + s27*s30) + s7*s21
+    s42 = s7 + s7*s17
+    s43 = s6*s11 + s5*s14 + s7*s15
+    s44 = s11*s23
+    s45 = s14*s24
+    s46 = s14*s21
+    s47 = s15*s22
+    s48 = s5*s12 - s6*s10 + s7*s13
+    s49 = s15*(s25 - s26) - (s45 - s44)
+    s50 = s47 - (s11*s20 + s46)
+    s51 = s2*s7 - s3*s5
+    s52 = s21*s49 - s24*s50
+    s53 = s17*s49 + s16*s50
+    s54 = s10*s51
+    s55 = s49*s49 + s50*s50 + s51*s51 + s48*s48
+    s56 = s44 - s45 - s15*s27
+    s57 = s47 + s11*(s18 - s19) - s46
+    s58 = s2*s27 - s3*s24
+    s59 = s10*s23 + s12*s24 + s13*s27
+    s60 = s5*s57 + s21*s43
+    s61 = s17*s43
+    s62 = s10*s58
+    s63 = s43*s43
+    s64 = s57*s57 + s63 + s58*s58 + s59*s59
+    s65 = 0.5*s17
+    s66 = 0.5*s16
+    s67 = -1.0 - s65
+    s68 = 0.33416666666666667*s16
+    s69 = 0.0016666666666666668*s17
+    s70 = s65 - s67
+    s71 = 0.33416666666666667 + s17*(0.33416666666666667*s17) + s16*(0.0016666666666666668*s16) + s70
+    s72 = 0.5*s11
+    s73 = 0.33416666666666667 + s10*(0.0016666666666666668*s10) + s11*(0.33416666666666667*s11) + s72 - (-1.0 - s72)
+    s74 = s5*(-0.5 + s67)
+    s75 = s5*(s5*(0.33416666666666667 + 0.33416666666666667 + s70)) + s4*(s4*(0.0016666666666666668 + s16*s68 + s17*s69))
+    s76 = s35*gauge_0
+    s77 = s36*gauge_2
+    s78 = s11*gauge_3
+    s79 = s20*gauge_4
+    s80 = s38*gauge_0
+    s81 = s40*gauge_1
+    s82 = s39*gauge_2
+    s83 = s14*gauge_3
+    s84 = s21*gauge_4
+    s85 = s41*gauge_0
+    s86 = s31*gauge_1
+    s87 = s42*gauge_2
+    s88 = s15*gauge_3
+    s89 = s22*gauge_4
+    s90 = s52*gauge_0
+    s91 = s54*gauge_1
+    s92 = s53*gauge_2
+    s93 = s48*gauge_3
+    s94 = s35*s76 + s36*s77 + s11*s78 + s20*s79
+    s95 = s38*s76 + s39*s77 + s14*s78 + s21*s79
+    s96 = s41*s76 - s42*s77 - s15*s78 + s22*s79
+    s97 = s52*s76 - s53*s77 - s48*s78
+    s98 = s60*s76 - s61*s77 - s59*s78 + s57*s79
+    s99 = s38*s80 + s40*s81 + s39*s82 + s14*s83 + s21*s84
+    s100 = s41*s85 + s31*s86 + s42*s87 + s15*s88 + s22*s89
+    s101 = s52*s90 + s54*s91 + s53*s92 + s48*s93
+    s102 = s60*(s60*gauge_0) + s62*(s62*gauge_1) + s61*(s61*gauge_2) + s59*(s59*gauge_3) + s57*(s57*gauge_4)
+    s103 = max(s94, 2.0)
+    s104 = 1.0*(s94 > mask_0 + 1e-12*s103)
+    s105 = s104/max(s94, 1e-300)
+    s106 = s95*s105
+    s107 = s96*s105
+    s108 = s97*s105
+    s109 = s98*s105
+    s110 = s99 - s95*s106
+    s111 = s41*s80 + s31*s81 - s42*s82 - s15*s83 + s22*s84 - s96*s106
+    s112 = s52*s80 - s54*s81 - s53*s82 - s48*s83 - s97*s106
+    s113 = s60*s80 - s62*s81 - s61*s82 - s59*s83 + s57*s84 - s98*s106
+    s114 = max(s99, 2.0)
+    s115 = 1.0*(s110 > mask_1 + 1e-12*s114)
+    s116 = s115/max(s110, 1e-300)
+    s117 = s111*s116
+    s118 = s112*s116
+    s119 = s113*s116
+    s120 = s100 - s96*s107 - s111*s117
+    s121 = s52*s85 - s54*s86 + s53*s87 + s48*s88 - s97*s107 - s112*s117
+    s122 = s60*s85 - s62*s86 + s61*s87 + s59*s88 + s57*s89 - s98*s107 - s113*s117
+    s123 = max(s100, 2.0)
+    s124 = 1.0*(s120 > mask_2 + 1e-12*s123)
+    s125 = s124/max(s120, 1e-300)
+    s126 = s121*s125
+    s127 = s122*s125
+    s128 = s101 - s97*s108 - s112*s118 - s121*s126
+    s129 = s60*s90 + s62*s91 + s61*s92 + s59*s93 - s98*s108 - s113*s118 - s122*s126
+    s130 = gauge_3 + gauge_2 + gauge_0 + gauge_1
+    s131 = max(s101, s55*(0.25*s130))
+    s132 = 1.0*(s128 > mask_3 + 1e-12*s131)
+    s133 = s132/max(s128, 1e-300)
+    s134 = s129*s133
+    s135 = s102 - s98*s109 - s113*s119 - s122*s127 - s129*s134
+    s136 = max(s102, s64*(0.2*(gauge_4 + s130)))
+    s137 = 1.0*(s135 > mask_4 + 1e-12*s136)
+    s138 = s43*status_6
+    s139 = s56*status_6
+    s140 = s32*s32 + s33*s33 + s34*s34
+    s141 = s94/s103
+    s142 = s110/s114
+    s143 = s120/s123
+    s144 = s128/s131
+    s145 = s135/s136
+    s146 = min(min(min(min(min(1.0, mask_0 + s141), mask_1 + s142), mask_2 + s143), mask_3 + s144), mask_4 + s145)
+    # outputs
+    w[35] = s32
+    w[36] = s33
+    w[37] = s34
+    w[38] = -s43
+    w[39] = s56
+    w[0] = math.sqrt(s63 + s140 + s56*s56)
+    w[8] = math.sqrt(s140 + s138*s138 + s139*s139)
+    w[70] = s35
+    w[71] = -s36
+    w[72] = -s11
+    w[73] = s20
+    w[74] = s38
+    w[75] = s40
+    w[76] = -s39
+    w[77] = -s14
+    w[78] = s21
+    w[79] = s41
+    w[80] = s31
+    w[81] = s42
+    w[82] = s15
+    w[83] = s22
+    w[84] = s52
+    w[85] = -s54
+    w[86] = s53
+    w[87] = s48
+    w[88] = s60
+    w[89] = -s62
+    w[90] = s61
+    w[91] = s59
+    w[92] = s57
+    w[45] = s141
+    w[46] = s142
+    w[47] = s143
+    w[48] = s144
+    w[49] = s145
+    w[5] = s137 + s132 + s124 + s104 + s115
+    w[4] = s146
+    w[10] = min(min(1.0, s55), s64)
+    w[93] = s106
+    w[94] = s107
+    w[95] = s108
+    w[96] = s109
+    w[97] = s117
+    w[98] = s118
+    w[99] = s119
+    w[100] = s126
+    w[101] = s127
+    w[102] = s134
+    w[103] = s105
+    w[104] = s116
+    w[105] = s125
+    w[106] = s133
+    w[107] = s137/max(s135, 1e-300)
+    w[108] = 0.33416666666666667 + 2.0 - s74 - s74 + s75
+    w[109] = s4*(s17*s68 - s16*s69 + 0.5*(s66 + s66))
+    w[110] = s65 + s5*(0.33416666666666667 + s65)
+    w[111] = s71
+    w[112] = s73
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 91 operations, 3157 before sharing."""
+    # inputs
+    gauge_0 = w[60]
+    gauge_1 = w[61]
+    gauge_2 = w[62]
+    gauge_3 = w[63]
+    gauge_4 = w[64]
+    lower_0 = w[93]
+    lower_1 = w[94]
+    lower_2 = w[95]
+    lower_3 = w[96]
+    lower_4 = w[97]
+    lower_5 = w[98]
+    lower_6 = w[99]
+    lower_7 = w[100]
+    lower_8 = w[101]
+    lower_9 = w[102]
+    reciprocal_0 = w[103]
+    reciprocal_1 = w[104]
+    reciprocal_2 = w[105]
+    reciprocal_3 = w[106]
+    reciprocal_4 = w[107]
+    residual_0 = w[35]
+    residual_1 = w[36]
+    residual_2 = w[37]
+    residual_3 = w[38]
+    residual_4 = w[39]
+    jacobian_0 = w[70]
+    jacobian_1 = w[71]
+    jacobian_2 = w[72]
+    jacobian_3 = w[73]
+    jacobian_4 = w[74]
+    jacobian_5 = w[75]
+    jacobian_6 = w[76]
+    jacobian_7 = w[77]
+    jacobian_8 = w[78]
+    jacobian_9 = w[79]
+    jacobian_10 = w[80]
+    jacobian_11 = w[81]
+    jacobian_12 = w[82]
+    jacobian_13 = w[83]
+    jacobian_14 = w[84]
+    jacobian_15 = w[85]
+    jacobian_16 = w[86]
+    jacobian_17 = w[87]
+    jacobian_18 = w[88]
+    jacobian_19 = w[89]
+    jacobian_20 = w[90]
+    jacobian_21 = w[91]
+    jacobian_22 = w[92]
+    # intermediate terms
+    s0 = lower_0*residual_0 - residual_1
+    s1 = lower_1*residual_0 - residual_2 - lower_4*s0
+    s2 = lower_2*residual_0 - residual_3 - lower_5*s0 - lower_7*s1
+    s3 = reciprocal_4*(lower_3*residual_0 - residual_4 - lower_6*s0 - lower_8*s1 - lower_9*s2)
+    s4 = reciprocal_3*s2 - lower_9*s3
+    s5 = reciprocal_2*s1 - lower_7*s4 - lower_8*s3
+    s6 = reciprocal_1*s0 - lower_4*s5 - lower_5*s4 - lower_6*s3
+    s7 = reciprocal_0*residual_0 + lower_0*s6 + lower_1*s5 + lower_2*s4 + lower_3*s3
+    # outputs
+    w[50] = gauge_0*(s6*jacobian_4 - s7*jacobian_0 + s5*jacobian_9 + s4*jacobian_14 + s3*jacobian_18)
+    w[51] = gauge_1*(s6*jacobian_5 + s5*jacobian_10 + s4*jacobian_15 + s3*jacobian_19)
+    w[52] = gauge_2*(s6*jacobian_6 - s7*jacobian_1 + s5*jacobian_11 + s4*jacobian_16 + s3*jacobian_20)
+    w[53] = gauge_3*(s6*jacobian_7 - s7*jacobian_2 + s5*jacobian_12 + s4*jacobian_17 + s3*jacobian_21)
+    w[54] = gauge_4*(s6*jacobian_8 - s7*jacobian_3 + s5*jacobian_13 + s3*jacobian_22)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def measure(t, y, p, w):
+    """D v - nu with the D and nu that `geometry` left, and the energies: 186 operations, 493 before sharing."""
+    # inputs
+    q0 = y[0]  # P0.angle [rad]
+    q1 = y[1]  # P5.angle [rad]
+    q2 = y[2]  # P1.angle [rad]
+    q3 = y[3]  # P4.angle [rad]
+    q4 = y[4]  # P2.angle [rad]
+    v0 = y[5]  # P0.angle.rate [rad/s]
+    v1 = y[6]  # P5.angle.rate [rad/s]
+    v2 = y[7]  # P1.angle.rate [rad/s]
+    v3 = y[8]  # P4.angle.rate [rad/s]
+    v4 = y[9]  # P2.angle.rate [rad/s]
+    winding_0 = w[19]
+    status_6 = w[6]
+    jacobian_0 = w[70]
+    jacobian_1 = w[71]
+    jacobian_2 = w[72]
+    jacobian_3 = w[73]
+    jacobian_4 = w[74]
+    jacobian_5 = w[75]
+    jacobian_6 = w[76]
+    jacobian_7 = w[77]
+    jacobian_8 = w[78]
+    jacobian_9 = w[79]
+    jacobian_10 = w[80]
+    jacobian_11 = w[81]
+    jacobian_12 = w[82]
+    jacobian_13 = w[83]
+    jacobian_14 = w[84]
+    jacobian_15 = w[85]
+    jacobian_16 = w[86]
+    jacobian_17 = w[87]
+    jacobian_18 = w[88]
+    jacobian_19 = w[89]
+    jacobian_20 = w[90]
+    jacobian_21 = w[91]
+    jacobian_22 = w[92]
+    # intermediate terms
+    s0 = math.sin(q0)
+    s1 = math.cos(q1)
+    s2 = math.sin(q1)
+    s3 = math.cos(q2)
+    s4 = math.sin(q2)
+    s5 = v0*s4
+    s6 = v0*s3
+    s7 = math.sin(q3)
+    s8 = v1*math.cos(q3)
+    s9 = v1*s7
+    s10 = math.cos(q4)
+    s11 = math.sin(q4)
+    s12 = s3*s11
+    s13 = s6*s10 + v2*s11
+    s14 = v2*s10 - s6*s11
+    s15 = v4 + s5
+    s16 = v0 + s5
+    s17 = s10*s16
+    s18 = 0.5*v0
+    s19 = 0.5*v2
+    s20 = v0 + 0.5*s5
+    s21 = v2 + 0.5*s13
+    s22 = s11*s16 + 0.5*s15
+    s23 = 0.5*v3
+    s24 = v1 + 0.5*s9
+    s25 = 0.5*v1
+    s26 = 0.5*(s5*(0.08416666666666667*s5) + s6*(0.0016666666666666668*s6) + v2*(0.08416666666666667*v2))
+    s27 = 0.5*(s18*s18) + 0.5*(v0*(0.08416666666666667*v0)) + 0.5*(s19*s19 + s20*s20) + s26 + 0.5*(s21*s21 + s22*s22 + s17*s17)
+    s28 = s15*(0.08416666666666667*s15) + s13*(0.08416666666666667*s13) + s14*(0.0016666666666666668*s14)
+    s29 = 0.5*(s8*(0.0016666666666666668*s8) + s9*(0.08416666666666667*s9) + v3*(0.08416666666666667*v3))
+    s30 = s27 + 0.5*s28 + 0.5*(s23*s23 + s24*s24) + s29 + 0.5*(s25*s25) + 0.5*(v1*(0.08416666666666667*v1))
+    s31 = math.atan2(s2*s4 - s1*(s0*s3), s1*(math.cos(q0)*s10 - s0*s4*s11) - s2*s12)
+    s32 = v0*jacobian_0 + v2*jacobian_1 + v3*jacobian_2 + v4*jacobian_3
+    s33 = v0*jacobian_4 + v1*jacobian_5 + v2*jacobian_6 + v3*jacobian_7 + v4*jacobian_8
+    s34 = v0*jacobian_9 + v1*jacobian_10 + v2*jacobian_11 + v3*jacobian_12 + v4*jacobian_13
+    s35 = v0*jacobian_14 + v1*jacobian_15 + v2*jacobian_16 + v3*jacobian_17
+    s36 = v0*jacobian_18 + v1*jacobian_19 + v2*jacobian_20 + v3*jacobian_21 + v4*jacobian_22
+    s37 = status_6*s35
+    s38 = status_6*s36
+    s39 = s32*s32 + s33*s33 + s34*s34
+    # outputs
+    w[35] = s32
+    w[36] = s33
+    w[37] = s34
+    w[38] = s35
+    w[39] = s36
+    w[1] = math.sqrt(s39 + s35*s35 + s36*s36)
+    w[9] = math.sqrt(s39 + s37*s37 + s38*s38)
+    w[2] = s30
+    w[3] = -(4.905*s3 + 9.81*(s3 + 0.5*s12) + 9.81*(s1 + 0.5*(s1*s7)) + 4.905*s1)
+    w[19] = s31 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s31))
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def observe(t, y, p, w, ydot, out):
+    """D v' - gamma, then joint coordinates and their rates: 447 operations, 3178 before sharing."""
+    # inputs
+    q0 = y[0]  # P0.angle [rad]
+    q1 = y[1]  # P5.angle [rad]
+    q2 = y[2]  # P1.angle [rad]
+    q3 = y[3]  # P4.angle [rad]
+    q4 = y[4]  # P2.angle [rad]
+    v0 = y[5]  # P0.angle.rate [rad/s]
+    v1 = y[6]  # P5.angle.rate [rad/s]
+    v2 = y[7]  # P1.angle.rate [rad/s]
+    v3 = y[8]  # P4.angle.rate [rad/s]
+    v4 = y[9]  # P2.angle.rate [rad/s]
+    winding_0 = w[19]
+    ydot_5 = ydot[5]
+    ydot_6 = ydot[6]
+    ydot_7 = ydot[7]
+    ydot_8 = ydot[8]
+    ydot_9 = ydot[9]
+    # intermediate terms
+    s0 = math.cos(q0)
+    s1 = math.sin(q0)
+    s2 = math.cos(q1)
+    s3 = math.sin(q1)
+    s4 = 9.81*s3
+    s5 = math.cos(q2)
+    s6 = math.sin(q2)
+    s7 = s0*s5
+    s8 = s1*s5
+    s9 = s0*s6
+    s10 = s1*s6
+    s11 = v0*s6
+    s12 = v0*s5
+    s13 = v2*s12
+    s14 = v2*s11
+    s15 = v0*v0
+    s16 = math.cos(q3)
+    s17 = math.sin(q3)
+    s18 = s2*s17
+    s19 = s3*s17
+    s20 = s2*s16
+    s21 = s3*s16
+    s22 = v1*s16
+    s23 = v1*s17
+    s24 = v3*s23
+    s25 = v3*s22
+    s26 = 9.81*s2 + v1*v1
+    s27 = s17*s26
+    s28 = s16*s26
+    s29 = math.cos(q4)
+    s30 = math.sin(q4)
+    s31 = s9*s29
+    s32 = s1*s30
+    s33 = s32 - s31
+    s34 = s5*s29
+    s35 = s10*s29 + s0*s30
+    s36 = s9*s30 + s1*s29
+    s37 = s5*s30
+    s38 = s10*s30
+    s39 = s0*s29
+    s40 = s39 - s38
+    s41 = s12*s29 + v2*s30
+    s42 = s12*s30
+    s43 = v2*s29
+    s44 = s43 - s42
+    s45 = v4 + s11
+    s46 = v4*s44 - s14*s29
+    s47 = 9.81*s6 - s5*s15 - s11*s12
+    s48 = s6*s15 + 9.81*s5 + v2*v2 + s11*s11
+    s49 = s13 + s13
+    s50 = -1.0 - s6
+    s51 = s30*s50
+    s52 = s29*s50
+    s53 = s29*s48 - s30*s49
+    s54 = s30*s48 + s29*s49
+    s55 = s44*s45
+    s56 = s41*s44
+    s57 = s41*s41
+    s58 = s45*s45 + s57
+    s59 = s7*s55 + s33*s56 - s36*s58
+    s60 = s6*s55 + s34*s56 + s37*s58
+    s61 = s35*s56 - s8*s55 - s40*s58
+    s62 = v3*v3
+    s63 = s23*s23 + s62
+    s64 = s22*s23
+    s65 = s3*s25
+    s66 = s2*s25
+    s67 = s17*s28 - s16*s27 + s17*s64 - s16*s63 - s59 + s36*s54 - (s7*s47 + s33*s53) + s13*s33 - s7*s46
+    s68 = s6*s34
+    s69 = -9.81 + s18*s27 + s20*s28 + s3*s4 + s18*s63 + s20*s64 + s65 - s60 - (-9.81 + s6*s47 + s34*s53 + s37*s54) + s13*s34 - s6*s46
+    s70 = s2*s4 - (s19*s27 + s21*s28) + s66 - (s19*s63 + s21*s64) - s61 + s40*s54 - (s35*s53 - s8*s47) + s13*s35 + s8*s46
+    s71 = s44*(s42 - s43) - s57
+    s72 = s41*s45
+    s73 = s62 + s22*s22
+    s74 = v3*s16
+    s75 = v3*s18 + s3*s22
+    s76 = v3*s19 - s2*s22
+    s77 = s16*s64 - s17*s73
+    s78 = s3*s24 - (s18*s64 + s20*s73)
+    s79 = s19*s64 + s21*s73 + s2*s24
+    s80 = s7*s17 + s6*s20 + s8*s21
+    s81 = s20*s37 - s17*s36
+    s82 = s38 - s39
+    s83 = s20*s34
+    s84 = s21*s35
+    s85 = s3*s6
+    s86 = s2*s8
+    s87 = s85 - s86
+    s88 = s7*s16
+    s89 = s6*s18
+    s90 = s8*s19
+    s91 = s7*s77 + s6*s78 - s8*s79 + s17*(s7*s71 + s33*s72 + s36*s55) + s20*(s6*s71 + s34*s72 - s37*s55)
+    s92 = s91 - s21*(s35*s72 - s8*s71 + s40*s55) + s74*(2.0*(s33*s44 - s36*s41)) - s75*(2.0*(s34*s44 + s37*s41))
+    s93 = s21*s82 - s81
+    s94 = s84 - (s17*s33 + s83)
+    s95 = s86 - s85
+    s96 = s84 + s17*(s31 - s32) - s83
+    s97 = s3*s37
+    s98 = s2*s40 - s97
+    s99 = s16*s36 + s18*s37 + s19*s40
+    s100 = s36*s77 - s37*s78 + s40*s79 + s17*s59 + s20*s60 - s21*s61 + s74*(2.0*(s7*s41 - s33*s45)) - s75*(2.0*(s6*s41 - s34*s45))
+    s101 = s3*s34 + s2*s35
+    s102 = s98*s98 + s87*s87
+    s103 = s98/s102
+    s104 = s87/s102
+    s105 = math.atan2(s87, s98)
+    s106 = s45*(s101*s104) + s41*((s97 + s2*s82)*s103 - s87*s104) + s44*(s101*s103) + s22*(s80*s103 + (s81 + s21*s40)*s104)
+    s107 = (s6*s33 - (s33*s51 + s36*s52) - s7*s34)*ydot_5 - (s7 + s7*s30)*ydot_7 - s17*ydot_8 + s33*ydot_9
+    s108 = (s37*s52 - s34*s51 + s68 - s68)*ydot_5 + (s3 + s19)*ydot_6 - (s6 + s6*s30)*ydot_7 - s20*ydot_8
+    s109 = (s6*s35 - (s35*s51 + s40*s52) + s8*s34)*ydot_5 + (s2 + s18)*ydot_6 + (s8 + s8*s30)*ydot_7 + s21*ydot_8
+    s110 = (s34*s93 - s37*s94)*ydot_5 - s16*s95*ydot_6 + (s30*s93 + s29*s94)*ydot_7 + (s89 - s88 + s90)*ydot_8
+    s111 = s100 - s76*(2.0*(s8*s41 + s35*s45)) + s13*s96 + s46*s80 + s24*s98 + (s6*s96 + s34*s80)*ydot_5 - s16*s98*ydot_6 + s30*s80*ydot_7 + s99*ydot_8 + s96*ydot_9
+    # outputs
+    out[0] = s67 + s107
+    out[1] = s65 + s69 + s108 + s34*ydot_9
+    out[2] = s66 + s70 + s109 + s35*ydot_9
+    out[3] = s46*s93 - (s92 + s76*(2.0*(s35*s44 - s40*s41))) + (s14*s30 - v4*s41)*s94 + s24*s95 + s110
+    out[4] = s111
+    out[5] = q0
+    out[6] = v0
+    out[7] = q2
+    out[8] = v2
+    out[9] = q4
+    out[10] = v4
+    out[11] = s105 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s105))
+    out[12] = s106 - s23*((s88 - s89 - s90)*s103 - s99*s104)
+    out[13] = q3
+    out[14] = v3
+    out[15] = q1
+    out[16] = v1
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def masses(p, w):
+    """diagonal of M: 0 operations, 0 before sharing."""
+    # outputs
+    w[55] = 2.67
+    w[57] = 1.3358333333333334
+    w[59] = 0.33416666666666667
+    w[56] = 1.3358333333333334
+    w[58] = 0.33416666666666667
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def bodies(t, y, p, w, ydot, out):
+    """coordinates, velocities and accelerations of bodies: 382 operations, 2841 before sharing."""
+    # inputs
+    q0 = y[0]  # P0.angle [rad]
+    q1 = y[1]  # P5.angle [rad]
+    q2 = y[2]  # P1.angle [rad]
+    q3 = y[3]  # P4.angle [rad]
+    q4 = y[4]  # P2.angle [rad]
+    v0 = y[5]  # P0.angle.rate [rad/s]
+    v1 = y[6]  # P5.angle.rate [rad/s]
+    v2 = y[7]  # P1.angle.rate [rad/s]
+    v3 = y[8]  # P4.angle.rate [rad/s]
+    v4 = y[9]  # P2.angle.rate [rad/s]
+    ydot_5 = ydot[5]
+    ydot_6 = ydot[6]
+    ydot_7 = ydot[7]
+    ydot_8 = ydot[8]
+    ydot_9 = ydot[9]
+    # intermediate terms
+    s0 = math.cos(q0)
+    s1 = math.sin(q0)
+    s2 = 0.5*q0
+    s3 = 0.5*math.cos(s2)
+    s4 = 0.5*math.sin(s2)
+    s5 = 0.5*(s3 + s4)
+    s6 = 0.5*(s4 - s3)
+    s7 = s5 - (s6 + s6 - s5)
+    s8 = s5 + s6
+    s9 = s8 + s8
+    s10 = math.cos(q1)
+    s11 = math.sin(q1)
+    s12 = -0.5*q1
+    s13 = 0.5*math.cos(s12)
+    s14 = 0.5*math.sin(s12)
+    s15 = 0.5*(s13 - s14)
+    s16 = 0.5*(s13 + s14)
+    s17 = s15 + s16 + s15 + s16
+    s18 = s16 - s15
+    s19 = s18 + s18
+    s20 = s18 + s15 - s16
+    s21 = 9.81*s10
+    s22 = 9.81*s11
+    s23 = math.cos(q2)
+    s24 = math.sin(q2)
+    s25 = 0.5*q2
+    s26 = math.cos(s25)
+    s27 = math.sin(s25)
+    s28 = s0*s23
+    s29 = s1*s23
+    s30 = s0*s24
+    s31 = s1*s24
+    s32 = s7*s26
+    s33 = s9*s27
+    s34 = s9*s26
+    s35 = s7*s27
+    s36 = v0*s24
+    s37 = v0*s23
+    s38 = v2*s37
+    s39 = v2*s36
+    s40 = v0*v0
+    s41 = 9.81*s24 - s23*s40
+    s42 = s24*s40 + 9.81*s23
+    s43 = math.cos(q3)
+    s44 = math.sin(q3)
+    s45 = -0.5*q3
+    s46 = math.cos(s45)
+    s47 = math.sin(s45)
+    s48 = s10*s44
+    s49 = s11*s44
+    s50 = s10*s43
+    s51 = s11*s43
+    s52 = v1*s43
+    s53 = v1*s44
+    s54 = s21 + v1*v1
+    s55 = math.cos(q4)
+    s56 = math.sin(q4)
+    s57 = 0.5*q4
+    s58 = 0.5*math.cos(s57)
+    s59 = 0.5*math.sin(s57)
+    s60 = 0.5*(s58 - s59)
+    s61 = 0.5*(s58 + s59)
+    s62 = s60 + s61 + s60 + s61
+    s63 = s61 - s60
+    s64 = s63 + s63
+    s65 = s63 + s60 - s61
+    s66 = s1*s56 - s30*s55
+    s67 = s23*s55
+    s68 = s31*s55 + s0*s56
+    s69 = s30*s56 + s1*s55
+    s70 = s23*s56
+    s71 = s0*s55 - s31*s56
+    s72 = s37*s55 + v2*s56
+    s73 = v2*s55 - s37*s56
+    s74 = v4 + s36
+    s75 = v0 + s36
+    s76 = s42 + v2*v2 + s36*s36
+    s77 = s38 + s38
+    s78 = -1.0 - s24
+    s79 = s55*s75
+    s80 = 0.5*v0
+    s81 = 0.5*v2
+    s82 = 0.5*s36
+    s83 = v0 + s82
+    s84 = 0.5*s72
+    s85 = 0.5*s74
+    s86 = v2 + s84
+    s87 = s56*s75 + s85
+    s88 = 0.5*v3
+    s89 = 0.5*s53
+    s90 = v1 + s89
+    s91 = 0.5*v1
+    s92 = s44*s54 + s53*s89 + v3*s88
+    s93 = s42 + v2*s81 + s36*s82
+    s94 = s21 + v1*s91
+    s95 = v0*s80
+    s96 = 0.5*ydot_5
+    s97 = s38 + s24*ydot_5
+    s98 = s41 + 0.5*ydot_7 - s37*s82
+    s99 = s37*s81 + ydot_5 + 0.5*s97
+    s100 = ydot_9 + s97
+    s101 = s56*ydot_7 + v4*s73 - s39*s55 + s67*ydot_5
+    s102 = s73*s85 + s41 - s36*s37 + ydot_7 + 0.5*s101
+    s103 = s73*s84 + s55*s76 - s56*s77 + s56*s78*ydot_5 - 0.5*s100
+    s104 = s55*s78*ydot_5 - (s56*s76 + s55*s77) - (s74*s85 + s72*s84)
+    s105 = v3*s52 + s44*ydot_6
+    s106 = s52*s89 + s43*s54 - 0.5*ydot_8
+    s107 = s52*s88 + s22 + ydot_6 + 0.5*s105
+    s108 = s22 + 0.5*ydot_6
+    # outputs
+    out[0] = 0.5*s0
+    out[1] = 0.0
+    out[2] = -0.5*s1
+    out[3] = s7
+    out[4] = 0.0
+    out[5] = s9
+    out[6] = 0.0
+    out[7] = s0 + 0.5*s30
+    out[8] = -0.5*s23
+    out[9] = -(s1 + 0.5*s31)
+    out[10] = s32
+    out[11] = s33
+    out[12] = s34
+    out[13] = s35
+    out[14] = s0 + s30 + 0.5*s69
+    out[15] = -(s23 + 0.5*s70)
+    out[16] = 0.5*s71 - (s1 + s31)
+    out[17] = s32*s62 - (s33*s64 + s35*s65)
+    out[18] = s32*s64 + s33*s62 + s34*s65
+    out[19] = s34*s62 + s35*s64 - s33*s65
+    out[20] = s32*s65 + s35*s62 - s34*s64
+    out[21] = 0.5*s43
+    out[22] = -(s10 + 0.5*s48)
+    out[23] = 1.0 + s11 + 0.5*s49
+    out[24] = s17*s46 - s20*s47
+    out[25] = s19*s46
+    out[26] = -s19*s47
+    out[27] = s17*s47 + s20*s46
+    out[28] = 0.0
+    out[29] = -0.5*s10
+    out[30] = 1.0 + 0.5*s11
+    out[31] = s17
+    out[32] = s19
+    out[33] = 0.0
+    out[34] = s20
+    out[35] = -s1*s80
+    out[36] = 0.0
+    out[37] = -s0*s80
+    out[38] = 0.0
+    out[39] = v0
+    out[40] = 0.0
+    out[41] = s28*s81 - s1*s83
+    out[42] = s24*s81
+    out[43] = -(s29*s81 + s0*s83)
+    out[44] = s36
+    out[45] = s37
+    out[46] = v2
+    out[47] = s28*s86 - s66*s87 - s69*s79
+    out[48] = s70*s79 + s24*s86 - s67*s87
+    out[49] = -(s71*s79 + s29*s86 + s68*s87)
+    out[50] = s74
+    out[51] = s72
+    out[52] = s73
+    out[53] = -s44*s88
+    out[54] = s11*s90 - s50*s88
+    out[55] = s51*s88 + s10*s90
+    out[56] = -s52
+    out[57] = -s53
+    out[58] = -v3
+    out[59] = 0.0
+    out[60] = s11*s91
+    out[61] = s10*s91
+    out[62] = -v1
+    out[63] = 0.0
+    out[64] = 0.0
+    out[65] = -(s0*s95 + s1*s96)
+    out[66] = 0.0
+    out[67] = s1*s95 - s0*s96
+    out[68] = 0.0
+    out[69] = ydot_5
+    out[70] = 0.0
+    out[71] = s28*s98 - s30*s93 - s1*s99
+    out[72] = -9.81 + s24*s98 + s23*s93
+    out[73] = s31*s93 - s29*s98 - s0*s99
+    out[74] = s97
+    out[75] = s23*ydot_5 - s39
+    out[76] = ydot_7
+    out[77] = s28*s102 + s66*s103 + s69*s104
+    out[78] = -9.81 + s24*s102 + s67*s103 - s70*s104
+    out[79] = s68*s103 - s29*s102 + s71*s104
+    out[80] = s100
+    out[81] = s101
+    out[82] = s55*ydot_7 + s39*s56 - v4*s72 - s70*ydot_5
+    out[83] = s44*s106 - s43*s92
+    out[84] = -9.81 + s48*s92 + s50*s106 + s11*s107
+    out[85] = s10*s107 - (s49*s92 + s51*s106)
+    out[86] = v3*s53 - s43*ydot_6
+    out[87] = -s105
+    out[88] = -ydot_8
+    out[89] = 0.0
+    out[90] = -9.81 + s10*s94 + s11*s108
+    out[91] = s10*s108 - s11*s94
+    out[92] = -ydot_6
+    out[93] = 0.0
+    out[94] = 0.0
+    return 0

@@ -1,0 +1,17 @@
+"""Method `direct-correction` for model `four-bar`. Emitted by symgen; do not edit.
+
+positions and velocities are projected after each step with the pseudoinverse of D
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+digest fd145c51c4014a3d11ca6e04efb375ff159e658ad3f57f365eaa8110a7de8531, format 3, templates a694aa875a452a90
+option solver = elimination
+option weight = identity
+p[23] tolerance (default 1e-13)
+"""
+
+from .accept_identity_708ca74ad9cfba69 import accept
+from .confirm_0f25f9c31db6013a import confirm
+from .metric_identity_d5257821f94425ba import geometry, spread
+from .prepare_97e25336ba4f9ea1 import prepare
+from .rhs_direct_f0b37fbebfd6ca93 import rhs
+
+__all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]
