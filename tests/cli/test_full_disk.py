@@ -58,7 +58,10 @@ def full(folder, command, option, name, limit):
     return found.returncode, found.stdout, found.stderr.partition("=====\n")[2]
 
 
-@pytest.mark.parametrize(("command", "option", "name", "limit"), CASES.values(), ids=CASES)
+@pytest.mark.parametrize(
+    ("command", "option", "name", "limit"),
+    [pytest.param(*case, id=name, marks=pytest.mark.slow if name == "sweep" else ()) for name, case in CASES.items()],
+)
 def test_one_sentence_and_nothing_lost(tmp_path, command, option, name, limit):
     old = tmp_path / name
     if command[0] == "generate":

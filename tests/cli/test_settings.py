@@ -143,6 +143,7 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
     assert "step: expected at most max_steps = 5 steps, got 100" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_steps_are_bounded_in_stress_studies():
     found = stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_steps=5.0)
     assert found.rows and all(row.outcome == "refused" and "max_steps" in row.reason for row in found.rows)

@@ -221,10 +221,12 @@ CASES = [
         "expected two points, one of each body: a name, 'centre' or coordinates [x, y]",
     ),
     ("joints.pin.at", GONE, "joints.pin.at: expected two points, one of each body"),
+    ("joints.pin.cut", "yes", "joints.pin.cut: expected true or false, got"),
+    ("joints.string.cut", True, "joints.string.cut: expected a joint that can carry a body, got a distance joint"),
     (
         "joints.pin.att",
         1,
-        "joints.pin: expected the keys type, start, between, at, axis, reference, got the unknown key",
+        "joints.pin: expected the keys type, start, cut, between, at, axis, reference, got the unknown key",
     ),
     ("joints.string.length", 0.0, "joints.string.length: expected a value above 0, got 0.0"),
     ("joints.string.length", "-length", "joints.string.length: expected a value above 0, got -1.0"),

@@ -132,9 +132,14 @@ def test_compiled_runs_agree(weight):
     ("mechanism", "method", "settings"),
     [
         ("four-bar", "ggl", {"integrator": "radau5", "rtol": 1e-8, "until": 0.3}),
-        ("slider-crank", "penalty", {"integrator": "sdirk", "rtol": 1e-6, "until": 0.2}),
-        ("spherical-double-pendulum", "generalized-alpha", {"step": 1e-3, "until": 0.1}),
-        ("parallelogram", "index3-augmented-lagrangian", {"step": 1e-3, "until": 0.1}),
+        *(
+            pytest.param(*case, marks=pytest.mark.slow)
+            for case in (
+                ("slider-crank", "penalty", {"integrator": "sdirk", "rtol": 1e-6, "until": 0.2}),
+                ("spherical-double-pendulum", "generalized-alpha", {"step": 1e-3, "until": 0.1}),
+                ("parallelogram", "index3-augmented-lagrangian", {"step": 1e-3, "until": 0.1}),
+            )
+        ),
     ],
 )
 def test_compiled_implicit_runs_agree(mechanism, method, settings):

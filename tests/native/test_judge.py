@@ -20,7 +20,10 @@ QUICK = (
 )
 
 
-@pytest.mark.parametrize(("model", "methods"), QUICK, ids=[model for model, _ in QUICK])
+@pytest.mark.parametrize(
+    ("model", "methods"),
+    [pytest.param(*case, id=case[0], marks=() if i == 0 else pytest.mark.slow) for i, case in enumerate(QUICK)],
+)
 def test_functions_of_small_models(model, methods):
     assert apart(model, *methods) == ""
 

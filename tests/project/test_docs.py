@@ -85,7 +85,7 @@ def name(page: Path) -> str:
 
 
 #: Pages whose commands take longer than those of all others together.
-LONG = ("docs/command-line.md", "docs/stress.md")
+LONG = ("docs/command-line.md", "docs/stress.md", "docs/tutorial.md", "docs/tutorial-space.md", "docs/sweeps.md")
 
 
 def with_language(language: str) -> list[object]:

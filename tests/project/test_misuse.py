@@ -493,8 +493,13 @@ def test_single_words_and_numbers_are_lists_of_one(model, study):
 # -- copies and other processes ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("shape", ["straight", "looped"])
-@pytest.mark.parametrize("name", ["four-bar", "bricard"])
+@pytest.mark.parametrize(
+    ("name", "shape"),
+    [
+        *(("four-bar", "straight"), ("bricard", "straight"), ("four-bar", "looped")),
+        pytest.param("bricard", "looped", marks=pytest.mark.slow),
+    ],
+)
 def test_a_result_travels_with_its_tables(name, shape, tmp_path):
     made = symgen.load(name).simulate(until=0.02, shape=shape)
     (tmp_path / "result").write_bytes(pickle.dumps(made))

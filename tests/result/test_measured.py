@@ -146,6 +146,7 @@ def test_everything_beside_the_state(seed, space):
     assert check(furnished(seed, space)) < ROUNDING
 
 
+@pytest.mark.slow
 def test_looped_code_has_the_same_tables():
     raw = furnished(6, "spatial")
     assert check(raw, shape="looped") < ROUNDING

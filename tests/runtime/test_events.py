@@ -42,7 +42,9 @@ def times_of(result, name):
 # -- where events are --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("integrator", "step"), [("rk4", 1e-2), ("rk4", 0.3), ("dop853", None)])
+@pytest.mark.parametrize(
+    ("integrator", "step"), [("rk4", 1e-2), ("rk4", 0.3), pytest.param("dop853", None, marks=pytest.mark.slow)]
+)
 def test_a_ball_bounces_until_its_impacts_accumulate(integrator, step):
     result = ball(**BOUNCE).simulate(method="lagrange", integrator=integrator, step=step)
     found = times_of(result, "impact")

@@ -197,6 +197,7 @@ def test_a_reference_over_its_budget_says_so(monkeypatch):
         motion(equations, q, v, np.linspace(0.0, 1.0, 5))
 
 
+@pytest.mark.slow
 def test_two_formulations_take_over_beyond_the_budget(monkeypatch):
     level = CASES.get("gravity").levels(Base.of("slider-crank"), False)[1]
     best = compute(ReferenceTask(level))

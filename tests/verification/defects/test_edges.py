@@ -154,6 +154,7 @@ def test_something_else_in_place_of_an_entry_is_a_miss(kind: str, tmp_path: Path
     assert filled(cache, tmp_path) == expected
 
 
+@pytest.mark.slow
 def test_a_file_in_place_of_a_folder_of_the_cache_is_no_obstacle(tmp_path: Path) -> None:
     cache = tmp_path / "cache"
     expected = filled(cache, tmp_path)
