@@ -1,0 +1,488 @@
+"""Trees of joints beside Pinocchio's `aba` and MuJoCo's `mj_forward`: accelerations at random states, and time.
+
+    python -m benchmarks.robots [--states 100]
+
+Three trees written here, of the sizes of Pinocchio's samples: an arm of six hinges, a free body with two legs, two arms,
+a torso and a neck (34 velocities), and a tree of balls and hinges. The coordinates of all three programs are angles of
+hinges, and position, quaternion, velocity and angular velocity in own axes of a free body, so accelerations are
+compared number by number. Time is of one evaluation called through a pointer: symgen's emitted function, the same
+equations by gcc, and `aba` from Pinocchio's headers by g++ with the same flags, in the faster of its two conventions,
+in turns. Needs `pip install pin mujoco` and Eigen's headers; what is missing is left out and said.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ctypes
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.against_gcc import FLAGS, REPEATS, _repeat_emitted, c_function
+from benchmarks.mechanisms.toml import text
+from symgen.api import load
+from symgen.compiling.choose_tree import on_tree
+from symgen.describe.mechanism import Mechanism
+from symgen.formulate.formulate import formulate
+from symgen.lower.law import lower_law
+from symgen.lower.model import lower_model
+from symgen.methods import METHODS
+from symgen.plan import make_plan
+from symgen.runtime import abi
+from symgen.settings import Settings
+from symgen.tree_run import TreeRun, tree_run
+
+Array = NDArray[np.float64]
+
+GRAVITY = 9.81
+AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+
+@dataclass(frozen=True)
+class Limb:
+    """A body and the joint that carries it.
+
+    Attributes
+    ----------
+    name, parent : str
+        The body, and what carries it, ``""`` for the ground.
+    joint : str
+        ``x``, ``y``, ``z`` for a hinge about that axis, ``ball``, ``free``.
+    at : tuple of float
+        The joint in the frame of what carries it [m]; all frames are parallel where angles are 0.
+    mass : float
+        [kg]
+    centre : tuple of float
+        [m]
+    inertia : tuple of float
+        About the centre of mass: xx, yy, zz, xy, xz, yz [kg m^2].
+    """
+
+    name: str
+    parent: str
+    joint: str
+    at: tuple[float, float, float]
+    mass: float
+    centre: tuple[float, float, float]
+    inertia: tuple[float, ...]
+
+
+def _limb(name: str, parent: str, joint: str, at: tuple[float, float, float], index: int) -> Limb:
+    """Return a limb with masses and inertias of no symmetry, the same ones at every call."""
+    rng = np.random.default_rng(1000 + index)
+    mass = round(0.5 + 3.0 * rng.random(), 6)
+    centre = (0.0, 0.0, 0.0) if joint == "free" else tuple(np.round(0.2 * rng.standard_normal(3), 6))
+    root = rng.standard_normal((3, 3))
+    spread = root @ root.T / 3.0 + np.eye(3)  # second moments of mass, so that no axis has more than the other two
+    shape = 0.01 * mass * (np.trace(spread) * np.eye(3) - spread)
+    own = tuple(round(float(shape[i, j]), 9) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
+    return Limb(name, parent, joint, at, mass, (float(centre[0]), float(centre[1]), float(centre[2])), own)
+
+
+def arm() -> list[Limb]:
+    """Return an arm of six hinges."""
+    chain, parent = list[Limb](), ""
+    places = ((0.0, 0.0, 0.3), (0.0, 0.0, 0.1), (0.4, 0.0, 0.0), (0.3, 0.0, 0.0), (0.1, 0.0, 0.0), (0.1, 0.0, 0.0))
+    for k, (axis, at) in enumerate(zip("zyyxyx", places, strict=True)):
+        chain.append(_limb(f"link{k}", parent, axis, at, k))
+        parent = f"link{k}"
+    return chain
+
+
+def humanoid() -> list[Limb]:
+    """Return a free body with 28 hinges: 34 velocities."""
+    found = [_limb("pelvis", "", "free", (0.0, 0.0, 0.0), 20)]
+
+    def chain(stem: str, root: str, at: tuple[float, float, float], axes: str, step: tuple[float, float, float]) -> str:
+        parent = root
+        for k, axis in enumerate(axes):
+            place = at if k == 0 else (step if k in (3, 4) else (0.0, 0.0, 0.0))
+            found.append(_limb(f"{stem}{k}", parent, axis, place, 20 + len(found)))
+            parent = f"{stem}{k}"
+        return parent
+
+    for side, y in (("left", 0.1), ("right", -0.1)):
+        chain(f"{side}leg", "pelvis", (0.0, y, -0.1), "zxyyyx", (0.0, 0.0, -0.4))
+    chest = chain("chest", "pelvis", (0.0, 0.0, 0.3), "zy", (0.0, 0.0, 0.0))
+    for side, y in (("left", 0.2), ("right", -0.2)):
+        chain(f"{side}arm", chest, (0.0, y, 0.3), "yxzyzy", (0.0, 0.0, -0.3))
+    chain("head", chest, (0.0, 0.0, 0.4), "zy", (0.0, 0.0, 0.0))
+    return found
+
+
+def balls() -> list[Limb]:
+    """Return a tree of balls and hinges on a free body."""
+    return [
+        _limb("base", "", "free", (0.0, 0.0, 0.0), 60),
+        _limb("upper", "base", "ball", (0.2, 0.1, -0.3), 61),
+        _limb("lower", "upper", "y", (0.0, 0.0, -0.5), 62),
+        _limb("foot", "lower", "ball", (0.1, 0.0, -0.4), 63),
+        _limb("mast", "base", "x", (-0.1, 0.0, 0.4), 64),
+        _limb("bob", "mast", "ball", (0.0, 0.0, 0.5), 65),
+    ]
+
+
+TREES = {"arm": arm, "humanoid": humanoid, "balls": balls}
+
+
+# -- the three descriptions --------------------------------------------------------------------------------------------
+
+
+def mechanism(name: str, limbs: list[Limb]) -> Mechanism:
+    """Return a tree as symgen reads it from a file."""
+    placed: dict[str, Array] = {"": np.zeros(3)}
+    bodies, joints = dict[str, Any](), dict[str, Any]()
+    for limb in limbs:
+        placed[limb.name] = placed[limb.parent] + limb.at
+        bodies[limb.name] = {
+            **{"mass": limb.mass, "inertia": list(limb.inertia), "centre_of_mass": list(limb.centre)},
+            "position": placed[limb.name].tolist(),
+        }
+        if limb.joint != "free":
+            kind = {"type": "spherical"} if limb.joint == "ball" else {"type": "revolute", "axis": AXES[limb.joint]}
+            ends = {"between": [limb.parent or "ground", limb.name], "at": [list(limb.at), [0.0, 0.0, 0.0]]}
+            joints[f"j_{limb.name}"] = {**kind, **ends}
+    raw = {"mechanism": {"name": name, "space": "spatial", "gravity": [0.0, 0.0, -GRAVITY]}, "bodies": bodies}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / f"{name}.toml"
+        path.write_text(text({**raw, "joints": joints}), encoding="utf-8")
+        return load(path).mechanism
+
+
+def mjcf(limbs: list[Limb]) -> str:
+    """Return a tree as MuJoCo reads it."""
+    inside = {name: list[Limb]() for name in ("", *(limb.name for limb in limbs))}
+    for limb in limbs:
+        inside[limb.parent].append(limb)
+
+    def numbers(values: tuple[float, ...]) -> str:
+        return " ".join(repr(float(x)) for x in values)
+
+    def body(limb: Limb) -> str:
+        kinds = {"free": "<freejoint/>", "ball": '<joint type="ball"/>'}
+        joint = kinds.get(limb.joint) or f'<joint type="hinge" axis="{numbers(AXES[limb.joint])}"/>'
+        own = f'<inertial pos="{numbers(limb.centre)}" mass="{limb.mass!r}" fullinertia="{numbers(limb.inertia)}"/>'
+        rest = "".join(body(x) for x in inside[limb.name])
+        return f'<body name="{limb.name}" pos="{numbers(limb.at)}">{joint}{own}{rest}</body>'
+
+    world = "".join(body(limb) for limb in inside[""])
+    flags = f'<option gravity="0 0 {-GRAVITY!r}"><flag contact="disable" constraint="disable"/></option>'
+    return f"<mujoco>{flags}<worldbody>{world}</worldbody></mujoco>"
+
+
+#: What Pinocchio is built with, for its list of joints.
+BOOST = ("-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS")
+
+CPP = r"""
+#include <chrono>
+#include <fstream>
+#include <pinocchio/fwd.hpp>
+#include <pinocchio/multibody.hpp>
+#include <pinocchio/algorithm/aba.hpp>
+namespace pin = pinocchio;
+static pin::Model model;
+static pin::Data *data;
+static Eigen::VectorXd q, v, tau;
+template <class T> static void same(T &) {}
+extern "C" int describe(const char *path, double gravity)
+{
+    std::ifstream in(path);
+    model = pin::Model();
+    model.gravity.linear() << 0.0, 0.0, -gravity;
+    int count; in >> count;
+    for (int k = 0; k < count; k++) {
+        int parent; std::string kind; double x[3], m, c[3], i[6];
+        in >> parent >> kind >> x[0] >> x[1] >> x[2] >> m >> c[0] >> c[1] >> c[2];
+        for (double &e : i) in >> e;
+        const pin::SE3 at(Eigen::Matrix3d::Identity(), Eigen::Vector3d(x[0], x[1], x[2]));
+        const std::string name = "j" + std::to_string(k);
+        int index = 0;
+        if (kind == "x") index = model.addJoint(parent, pin::JointModelRX(), at, name);
+        if (kind == "y") index = model.addJoint(parent, pin::JointModelRY(), at, name);
+        if (kind == "z") index = model.addJoint(parent, pin::JointModelRZ(), at, name);
+        if (kind == "ball") index = model.addJoint(parent, pin::JointModelSpherical(), at, name);
+        if (kind == "free") index = model.addJoint(parent, pin::JointModelFreeFlyer(), at, name);
+        Eigen::Matrix3d inertia;
+        inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+        model.appendBodyToJoint(index, pin::Inertia(m, Eigen::Vector3d(c[0], c[1], c[2]), inertia), pin::SE3::Identity());
+    }
+    data = new pin::Data(model);
+    q = Eigen::VectorXd::Zero(model.nq); v = Eigen::VectorXd::Zero(model.nv); tau = Eigen::VectorXd::Zero(model.nv);
+    return model.nv;
+}
+extern "C" void accelerations(const double *q_, const double *v_, double *out)
+{
+    for (int i = 0; i < model.nq; i++) q[i] = q_[i];
+    for (int i = 0; i < model.nv; i++) v[i] = v_[i];
+    const auto &a = pin::aba(model, *data, q, v, tau, pin::Convention::LOCAL);
+    for (int i = 0; i < model.nv; i++) out[i] = a[i];
+}
+extern "C" double repeat(int world, long n)
+{
+    const auto began = std::chrono::steady_clock::now();
+    for (long k = 0; k < n; k++) {
+        if (world) pin::aba(model, *data, q, v, tau, pin::Convention::WORLD);
+        else pin::aba(model, *data, q, v, tau, pin::Convention::LOCAL);
+        v[0] += 1e-300 * data->ddq[0];
+    }
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() / n;
+}
+"""
+
+
+def pinocchio(limbs: list[Limb], folder: Path) -> ctypes.CDLL | None:
+    """Return the library with `aba` and a tree in it, None where it cannot be built."""
+    found = [Path(x) / "cmeel.prefix" for x in sys.path if (Path(x) / "cmeel.prefix/include/pinocchio").is_dir()]
+    if not found:
+        print("no Pinocchio here: left out")
+        return None
+    root = found[0]
+    index = {"": 0} | {limb.name: k + 1 for k, limb in enumerate(limbs)}
+    lines = [str(len(limbs))]
+    for limb in limbs:
+        row = (*limb.at, limb.mass, *limb.centre, *limb.inertia)
+        lines.append(f"{index[limb.parent]} {limb.joint} " + " ".join(repr(float(x)) for x in row))
+    (folder / "tree.txt").write_text("\n".join(lines), encoding="utf-8")
+    (folder / "aba.cpp").write_text(CPP, encoding="utf-8")
+    library = folder / "libaba.so"
+    eigen = os.environ.get("EIGEN", "/usr/include/eigen3")
+    command = ["g++", "-std=c++17", "-DNDEBUG", *BOOST, *FLAGS, "-w", f"-I{root}/include", f"-I{eigen}", f"-L{root}/lib"]
+    links = ["-lpinocchio_default", f"-Wl,-rpath,{root}/lib"]
+    subprocess.run([*command, str(folder / "aba.cpp"), "-o", str(library), *links], check=True)
+    built = ctypes.CDLL(str(library))
+    built.repeat.restype = ctypes.c_double
+    built.describe(str(folder / "tree.txt").encode(), ctypes.c_double(GRAVITY))
+    return built
+
+
+# -- states ------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class State:
+    """A random state: for each limb its coordinates and velocities, as MuJoCo orders them."""
+
+    q: dict[str, Array]
+    v: dict[str, Array]
+
+
+def draw(limbs: list[Limb], rng: np.random.Generator) -> State:
+    """Return a random state."""
+    q, v = dict[str, Array](), dict[str, Array]()
+    for limb in limbs:
+        if limb.joint in AXES:
+            q[limb.name], v[limb.name] = rng.uniform(-np.pi, np.pi, 1), rng.standard_normal(1)
+            continue
+        turn = rng.standard_normal(4)
+        turn /= np.linalg.norm(turn)
+        free = limb.joint == "free"
+        q[limb.name] = np.concatenate([rng.standard_normal(3), turn]) if free else turn
+        v[limb.name] = rng.standard_normal(6 if free else 3)
+    return State(q, v)
+
+
+def turned(e: Array) -> Array:
+    """Return the rotation matrix of a unit quaternion, scalar first."""
+    w, u = e[0], e[1:]
+    cross = np.array([[0.0, -u[2], u[1]], [u[2], 0.0, -u[0]], [-u[1], u[0], 0.0]])
+    return np.asarray((w * w - u @ u) * np.eye(3) + 2.0 * np.outer(u, u) + 2.0 * w * cross)
+
+
+def of_symgen(run: TreeRun, limbs: list[Limb], state: State) -> dict[str, Array]:
+    """Return accelerations by limb from the emitted function.
+
+    A ball turns its body against the ground here, and against what carries it elsewhere: with R the rotation of the
+    body against its carrier, whose angular velocity in its own axes is w0, and w that against it, the velocity of the
+    state is w + R^T w0.
+    """
+    info = run.compiled.info
+    places = {x.name: i for i, x in enumerate(info.coordinates)}
+    speeds = {x.name: i for i, x in enumerate(info.velocities)}
+    y = run.start.y.copy()
+    pose, spin = {"": np.eye(3)}, {"": np.zeros(3)}
+    for limb in limbs:
+        q, v = state.q[limb.name], state.v[limb.name]
+        if limb.joint in AXES:
+            axis, angle = np.array(AXES[limb.joint]), float(q[0])
+            own = turned(np.concatenate([[np.cos(angle / 2)], np.sin(angle / 2) * axis]))
+            y[places[f"j_{limb.name}.angle"]] = angle
+            y[info.nq + speeds[f"j_{limb.name}.angle.rate"]] = v[0]
+            relative = axis * v[0]
+        else:
+            own, relative = turned(q[-4:]), v[-3:]
+            if limb.joint == "free":
+                for k, x in enumerate("xyz"):
+                    y[places[f"{limb.name}.{x}"]] = q[k]
+                    y[info.nq + speeds[f"{limb.name}.v{x}"]] = v[k]
+        pose[limb.name] = pose[limb.parent] @ own
+        spin[limb.name] = relative + own.T @ spin[limb.parent]
+        if limb.joint not in AXES:
+            for k, e in enumerate(quaternion(pose[limb.name])):
+                y[places[f"{limb.name}.e{k}"]] = e
+            for k, x in enumerate("xyz"):
+                y[info.nq + speeds[f"{limb.name}.w{x}"]] = spin[limb.name][k]
+    ydot, p, w = np.zeros(info.ny), run.start.p.copy(), run.start.w.copy()
+    run.compiled.law_module.rhs(0.0, y, p, w, np.zeros(abi.N_COUNTERS, dtype=np.int64), ydot)
+    vdot = ydot[info.nq :]
+    found, turning = dict[str, Array](), {"": np.zeros(3)}
+    for limb in limbs:
+        own = pose[limb.parent].T @ pose[limb.name]
+        carried = own.T @ spin[limb.parent]
+        if limb.joint in AXES:
+            found[limb.name] = np.array([vdot[speeds[f"j_{limb.name}.angle.rate"]]])
+            relative = np.array(AXES[limb.joint]) * state.v[limb.name][0]
+            gained = np.array(AXES[limb.joint]) * found[limb.name][0]
+            turning[limb.name] = gained + own.T @ turning[limb.parent] - np.cross(relative, carried)
+        else:
+            turning[limb.name] = np.array([vdot[speeds[f"{limb.name}.w{x}"]] for x in "xyz"])
+            relative = spin[limb.name] - carried
+            against = turning[limb.name] - own.T @ turning[limb.parent] + np.cross(relative, carried)
+            moved = [vdot[speeds[f"{limb.name}.v{x}"]] for x in "xyz"] if limb.joint == "free" else []
+            found[limb.name] = np.array([*moved, *against])
+    return found
+
+
+def quaternion(matrix: Array) -> Array:
+    """Return the unit quaternion of a rotation matrix, scalar first: the eigenvector of Bar-Itzhack's matrix."""
+    r = matrix
+    k = np.array(
+        [
+            [r[0, 0] + r[1, 1] + r[2, 2], r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1]],
+            [r[2, 1] - r[1, 2], r[0, 0] - r[1, 1] - r[2, 2], r[0, 1] + r[1, 0], r[0, 2] + r[2, 0]],
+            [r[0, 2] - r[2, 0], r[0, 1] + r[1, 0], r[1, 1] - r[0, 0] - r[2, 2], r[1, 2] + r[2, 1]],
+            [r[1, 0] - r[0, 1], r[0, 2] + r[2, 0], r[1, 2] + r[2, 1], r[2, 2] - r[0, 0] - r[1, 1]],
+        ]
+    )
+    return np.asarray(np.linalg.eigh(k)[1][:, -1])
+
+
+def of_mujoco(limbs: list[Limb], states: list[State]) -> list[dict[str, Array]] | None:
+    """Return accelerations by limb from MuJoCo."""
+    try:
+        import mujoco  # noqa: PLC0415
+    except ImportError:
+        print("no MuJoCo here: left out")
+        return None
+    model = mujoco.MjModel.from_xml_string(mjcf(limbs))
+    data, found = mujoco.MjData(model), []
+    for state in states:
+        first = 0
+        for limb in limbs:  # bodies in the file's order of depth, which is MuJoCo's
+            joint = model.body(limb.name).jntadr[0]
+            at, speed = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
+            data.qpos[at : at + len(state.q[limb.name])] = state.q[limb.name]
+            data.qvel[speed : speed + len(state.v[limb.name])] = state.v[limb.name]
+            first += 1
+        mujoco.mj_forward(model, data)
+        result = {}
+        for limb in limbs:
+            speed = model.jnt_dofadr[model.body(limb.name).jntadr[0]]
+            result[limb.name] = data.qacc[speed : speed + len(state.v[limb.name])].copy()
+        found.append(result)
+    return found
+
+
+def of_pinocchio(built: ctypes.CDLL, limbs: list[Limb], state: State) -> dict[str, Array]:
+    """Return accelerations by limb from `aba`; joints of trees that are described depth first stand in their order."""
+    q, v, turns = list[float](), list[float](), dict[str, Array]()
+    for limb in limbs:
+        own_q, own_v = state.q[limb.name], state.v[limb.name]
+        if limb.joint not in AXES:  # quaternions have their scalar last, a free body's velocity is in its own axes
+            turns[limb.name] = turned(own_q[-4:])
+            own_q = np.concatenate([own_q[:-4], own_q[-3:], own_q[-4:-3]])
+        if limb.joint == "free":
+            own_v = np.concatenate([turns[limb.name].T @ own_v[:3], own_v[3:]])
+        q += own_q.tolist()
+        v += own_v.tolist()
+    q_, v_, out = np.array(q), np.array(v), np.zeros(len(v))
+    built.accelerations(*(ctypes.c_void_p(x.ctypes.data) for x in (q_, v_, out)))
+    found, first = dict[str, Array](), 0
+    for limb in limbs:
+        size = len(state.v[limb.name])
+        own = out[first : first + size].copy()
+        if limb.joint == "free":
+            own[:3] = turns[limb.name] @ (own[:3] + np.cross(v_[first + 3 : first + 6], v_[first : first + 3]))
+        found[limb.name] = own
+        first += size
+    return found
+
+
+def worst(a: dict[str, Array], b: dict[str, Array]) -> float:
+    """Return the largest difference of two accelerations over the largest entry."""
+    size = max(float(np.abs(x).max()) for x in b.values())
+    return max(float(np.abs(a[name] - b[name]).max()) for name in b) / size
+
+
+# -- time --------------------------------------------------------------------------------------------------------------
+
+
+def times(carried: Mechanism, run: TreeRun, built: ctypes.CDLL | None, folder: Path) -> tuple[int, dict[str, list[float]]]:
+    """Return operations, and seconds of one evaluation by name, in turns."""
+    method = METHODS.get("lagrange", "")
+    equations = formulate(carried)
+    law = lower_law(equations, lower_model(equations, ""), method, method.complete_options({}))
+    block = next(b for b in law.blocks if b.name == "rhs")
+    (folder / "rhs.c").write_text(c_function(block, law.layout), encoding="utf-8")
+    subprocess.run(["gcc", *FLAGS, str(folder / "rhs.c"), "-o", str(folder / "rhs.so"), "-lm"], check=True)
+    c = ctypes.CDLL(str(folder / "rhs.so"))
+    c.repeat.restype = ctypes.c_double
+    y, p, w = run.start.y.copy(), run.start.p.copy(), run.start.w.copy()
+    iw, ydot = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(y)
+    entry, pointers = ctypes.cast(c.evaluate, ctypes.c_void_p), [ctypes.c_void_p(a.ctypes.data) for a in (y, p, w, iw, ydot)]
+    count = max(500, int(1e7 / block.operations))
+    found: dict[str, list[float]] = {"symgen": [], "gcc": [], "aba local": [], "aba world": []}
+    _repeat_emitted(run.compiled.law_module.rhs, y, p, w, iw, ydot, 10)
+    for _ in range(REPEATS):
+        began = time.perf_counter()
+        _repeat_emitted(run.compiled.law_module.rhs, y, p, w, iw, ydot, count)
+        middle = time.perf_counter()
+        c.repeat(entry, *pointers, ctypes.c_long(count))
+        found["gcc"].append((time.perf_counter() - middle) / count)
+        found["symgen"].append((middle - began) / count)
+        if built is not None:
+            found["aba local"].append(float(built.repeat(0, ctypes.c_long(count // 4))))
+            found["aba world"].append(float(built.repeat(1, ctypes.c_long(count // 4))))
+    return block.operations, found
+
+
+def main() -> None:
+    """Print agreement and times of every tree."""
+    parser = argparse.ArgumentParser(prog="benchmarks.robots")
+    parser.add_argument("--states", type=int, default=100)
+    count = parser.parse_args().states
+    for name, make in TREES.items():
+        limbs = make()
+        described = mechanism(name, limbs)
+        run = tree_run(described, make_plan(described, Settings(method="lagrange", coordinates="joint")))
+        rng = np.random.default_rng(7)
+        states = [draw(limbs, rng) for _ in range(count)]
+        ours = [of_symgen(run, limbs, state) for state in states]
+        theirs = of_mujoco(limbs, states)
+        with tempfile.TemporaryDirectory() as folder:
+            built = pinocchio(limbs, Path(folder))
+            line = f"{name}: {run.compiled.info.nv} velocities"
+            if theirs is not None:
+                line += f", MuJoCo {max(worst(a, b) for a, b in zip(ours, theirs, strict=True)):.1e}"
+            if built is not None:
+                others = [of_pinocchio(built, limbs, state) for state in states]
+                line += f", Pinocchio {max(worst(a, b) for a, b in zip(ours, others, strict=True)):.1e}"
+            operations, found = times(on_tree(described), run, built, Path(folder))
+        print(f"{line} (relative, {count} states); {operations} operations")
+        print("   " + ", ".join(f"{key} {min(x) * 1e9:.0f} ns" for key, x in found.items() if x))
+        if built is not None:
+            fastest = min(("aba local", "aba world"), key=lambda key: median(found[key]))
+            ratios = [a / b for a, b in zip(found[fastest], found["symgen"], strict=True)]
+            print(f"   {fastest} / symgen: median {median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})")
+
+
+if __name__ == "__main__":
+    main()
