@@ -2,8 +2,9 @@
 
     python -m benchmarks.robots [--states 100]
 
-Three trees written here, of the sizes of Pinocchio's samples: an arm of six hinges, a free body with two legs, two arms,
-a torso and a neck (34 velocities), and a tree of balls and hinges. The coordinates of all three programs are angles of
+Trees written here, of the sizes of Pinocchio's samples: an arm of six hinges and a free body with two legs, two arms, a
+torso and a neck (34 velocities), each with limbs of any shape and with rods as the samples have, and a tree of balls
+and hinges. The coordinates of all three programs are angles of
 hinges, and position, quaternion, velocity and angular velocity in own axes of a free body, so accelerations are
 compared number by number. Time is of one evaluation called through a pointer: symgen's emitted function, the same
 equations by gcc, and `aba` from Pinocchio's headers by g++ with the same flags, in the faster of its two conventions,
@@ -19,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -131,7 +132,15 @@ def balls() -> list[Limb]:
     ]
 
 
-TREES = {"arm": arm, "humanoid": humanoid, "balls": balls}
+def plain(limbs: list[Limb]) -> list[Limb]:
+    """Return limbs that are rods along their own z, as those of Pinocchio's samples are."""
+    return [replace(x, centre=(0.0, 0.0, x.centre[2]), inertia=(*x.inertia[:3], 0.0, 0.0, 0.0)) for x in limbs]
+
+
+TREES = {
+    **{"arm": arm(), "arm of rods": plain(arm()), "humanoid": humanoid(), "humanoid of rods": plain(humanoid())},
+    "balls": balls(),
+}
 
 
 # -- the three descriptions --------------------------------------------------------------------------------------------
@@ -213,7 +222,8 @@ extern "C" int describe(const char *path, double gravity)
         if (kind == "free") index = model.addJoint(parent, pin::JointModelFreeFlyer(), at, name);
         Eigen::Matrix3d inertia;
         inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-        model.appendBodyToJoint(index, pin::Inertia(m, Eigen::Vector3d(c[0], c[1], c[2]), inertia), pin::SE3::Identity());
+        const pin::Inertia own(m, Eigen::Vector3d(c[0], c[1], c[2]), inertia);
+        model.appendBodyToJoint(index, own, pin::SE3::Identity());
     }
     data = new pin::Data(model);
     q = Eigen::VectorXd::Zero(model.nq); v = Eigen::VectorXd::Zero(model.nv); tau = Eigen::VectorXd::Zero(model.nv);
@@ -255,7 +265,17 @@ def pinocchio(limbs: list[Limb], folder: Path) -> ctypes.CDLL | None:
     (folder / "aba.cpp").write_text(CPP, encoding="utf-8")
     library = folder / "libaba.so"
     eigen = os.environ.get("EIGEN", "/usr/include/eigen3")
-    command = ["g++", "-std=c++17", "-DNDEBUG", *BOOST, *FLAGS, "-w", f"-I{root}/include", f"-I{eigen}", f"-L{root}/lib"]
+    command = [
+        "g++",
+        "-std=c++17",
+        "-DNDEBUG",
+        *BOOST,
+        *FLAGS,
+        "-w",
+        f"-I{root}/include",
+        f"-I{eigen}",
+        f"-L{root}/lib",
+    ]
     links = ["-lpinocchio_default", f"-Wl,-rpath,{root}/lib"]
     subprocess.run([*command, str(folder / "aba.cpp"), "-o", str(library), *links], check=True)
     built = ctypes.CDLL(str(library))
@@ -368,7 +388,7 @@ def quaternion(matrix: Array) -> Array:
 def of_mujoco(limbs: list[Limb], states: list[State]) -> list[dict[str, Array]] | None:
     """Return accelerations by limb from MuJoCo."""
     try:
-        import mujoco  # noqa: PLC0415
+        import mujoco
     except ImportError:
         print("no MuJoCo here: left out")
         return None
@@ -425,7 +445,9 @@ def worst(a: dict[str, Array], b: dict[str, Array]) -> float:
 # -- time --------------------------------------------------------------------------------------------------------------
 
 
-def times(carried: Mechanism, run: TreeRun, built: ctypes.CDLL | None, folder: Path) -> tuple[int, dict[str, list[float]]]:
+def times(
+    carried: Mechanism, run: TreeRun, built: ctypes.CDLL | None, folder: Path
+) -> tuple[int, dict[str, list[float]]]:
     """Return operations, and seconds of one evaluation by name, in turns."""
     method = METHODS.get("lagrange", "")
     equations = formulate(carried)
@@ -437,7 +459,10 @@ def times(carried: Mechanism, run: TreeRun, built: ctypes.CDLL | None, folder: P
     c.repeat.restype = ctypes.c_double
     y, p, w = run.start.y.copy(), run.start.p.copy(), run.start.w.copy()
     iw, ydot = np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros_like(y)
-    entry, pointers = ctypes.cast(c.evaluate, ctypes.c_void_p), [ctypes.c_void_p(a.ctypes.data) for a in (y, p, w, iw, ydot)]
+    entry, pointers = (
+        ctypes.cast(c.evaluate, ctypes.c_void_p),
+        [ctypes.c_void_p(a.ctypes.data) for a in (y, p, w, iw, ydot)],
+    )
     count = max(500, int(1e7 / block.operations))
     found: dict[str, list[float]] = {"symgen": [], "gcc": [], "aba local": [], "aba world": []}
     _repeat_emitted(run.compiled.law_module.rhs, y, p, w, iw, ydot, 10)
@@ -459,9 +484,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="benchmarks.robots")
     parser.add_argument("--states", type=int, default=100)
     count = parser.parse_args().states
-    for name, make in TREES.items():
-        limbs = make()
-        described = mechanism(name, limbs)
+    for name, limbs in TREES.items():
+        described = mechanism(name.replace(" ", "-"), limbs)
         run = tree_run(described, make_plan(described, Settings(method="lagrange", coordinates="joint")))
         rng = np.random.default_rng(7)
         states = [draw(limbs, rng) for _ in range(count)]

@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_e148129e20861585 import confirm
+from .confirm_8b8854bfb0acb4b7 import confirm
 from .prepare_1f74b046b7d0a206 import prepare
-from .rhs_direct_a9985d3555f2d14c import rhs
+from .rhs_direct_1ec7fd35426410e6 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -9,9 +9,9 @@ p[0] tolerance (default 1e-13)
 """
 
 from .accept_identity_9fddc433e3a8b2c0 import accept
-from .confirm_548fa574066bbc75 import confirm
+from .confirm_e9f5cb37e0e843f4 import confirm
 from .metric_identity_a207e7a2866a903c import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_06113f3f376baae7 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

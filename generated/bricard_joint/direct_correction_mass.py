@@ -9,9 +9,9 @@ p[0] tolerance (default 1e-13)
 """
 
 from .accept_mass_9d9cbe3617e89e57 import accept
-from .confirm_aa79d436568dc7a9 import confirm
+from .confirm_d6ab16d9789459ca import confirm
 from .metric_mass_a57708865562b44e import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_06113f3f376baae7 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

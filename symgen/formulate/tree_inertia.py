@@ -37,9 +37,8 @@ class Placed(Protocol):
     arm: Triple
     own: bool
     axes: Matrix
-    omega: Triple
-    alpha: Triple
     bias: Triple
+    whirl: Matrix
     motions: dict[int, Motion]
     centre: Triple
     children: list[str]
@@ -140,9 +139,8 @@ class Composite:
         torque = v.zero if is_point else v.neg(v.triple(self.forces[first + 3 : first + 6]))
         if not welded(p):  # else its inertia is part of that of what carries it
             m, h, j = self.rigid[name].mass, self.rigid[name].first, self.rigid[name].second
-            w, a = p.omega, p.bias
-            push = v.add(push, v.scale(m, a), v.cross(p.alpha, h), v.cross(w, v.cross(w, h)))
-            torque = v.add(torque, v.times(j, p.alpha), v.cross(w, v.times(j, w)), v.cross(h, a))
+            push = v.add(push, v.scale(m, p.bias), v.times(p.whirl, h))
+            torque = v.add(torque, v.moment(p.whirl, j), v.cross(h, p.bias))
         for child in p.children:
             c = self.placed[child]
             passed = v.times(c.turn, self.push[child])

@@ -45,6 +45,8 @@ class _Placed:
         Angular velocity, and velocity of its point.
     alpha, bias : Triple
         Angular acceleration, and acceleration of its point less gravity, where v' is 0.
+    whirl : Matrix
+        What makes of a place in the body the acceleration against that of its point, where v' is 0.
     motions : mapping of int to Motion
         Velocities of the state that belong to its link.
     columns : mapping of int to (Triple, Triple)
@@ -65,6 +67,7 @@ class _Placed:
     velocity: Triple
     alpha: Triple
     bias: Triple
+    whirl: Matrix
     motions: dict[int, Motion]
     columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
@@ -89,7 +92,7 @@ class SpatialTree:
         self.placed = {
             GROUND: _Placed(
                 *(Link(GROUND), v.units, still, True, v.units, still, still, still, still, v.neg(self.gravity)),
-                *({}, {}, still, (g.one, g.zero, g.zero, g.zero)),
+                *((still, still, still), {}, {}, still, (g.one, g.zero, g.zero, g.zero)),
             )
         }
         for link in topology.links:
@@ -207,8 +210,8 @@ class SpatialTree:
             alpha = v.add(v.back(turn, parent.alpha), v.cross(carried, relative), extra)
         w = parent.omega
         moved = v.add(parent.velocity, v.cross(w, arm), rate)
-        swing = v.add(v.cross(w, arm), v.scale(g.constant(2.0), rate))
-        bias = v.add(parent.bias, v.cross(parent.alpha, arm), v.cross(w, swing))
+        swing = v.cross(w, v.scale(g.constant(2.0), rate))
+        bias = v.add(parent.bias, v.times(parent.whirl, arm), swing)
         columns: dict[int, tuple[Triple, Triple]] = {}
         for i, (about, along) in parent.columns.items():
             turned = v.zero if own_turn else v.back(turn, about)
@@ -226,6 +229,7 @@ class SpatialTree:
             v.back(turn, moved),
             alpha,
             v.back(turn, bias),
+            v.whirl(omega, alpha),
             motions,
             columns,
             v.sub(com, at),
@@ -321,7 +325,7 @@ class SpatialTree:
             p = self.placed[body.name]
             alpha = v.add(p.alpha, *(v.scale(rates[i], about) for i, (about, _) in sorted(p.columns.items())))
             at = v.add(p.bias, *(v.scale(rates[i], along) for i, (_, along) in sorted(p.columns.items())))
-            at = v.add(at, v.cross(alpha, p.centre), v.cross(p.omega, v.cross(p.omega, p.centre)))
+            at = v.add(at, v.times(v.whirl(p.omega, alpha), p.centre))
             at = v.add(v.times(p.axes, at), self.gravity)
             found |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
             if not body.is_point:

@@ -90,6 +90,33 @@ class Vectors:
         x, y, z = (self.triple(row) for row in entries)
         return x, y, z
 
+    def whirl(self, omega: Triple, alpha: Triple) -> Matrix:
+        """Return K with K a the acceleration of a point at a: alpha x a + omega x (omega x a)."""
+        g = self.graph
+        square = [g.mul(w, w) for w in omega]
+        entries = [[g.zero] * 3 for _ in range(3)]
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            entries[i][i] = g.neg(g.add(square[j], square[k]))
+            both = g.mul(omega[i], omega[j])
+            entries[i][j], entries[j][i] = g.sub(both, alpha[k]), g.add(both, alpha[k])
+        x, y, z = (self.triple(row) for row in entries)
+        return x, y, z
+
+    def moment(self, k: Matrix, j: Matrix) -> Triple:
+        """Return J alpha + omega x (J omega) of an inertia J, from the `whirl` of omega and alpha.
+
+        It is the axis of K S - (K S)^T with S the second moments of mass by coordinates, J = tr(S) 1 - S.
+        """
+        g = self.graph
+        half = g.constant(0.5)
+        s = [[g.neg(x) for x in row] for row in j]
+        for i in range(3):
+            s[i][i] = g.mul(half, g.sub(g.add(j[(i + 1) % 3][(i + 1) % 3], j[(i + 2) % 3][(i + 2) % 3]), j[i][i]))
+        return self.triple(
+            [g.sub(g.dot(k[(i + 2) % 3], s[(i + 1) % 3]), g.dot(k[(i + 1) % 3], s[(i + 2) % 3])) for i in range(3)]
+        )
+
     def second(self, m: int, a: Triple) -> Matrix:
         """Return m (|a|^2 1 - a a^T): the second moment of a mass at a point."""
         return self.shifted(self.scale(m, a), a)

@@ -8,7 +8,7 @@ import math
 from numba import njit
 
 from .model import geometry
-from .rhs_direct_a9985d3555f2d14c import rhs
+from .rhs_direct_06113f3f376baae7 import rhs
 
 MASK = 25  # sections of w
 SAVED = 30

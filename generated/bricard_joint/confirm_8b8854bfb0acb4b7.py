@@ -7,8 +7,8 @@ import math
 
 from numba import njit
 
-from .metric_identity_a207e7a2866a903c import geometry
-from .rhs_direct_53d4d8918848d8af import rhs
+from .model import geometry
+from .rhs_direct_1ec7fd35426410e6 import rhs
 
 MASK = 25  # sections of w
 SAVED = 30

@@ -8,7 +8,7 @@ import math
 from numba import njit
 
 from .metric_mass_a57708865562b44e import geometry
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_06113f3f376baae7 import rhs
 
 MASK = 25  # sections of w
 SAVED = 30
