@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -225,7 +226,7 @@ def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
     assert carried.topology is not None, "it has a tree"
     found, gauge = list[float](), bodies.section(w, "gauge")
     for link in carried.topology.links:
-        alone = Topology((link,))
+        alone = msgspec.structs.replace(carried.topology, links=(link,))
         own = [
             float(gauge[j])
             for j, x in enumerate(bodies.info.velocities)

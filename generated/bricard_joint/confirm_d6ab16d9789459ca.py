@@ -1,6 +1,6 @@
 """Second evaluation without rows that come out doubtful, for model `bricard`. Emitted by symgen; do not edit.
 
-digest a434bc1850619abf59df99cd3f4a7f7d5156b781c8aa985ea07043e50b30d3a4, format 3, templates a694aa875a452a90
+digest dc50b4bafc3843d522248ecf36306546216a47158252a42fd3a8f555947a7488, format 3, templates a694aa875a452a90
 """
 
 import math

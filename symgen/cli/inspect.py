@@ -160,7 +160,7 @@ def _topology(topology: Topology, mechanism: Mechanism) -> dict[str, list[str]]:
         "tree": [link.joint for link in topology.links if link.joint],
         "cut": list(topology.cut),
         "merged": [link.body for link in topology.links if link.joint and not {link.joint, link.body} & moving],
-        "prescribed": [],
+        "prescribed": [x.driver for x in topology.prescribed],
     }
 
 

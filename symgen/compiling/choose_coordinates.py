@@ -72,7 +72,7 @@ def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> Coordina
     topology = spanning_tree(mechanism)
     own = sum(len(body.speeds) for body in mechanism.bodies)
     rows = sum(len(joint.rows) for joint in mechanism.joints)
-    inside = {link.joint for link in topology.links}
+    inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     tree = len(state_names(mechanism, topology)[1])
     left = sum(len(joint.rows) for joint in mechanism.joints if joint.name not in inside)
     counts = f"{tree} velocities and {left} rows in joint coordinates, {own} and {rows} in absolute ones"

@@ -83,8 +83,9 @@ def operations(mechanism: Mechanism) -> int:
     from symgen.methods import METHODS
 
     method = METHODS.get("lagrange", "")
-    record = record_law(method, method.complete_options({}))
-    scalars = Scalars(formulate(mechanism), record.operations, [p.name for p in method.parameters])
+    equations = formulate(mechanism)
+    record = record_law(method, method.complete_options({}), equations.driving is not None)
+    scalars = Scalars(equations, record.operations, [p.name for p in method.parameters])
     scalars.run(range(len(record.operations)))
     nodes = [node for part in record.parts if part.role == "acceleration" for _, node in part_outputs(scalars, part)]
     return scalars.graph.operations(nodes)

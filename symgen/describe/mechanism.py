@@ -208,11 +208,36 @@ class Link(msgspec.Struct, frozen=True):
     articulation: Articulation | None = None
 
 
+class Prescribed(msgspec.Struct, frozen=True):
+    """A coordinate of a tree that a driver prescribes as a function of time, so that it is none of the state.
+
+    Parameters
+    ----------
+    driver : str
+        Name of the driver, which has no row then.
+    body : str
+        The body whose link has the coordinate.
+    label : str
+        Of the joint's coordinate, or ``"theta"`` for the angle of a planar body itself.
+    value : Expr
+        What the driver says, a formula of t and parameters [m or rad].
+    sign : float
+        1, or -1 where the driver says the opposite of the coordinate.
+    """
+
+    driver: str
+    body: str
+    label: str
+    value: Expr
+    sign: float = 1.0
+
+
 class Topology(msgspec.Struct, frozen=True):
     """A spanning tree of a mechanism: bodies in an order in which each stands behind what carries it."""
 
     links: tuple[Link, ...]
     cut: tuple[str, ...] = ()
+    prescribed: tuple[Prescribed, ...] = ()
 
 
 class Joint(msgspec.Struct, frozen=True):

@@ -10,9 +10,10 @@ from collections.abc import Iterator, Sequence
 
 import msgspec
 
-from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, SpatialBody, Topology
-from symgen.vocabulary.expressions import Number
-from symgen.vocabulary.measures import GROUND, Measure, Sum
+from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Prescribed, SpatialBody, Topology
+from symgen.describe.outputs import integrals
+from symgen.vocabulary.expressions import Number, readings
+from symgen.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
 
 
 def articulation_of(joint: Joint) -> Articulation | None:
@@ -67,10 +68,47 @@ def spanning_tree(mechanism: Mechanism, cut: Sequence[str] = ()) -> Topology:
             reached.add(body.name)
             links.append(Link(body.name))
             grow([body.name])
-    used = {link.joint for link in links}
-    return Topology(
-        tuple(links), tuple(joint.name for joint in mechanism.joints if joint.rows and joint.name not in used)
-    )
+    tree = Topology(tuple(links))
+    prescribed = _prescribed(mechanism, tree)
+    used = {*(link.joint for link in links), *(x.driver for x in prescribed)}
+    rest = tuple(joint.name for joint in mechanism.joints if joint.rows and joint.name not in used)
+    return Topology(tree.links, rest, prescribed)
+
+
+def _prescribed(mechanism: Mechanism, tree: Topology) -> tuple[Prescribed, ...]:
+    """Return what drivers say of the coordinates of a tree; one coordinate at least stays with the state.
+
+    A driver whose effort is integrated keeps its row: its multiplier is wanted at every evaluation.
+    """
+    places = dict[Measure, tuple[str, str, float]]()
+    for link in tree.links:
+        lengths, angles = labels_of(mechanism, link)
+        coordinates = dict(mechanism.joint_named(link.joint).coordinates) if link.joint else {}
+        for label in (*lengths, *angles):
+            if label in coordinates:
+                places |= {m: (link.body, label, sign) for m, sign in _alike(coordinates[label])}
+        body = mechanism.body(link.body)
+        if angles and not isinstance(body, SpatialBody):
+            places.setdefault(Angle(GROUND, link.body), (link.body, "theta", 1.0))
+    found, taken = list[Prescribed](), set[str]()
+    wanted = {r.source.row for x in integrals(mechanism) for r in readings(x.of) if isinstance(r.source, Driven)}
+    for joint in mechanism.joints:
+        row = joint.rows[0] if len(joint.rows) == 1 and not joint.coordinates else None
+        if isinstance(row, Holonomic) and row.measure in places and f"{joint.name}.{row.label}" not in wanted:
+            name, label, sign = places[row.measure]
+            key = f"{name}.{'angle' if label == 'theta' else label}"
+            if key not in taken:
+                taken.add(key)
+                found.append(Prescribed(joint.name, name, label, row.value, sign))
+    velocities = len(state_names(mechanism, tree)[1])
+    return tuple(found[: max(0, velocities - 1)])
+
+
+def _alike(measure: Measure) -> Iterator[tuple[Measure, float]]:
+    """Yield a measure, and what it is the opposite of."""
+    yield measure, 1.0
+    if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
+        yield measure.terms[0][1], -1.0
 
 
 def _ways(name: str, articulation: Articulation, at: str) -> Iterator[Link]:
@@ -114,14 +152,31 @@ def loops_of(mechanism: Mechanism, topology: Topology) -> tuple[tuple[str, ...],
 
 def with_joint_coordinates(mechanism: Mechanism, topology: Topology) -> Mechanism:
     """Return a mechanism whose state is that of the joints of a tree: these have no rows any more."""
-    inside = {link.joint for link in topology.links}
+    inside = {*(link.joint for link in topology.links), *(x.driver for x in topology.prescribed)}
     joints = tuple(msgspec.structs.replace(j, rows=()) if j.name in inside else j for j in mechanism.joints)
     return msgspec.structs.replace(mechanism, joints=joints, topology=topology)
+
+
+def labels_of(mechanism: Mechanism, link: Link) -> tuple[list[str], list[str]]:
+    """Return the labels of a link's displacements and of its angles, as its joint reports them.
+
+    In the plane an angle is that of the body itself, whose joint may report none where a point mass hangs on it.
+    """
+    found, body = link.articulation, mechanism.body(link.body)
+    if found is None:
+        return [], []
+    labels = [label for label, _ in mechanism.joint_named(link.joint).coordinates]
+    lengths = [label for label in labels if label.startswith("displacement")][: len(found.slides)]
+    if found.turn in ("fixed", "ball") or body.is_point:
+        return lengths, []
+    angles = [label for label in labels if label.startswith("angle")]
+    return lengths, angles if isinstance(body, SpatialBody) else [*angles, "angle"][:1]
 
 
 def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """Return names and units of the coordinates and velocities of a tree, in the order of its links."""
     q, v = list[tuple[str, str]](), list[tuple[str, str]]()
+    given = {(x.body, "angle" if x.label == "theta" else x.label) for x in topology.prescribed}
     for link in topology.links:
         body = mechanism.body(link.body)
         found = link.articulation
@@ -130,14 +185,14 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
             v += [(f"{body.name}.{c}", _UNITS[c]) for c in body.speeds]
             continue
         turns = found.turn != "fixed" and not body.is_point
-        labels = [label for label, _ in mechanism.joint_named(link.joint).coordinates]
-        lengths = [label for label in labels if label.startswith("displacement")][: len(found.slides)]
-        angles = [label for label in labels if label.startswith("angle")]
+        lengths, angles = ([x for x in part if (body.name, x) not in given] for part in labels_of(mechanism, link))
         q += [(f"{link.joint}.{label}", "m") for label in lengths]
         v += [(f"{link.joint}.{label}.rate", "m/s") for label in lengths]
         if not turns:
             continue
         if not isinstance(body, SpatialBody):
+            if not angles:
+                continue
             q.append((f"{body.name}.theta", "rad"))
             v.append((f"{body.name}.omega", "rad/s"))
         elif found.turn == "ball":
@@ -160,9 +215,7 @@ def known_coordinates(mechanism: Mechanism, topology: Topology) -> dict[Measure,
         for label, measure in mechanism.joint_named(link.joint).coordinates:
             name = f"{link.joint}.{label}"
             if name in q:
-                found[measure] = q[name], v[f"{name}.rate"], 1.0
-                if isinstance(measure, Sum) and len(measure.terms) == 1 and measure.terms[0][0] == Number(-1.0):
-                    found[measure.terms[0][1]] = q[name], v[f"{name}.rate"], -1.0
+                found |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _alike(measure)}
     return found
 
 

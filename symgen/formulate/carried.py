@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Protocol
 
 from symgen.describe.mechanism import SpatialBody
-from symgen.formulate.equations import MassBlock
+from symgen.formulate.equations import Driving, MassBlock
 from symgen.vocabulary.measures import Measure
 
 if TYPE_CHECKING:
     from symgen.formulate.measures import Model
+    from symgen.formulate.of_time import Coordinate
 
 
 class Carried(Protocol):
@@ -51,8 +52,16 @@ class Carried(Protocol):
         """Return the nodes of a frame's slots."""
         ...
 
+    @property
+    def coordinates(self) -> Mapping[int, Coordinate]:
+        """The coordinates of joints by `Coordinate.number`."""
+        ...
+
     def column(self, index: int) -> Mapping[int, int]:
-        """Return the row of B for a velocity of a body: velocities of the state and nodes."""
+        """Return the row of B for a velocity of a body: velocities of the state and nodes.
+
+        What drivers prescribe has an index below 0: the velocity of a body has a part with that column and its rate.
+        """
         ...
 
     def accelerations(self, rates: tuple[int, ...]) -> dict[str, int]:
@@ -67,8 +76,8 @@ class Carried(Protocol):
         """Return what a force at the centre of mass, in ground axes, is on the velocities of bodies."""
         ...
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         ...
 
 

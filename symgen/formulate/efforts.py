@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
 from symgen.formulate.measures import Model
-from symgen.formulate.translate import Translator, to_sympy
-from symgen.vocabulary.expressions import ZERO, Expr, names
+from symgen.formulate.of_time import as_symbols, translated
+from symgen.formulate.translate import to_sympy
+from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Effort
 
 
@@ -56,14 +56,3 @@ def _conservative(model: Model, effort: Effort, s: int) -> tuple[int, int]:
     potential = to_sympy(effort.potential, symbols)
     force, energy = translated(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
     return force, energy
-
-
-def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
-    """Return a symbol for each name of a formula and each placeholder."""
-    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
-
-
-def translated(model: Model, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
-    """Return the nodes of SymPy expressions over symbols of names; placeholders stand for `nodes`."""
-    known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
-    return Translator(model.graph, known).all(expressions)

@@ -62,6 +62,25 @@ class Omission:
 
 
 @dataclass(frozen=True)
+class Driving:
+    """Power of the drivers of prescribed coordinates.
+
+    What these exert against the efforts of rows is no part of it: that is in the power of rows, whose nu holds what
+    drivers make of them.
+
+    Attributes
+    ----------
+    entries : tuple of (int, int)
+        Velocities of the state, and what their rates are multiplied by.
+    rest : int
+        The power where v' is 0.
+    """
+
+    entries: tuple[tuple[int, int], ...]
+    rest: int
+
+
+@dataclass(frozen=True)
 class Equations:
     """Equations of motion ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v`` as nodes of one graph.
 
@@ -99,6 +118,8 @@ class Equations:
         Parameters that may change during a run.
     bodies : tuple of int
         Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
+    driving : Driving, optional
+        Where drivers prescribe coordinates of a tree, their power; no part of `power`.
     """
 
     name: str
@@ -121,6 +142,7 @@ class Equations:
     spins: tuple[tuple[int, int], ...] = ()
     inputs: tuple[str, ...] = ()
     bodies: tuple[int, ...] = ()
+    driving: Driving | None = None
 
     @property
     def nq(self) -> int:

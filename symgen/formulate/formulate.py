@@ -9,18 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
-import sympy as sp
-
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import state_names
 from symgen.errors import InputError
 from symgen.formulate.carried import carried_energies
-from symgen.formulate.efforts import as_symbols, exertion, translated
+from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
 from symgen.formulate.measures import Model
-from symgen.formulate.translate import to_sympy
-from symgen.vocabulary.expressions import ZERO, Expr, names
+from symgen.formulate.of_time import time_function
+from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
 
 _UNITS = {
@@ -52,11 +50,12 @@ def formulate(mechanism: Mechanism) -> Equations:
         model = Model(mechanism)
     rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
+    driving = None
     if model.tree is None:
         mass, kinetic, gravity_potential = _inertia(model, forces)
     else:
         kinetic, gravity_potential = carried_energies(model, forces)
-        mass, forces = model.tree.dynamics(forces)
+        mass, forces, driving = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = quantities(mechanism)
     return Equations(
@@ -83,6 +82,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         ),
         dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
         bodies=_bodies(model),
+        driving=driving,
     )
 
 
@@ -149,15 +149,15 @@ def _derived(model: Model, joint: str, row: Row) -> ConstraintRow:
 
 def _row(model: Model, joint: str, row: Row) -> ConstraintRow:
     g = model.graph
-    value, slope, curvature = _time_function(model, row.value)
+    value, slope, curvature = time_function(model, row.value)
     if isinstance(row, Holonomic):
         measure = model.measure(row.measure)
         phi, nu = g.sub(measure.value, value), slope
     else:
         measure = model.speed(row.speed)
         phi, nu, curvature = None, value, slope
-    entries, bias = model.pulled(measure.row, measure.bias)
-    gamma = g.sub(curvature, bias)
+    entries, bias, drift = model.pulled(measure.row, measure.bias)
+    gamma, nu = g.sub(curvature, bias), g.sub(nu, drift)
     ordered = tuple(sorted(entries.items()))
     return ConstraintRow(
         f"{joint}.{row.label}", joint, row.unit, phi, ordered, nu, gamma, _size(model, row, measure.row)
@@ -174,19 +174,6 @@ def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
     if row.unit in ("rad", "rad/s"):
         return None if moving else model.graph.dot(turning, turning)
     return model.graph.dot(moving, moving) if moving else None
-
-
-def _time_function(model: Model, e: Expr) -> tuple[int, int, int]:
-    """Return value, first and second time derivative of a formula of t and parameters."""
-    g = model.graph
-    if "t" not in names(e):
-        return model.expression(e), g.zero, g.zero
-    symbols = as_symbols(e)
-    value = to_sympy(e, symbols)
-    t = symbols["t"]
-    first = sp.diff(value, t)
-    nodes = translated(model, symbols, [value, first, sp.diff(first, t)])
-    return nodes[0], nodes[1], nodes[2]
 
 
 # -- forces, inertia and energies ------------------------------------------------------------------------------------

@@ -145,7 +145,7 @@ class Model(Formulas):
         if self.tree is None:
             return rates
         columns = (self.tree.column(i) for i in range(self.size + self.tree.size))
-        found = (g.total(g.mul(node, rates[j]) for j, node in sorted(column.items())) for column in columns)
+        found = (g.total(g.mul(node, rates[j]) for j, node in sorted(c.items()) if j >= 0) for c in columns)
         return tuple(g.add(a, b) for a, b in zip(found, self.tree.biases, strict=True))
 
     @property
@@ -154,16 +154,18 @@ class Model(Formulas):
         nq, nv = len(self.q_rates()), self.size if self.tree is None else self.tree.size
         return tuple(self.graph.input("ydot", nq + i) for i in range(nv))
 
-    def pulled(self, row: Mapping[int, int], bias: int) -> tuple[dict[int, int], int]:
-        """Return a row over the velocities of the state, and its quadratic velocity term."""
+    def pulled(self, row: Mapping[int, int], bias: int) -> tuple[dict[int, int], int, int]:
+        """Return a row over the velocities of the state, its quadratic velocity term, and what drivers add to J v."""
         if self.tree is None:
-            return dict(row), bias
-        g, found = self.graph, dict[int, int]()
+            return dict(row), bias, self.graph.zero
+        g, found, drift = self.graph, dict[int, int](), self.graph.zero
         for i, node in sorted(row.items()):
             for j, entry in sorted(self.tree.column(i).items()):
                 found[j] = g.add(found.get(j, g.zero), g.mul(node, entry))
             bias = g.add(bias, g.mul(node, self.tree.biases[i]))
-        return {j: node for j, node in found.items() if node != g.zero}, bias
+        for j in sorted(j for j in found if j < 0):
+            drift = g.add(drift, g.mul(found.pop(j), self.tree.coordinates[j].rate))
+        return {j: node for j, node in found.items() if node != g.zero}, bias, drift
 
     # -- measures ----------------------------------------------------------------------------------------------------
 

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from symgen.describe.mechanism import Link, SpatialBody
-from symgen.formulate.equations import MassBlock
-from symgen.formulate.tree_plane import blocks_of
 from symgen.formulate.vectors import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND
 
@@ -150,18 +148,18 @@ class Composite:
                 torque = v.add(torque, v.times(c.turn, self.torque[child]))
         return push, torque
 
-    def force(self, size: int) -> list[int]:
-        """Return f of the state."""
+    def force(self) -> dict[int, int]:
+        """Return f by velocities, those among them that drivers prescribe."""
         g, v = self.model.graph, self.v
-        f = [self.forces[self.model.size + i] for i in range(size)]
+        f = dict(enumerate(self.forces[self.model.size :]))
         for name in self.order:
             for i, motion in self.placed[name].motions.items():
                 held = g.add(v.dot(motion.about, self.torque[name]), v.dot(motion.along, self.push[name]))
-                f[i] = g.sub(f[i], held)
+                f[i] = g.sub(f.get(i, g.zero), held)
         return f
 
-    def mass(self, size: int) -> tuple[MassBlock, ...]:
-        """Return M of the state: what each velocity gives of momentum, carried in to the velocities before it."""
+    def mass(self) -> dict[tuple[int, int], int]:
+        """Return the entries of M: what each velocity gives of momentum, carried in to the velocities before it."""
         g, v = self.model.graph, self.v
         entries: dict[tuple[int, int], int] = {}
         for name in self.order:
@@ -172,7 +170,7 @@ class Composite:
                 at = p
                 while True:
                     for k, other in at.motions.items():
-                        if at is not p or k >= i:
+                        if at is not p or k >= i or k < 0:
                             node = g.add(v.dot(other.about, angular), v.dot(other.along, momentum))
                             entries[i, k] = entries[k, i] = node
                     if at.link.parent == GROUND:
@@ -181,4 +179,4 @@ class Composite:
                     lever = v.cross(at.arm, momentum)
                     angular = lever if at.own else v.add(v.times(at.turn, angular), lever)
                     at = self.placed[at.link.parent]
-        return blocks_of(entries, size, g.zero)
+        return entries

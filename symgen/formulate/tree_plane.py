@@ -18,8 +18,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Body, Link, Vec
-from symgen.describe.topology import known_coordinates
-from symgen.formulate.equations import MassBlock
+from symgen.describe.topology import known_coordinates, labels_of
+from symgen.formulate.equations import Driving, MassBlock
+from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
@@ -38,20 +39,22 @@ class _Placed:
         Of the joint's point: position, velocity, and acceleration where v' is 0.
     axes : pair of int
         Cosine and sine of the angle.
-    group : int
-        The velocity of the state that is the body's angular velocity, -1 for a body that does not turn.
-    offset, angle, spin : int
-        By how much the body is turned against the angle of its group, its angle, and its angular velocity.
+    turners : tuple of int
+        Velocities that turn the body, by their indices: one of the state, and those of drivers.
+    angle, spin, gain : int
+        Its angle, its angular velocity, and of that one's rate what is known.
+    follows : bool
+        Whether it turns with what carries it.
     arm : pair of int
         From the point of what carries it to its own.
     local : pair of int, optional
         The same in the frame of what carries it, where it is constant there.
     columns : mapping of int to pair
-        Velocity of the state -> derivative of `velocity` by it.
+        Velocity of the state, or of a driver -> derivative of `velocity` by it.
     slides : mapping of int to pair
         Those of the body's own displacements, with their directions.
-    sliding : pair of int
-        The velocity of the arm by these.
+    sliding, pulled : pair of int
+        The velocity of the arm by these, and what is known of its rate.
     centre : pair of int
         The centre of mass from the joint's point, in the body's frame.
     """
@@ -61,16 +64,23 @@ class _Placed:
     velocity: Pair
     bias: Pair
     axes: Pair
-    group: int
-    offset: int
+    turners: tuple[int, ...]
     angle: int
     spin: int
+    gain: int
+    follows: bool
     arm: Pair
     local: Pair | None
     columns: dict[int, Pair]
     slides: dict[int, Pair] = field(default_factory=dict)
     sliding: Pair = (0, 0)
+    pulled: Pair = (0, 0)
     centre: Pair = (0, 0)
+
+    @property
+    def group(self) -> int:
+        """The velocity of the state that turns the body, -1 where there is none."""
+        return max((i for i in self.turners if i >= 0), default=-1)
 
 
 class PlanarTree:
@@ -87,11 +97,13 @@ class PlanarTree:
         ground = Link(GROUND)
         self.placed = {
             GROUND: _Placed(
-                *(ground, nothing, nothing, nothing, still, -1, g.zero, g.zero, g.zero, nothing, nothing, {}, {}),
-                *(nothing, nothing),
+                *(ground, nothing, nothing, nothing, still, (), g.zero, g.zero, g.zero, False, nothing, nothing),
+                *({}, {}, nothing, nothing, nothing),
             )
         }
         self.size = 0
+        self.given = prescribed_coordinates(model, topology)
+        self.coordinates: dict[int, Coordinate] = {}
         self.children: dict[str, list[str]] = {GROUND: []}
         self.names: dict[str, int] = {}
         for link in topology.links:
@@ -107,8 +119,8 @@ class PlanarTree:
             self._columns += [{i: c[k] for i, c in p.columns.items() if c[k] != g.zero} for k in range(2)]
             if not body.is_point:
                 velocities.append(p.spin)
-                biases.append(g.zero)
-                self._columns.append({p.group: g.one} if p.group >= 0 else {})
+                biases.append(p.gain)
+                self._columns.append(dict.fromkeys(p.turners, g.one))
             self._name(body, p)
         self._columns += [{i: g.one} for i in range(self.size)]
         self.velocities = (*velocities, *self.q_rates)
@@ -120,6 +132,15 @@ class PlanarTree:
     def _next(self) -> int:
         self.size += 1
         return self.size - 1
+
+    def _coordinate(self, body: str, label: str) -> Coordinate:
+        """Return the next coordinate of the state, unless a driver prescribes it."""
+        found = self.given.get((body, label))
+        if found is None:
+            i = self._next()
+            found = Coordinate(i, self.graph.input("q", i), self.graph.input("v", i), self.graph.zero)
+        self.coordinates[found.number] = found
+        return found
 
     def _place(self, link: Link) -> None:
         g, model = self.graph, self.model
@@ -133,41 +154,53 @@ class PlanarTree:
             return
         carrier, own = (found.a, found.b) if link.forward else (found.b, found.a)
         model.references[link.body] = own.point
-        slides: dict[int, Pair] = {self._next(): (g.zero, g.zero) for _ in found.slides}
+        lengths, _ = labels_of(model.mechanism, link)
+        slid = [self._coordinate(link.body, label) for label in lengths]
         sign = g.one if link.forward else g.constant(-1.0)
-        if found.turn == "fixed":
-            group, angle = parent.group, model.expression(found.angle)
+        driven = self.given.get((link.body, "angle"))
+        gain, follows = g.zero, found.turn == "fixed" or driven is not None
+        turners: tuple[int, ...] = ()
+        if follows:
+            angle = model.expression(found.angle) if driven is None else driven.value
             change = angle if link.forward else g.neg(angle)
-            offset = g.add(parent.offset, change)
-            turned, spin = g.add(parent.angle, change), parent.spin
+            turners, turned, spin, gain = parent.turners, g.add(parent.angle, change), parent.spin, parent.gain
+            if driven is not None:
+                driven = driven._replace(rate=g.mul(sign, driven.rate))
+                self.coordinates[driven.number] = driven
+                turners = (*turners, driven.number)
+                spin = g.add(spin, driven.rate)
+                gain = g.add(gain, g.mul(sign, driven.acceleration))
             c, s = g.call("cos", change), g.call("sin", change)
             (a, b) = parent.axes
             axes = (g.sub(g.mul(a, c), g.mul(b, s)), g.add(g.mul(b, c), g.mul(a, s)))
         elif body.is_point:
-            group, offset, turned, spin, axes = -1, g.zero, g.zero, g.zero, (g.one, g.zero)
+            turned, spin, axes = g.zero, g.zero, (g.one, g.zero)
         else:
-            group, offset = self._next(), g.zero
-            turned, spin = g.input("q", group), g.input("v", group)
+            own_angle = self._coordinate(link.body, "theta")
+            turners, turned, spin, gain = (own_angle.number,), *own_angle[1:]
             axes = (g.call("cos", turned), g.call("sin", turned))
         local = self._pair(model.local(carrier))
         arm = self._rotated(parent.axes, local)
-        sliding = (g.zero, g.zero)
-        for i, direction in zip(list(slides), found.slides, strict=True):
+        sliding = pulled = (g.zero, g.zero)
+        slides = dict[int, Pair]()
+        for x, direction in zip(slid, found.slides, strict=True):
             holder = parent.axes if direction.body == link.parent else axes
             along = self._pair(model.direction(direction))
             e = self._scaled(sign, self._rotated(holder, along))
-            slides[i] = e
-            arm = self._sum(arm, self._scaled(g.input("q", i), e))
-            sliding = self._sum(sliding, self._scaled(g.input("v", i), e))
+            slides[x.number] = e
+            arm = self._sum(arm, self._scaled(x.value, e))
+            sliding = self._sum(sliding, self._scaled(x.rate, e))
+            pulled = self._sum(pulled, self._scaled(x.acceleration, e))
         w = parent.spin
         at = self._sum(parent.at, arm)
         velocity = self._sum(self._sum(parent.velocity, self._scaled(w, self._perp(arm))), sliding)
         bias = self._less(parent.bias, self._scaled(g.mul(w, w), arm))
         bias = self._sum(bias, self._scaled(g.mul(g.constant(2.0), w), self._perp(sliding)))
+        bias = self._sum(self._sum(bias, pulled), self._scaled(parent.gain, self._perp(arm)))
         columns = dict(parent.columns)
-        if parent.group >= 0:
-            before = columns.get(parent.group, (g.zero, g.zero))
-            columns[parent.group] = self._sum(before, self._perp(arm))
+        for turner in parent.turners:
+            before = columns.get(turner, (g.zero, g.zero))
+            columns[turner] = self._sum(before, self._perp(arm))
         columns |= slides
         self.placed[link.body] = _Placed(
             link,
@@ -175,15 +208,17 @@ class PlanarTree:
             velocity,
             bias,
             axes,
-            group,
-            offset,
+            turners,
             turned,
             spin,
+            gain,
+            follows,
             arm,
             None if slides else local,
             columns,
             slides,
             sliding,
+            pulled,
             self._centre(body, own.point),
         )
 
@@ -195,14 +230,15 @@ class PlanarTree:
         slides = {x: (g.one, g.zero), y: (g.zero, g.one)}
         nothing = (g.zero, g.zero)
         if body.is_point:
-            axes, group, turned, spin = (g.one, g.zero), -1, g.zero, g.zero
+            turners: tuple[int, ...] = ()
+            axes, turned, spin = (g.one, g.zero), g.zero, g.zero
         else:
             group = self._next()
-            turned, spin = g.input("q", group), g.input("v", group)
+            turners, turned, spin = (group,), g.input("q", group), g.input("v", group)
             axes = (g.call("cos", turned), g.call("sin", turned))
         self.placed[link.body] = _Placed(
-            *(link, at, velocity, nothing, axes, group, g.zero, turned, spin, at, None, dict(slides), slides),
-            *(nothing, nothing),
+            *(link, at, velocity, nothing, axes, turners, turned, spin, g.zero, False, at, None, dict(slides), slides),
+            *(nothing, nothing, nothing),
         )
 
     def _centre(self, body: Body, reference: Vec) -> Pair:
@@ -236,11 +272,12 @@ class PlanarTree:
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
             rho, w = self._rotated(p.axes, p.centre), p.spin
-            turning = rates[p.group] if p.group >= 0 else g.zero
+            turning = g.add(rates[p.group], p.gain) if p.group >= 0 else p.gain
             total = self._less(p.bias, self._scaled(g.mul(w, w), rho))
             total = self._sum(total, self._scaled(turning, self._perp(rho)))
             for i, c in sorted(p.columns.items()):
-                total = self._sum(total, self._scaled(rates[i], c))
+                if i >= 0:
+                    total = self._sum(total, self._scaled(rates[i], c))
             found |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
             if not body.is_point:
                 found[f"{body.name}.omega"] = turning
@@ -260,8 +297,8 @@ class PlanarTree:
 
     # -- M and f -------------------------------------------------------------------------------------------------------
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         g, model = self.graph, self.model
         masses, moments, seconds = dict[str, int](), dict[str, Pair](), dict[str, int]()
         pushes, turns = dict[str, Pair](), dict[str, int]()
@@ -278,7 +315,7 @@ class PlanarTree:
             first, w = model.first[name], p.spin
             push: Pair = (forces[first], forces[first + 1])
             turn = g.zero if body.is_point else forces[first + 2]
-            total, moving, shared = m, (g.zero, g.zero), (g.zero, g.zero)
+            total, moving, shared, following = m, (g.zero, g.zero), (g.zero, g.zero), g.zero
             for child in self.children[name]:
                 c, heavy = self.placed[child], masses[child]
                 total = g.add(total, heavy)
@@ -291,44 +328,52 @@ class PlanarTree:
                 push = self._sum(push, pushes[child])
                 turn = g.add(turn, self._cross(c.arm, pushes[child]))
                 turning = g.mul(g.constant(2.0), g.mul(w, heavy))
-                lag = self._scaled(turning, self._perp(c.sliding))
+                lag = self._sum(self._scaled(turning, self._perp(c.sliding)), self._scaled(heavy, c.pulled))
                 push = self._less(push, lag)
                 turn = g.sub(turn, self._cross(c.arm, lag))
-                if c.group == p.group:
+                if c.follows:
                     shared = self._sum(shared, moments[child])
                     both = g.mul(g.constant(2.0), g.dot(c.arm, moments[child]))
-                    second = g.add(second, g.add(seconds[child], both))
-                    swing = self._scaled(g.mul(w, w), c.arm)
+                    following = g.add(following, g.add(seconds[child], both))
+                    swing = self._less(self._scaled(g.mul(w, w), c.arm), self._scaled(p.gain, self._perp(c.arm)))
                     swing = self._less(swing, self._scaled(g.mul(g.constant(2.0), w), self._perp(c.sliding)))
+                    swing = self._less(swing, c.pulled)
                     turn = g.add(turn, g.add(turns[child], self._cross(moments[child], swing)))
             turned = self._sum(self._rotated(p.axes, fixed), moving)
-            masses[name], seconds[name] = total, second
+            masses[name], seconds[name] = total, g.add(second, following)
             moments[name] = self._sum(turned, shared)
-            pushes[name], turns[name] = self._sum(push, self._scaled(g.mul(w, w), turned)), turn
+            push = self._less(push, self._scaled(p.gain, self._perp(turned)))
+            pushes[name] = self._sum(push, self._scaled(g.mul(w, w), turned))
+            turns[name] = g.sub(turn, g.mul(p.gain, second))
         for name in pushes:  # the accelerations of the points themselves
             p = self.placed[name]
             turns[name] = g.sub(turns[name], self._cross(moments[name], p.bias))
             pushes[name] = self._less(pushes[name], self._scaled(masses[name], p.bias))
         entries: dict[tuple[int, int], int] = {}
-        own = [forces[model.size + i] for i in range(self.size)]
-        f = [g.zero] * self.size
+        own = forces[model.size :]
+        f = dict.fromkeys(range(self.size), g.zero)
         for name, p in self.placed.items():
             mu = moments.get(name, (g.zero, g.zero))
             for i, e in p.slides.items():
                 momentum = self._scaled(masses[name], e)
                 for j, column in p.columns.items():
                     entry = g.dot(momentum, column)
-                    if j == p.group:
+                    if j in p.turners:
                         entry = g.add(entry, self._cross(mu, e))
                     entries[i, j] = entries[j, i] = entry
                 entries[i, i] = masses[name]  # directions have length 1
                 f[i] = g.dot(e, pushes[name])
-            if name != GROUND and p.group >= 0 and self.placed[p.link.parent].group != p.group:
+            for k in p.turners[len(self.placed[p.link.parent].turners) if p.follows else 0 :]:
                 for j, column in p.columns.items():
-                    entries[p.group, j] = entries[j, p.group] = g.dot(self._perp(mu), column)
-                entries[p.group, p.group] = seconds[name]
-                f[p.group] = turns[name]
-        return blocks_of(entries, self.size, g.zero), [g.add(a, b) for a, b in zip(f, own, strict=True)]
+                    entry = g.dot(self._perp(mu), column)
+                    if j in p.turners:  # the body turns with it, about its point
+                        entry = g.add(entry, seconds[name])
+                    entries[k, j] = entries[j, k] = entry
+                entries[k, k] = seconds[name]
+                f[k] = turns[name]
+        blocks = blocks_of({(i, j): n for (i, j), n in entries.items() if min(i, j) >= 0}, self.size, g.zero)
+        driving = driving_of(g, self.coordinates, entries, f)
+        return blocks, [g.add(f[i], own[i]) for i in range(self.size)], driving
 
     # -- vectors -------------------------------------------------------------------------------------------------------
 

@@ -14,10 +14,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
-from symgen.describe.topology import known_coordinates
-from symgen.formulate.equations import MassBlock
+from symgen.describe.topology import known_coordinates, labels_of
+from symgen.formulate.equations import Driving, MassBlock
 from symgen.formulate.euler import composed, half_turn, inverse, matrix_of, parameters_of, turning
+from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
 from symgen.formulate.tree_inertia import Composite, Motion
+from symgen.formulate.tree_plane import blocks_of
 from symgen.formulate.vectors import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND, Direction
 
@@ -87,6 +89,8 @@ class SpatialTree:
         self.gravity = v.triple([model.expression(e) for e in model.mechanism.gravity])
         self.size = self.count = 0
         self.rates: list[int] = []
+        self.given = prescribed_coordinates(model, topology)
+        self.coordinates: dict[int, Coordinate] = {}
         self.found_spins: list[tuple[int, int]] = []
         still = v.zero
         self.placed = {
@@ -129,6 +133,16 @@ class SpatialTree:
             self.rates.append(self.graph.input("v", self.size - 1))
         return self.size - 1
 
+    def _coordinate(self, body: str, label: str) -> Coordinate:
+        """Return the next coordinate of the state, unless a driver prescribes it."""
+        g, found = self.graph, self.given.get((body, label))
+        if found is None:
+            q = g.input("q", self.count)
+            i = self._next()
+            found = Coordinate(i, q, g.input("v", i), g.zero)
+        self.coordinates[found.number] = found
+        return found
+
     def _ball(self) -> tuple[list[int], list[int]]:
         """Return Euler parameters, and the indices of the angular velocity that goes with them."""
         g = self.graph
@@ -146,7 +160,7 @@ class SpatialTree:
         parent.children.append(link.body)
         found = link.articulation
         motions: dict[int, Motion] = {}
-        rate = v.zero  # of the arm, in the parent's axes
+        rate = gained = v.zero  # of the arm, in the parent's axes; and what is known of that one's rate
         if found is None:
             reference = body.centre_of_mass
             first = self.count
@@ -160,13 +174,13 @@ class SpatialTree:
             arm = v.triple(model.local(carrier))
             sign = g.one if link.forward else g.constant(-1.0)
             directions = dict[int, Triple]()
-            for direction in found.slides:
-                q = g.input("q", self.count)
-                i = self._next()
+            for label, direction in zip(labels_of(model.mechanism, link)[0], found.slides, strict=True):
+                c = self._coordinate(link.body, label)
                 e = v.scale(sign, self._carried(found, link, direction))
-                arm = v.add(arm, v.scale(q, e))
-                rate = v.add(rate, v.scale(g.input("v", i), e))
-                directions[i] = e
+                arm = v.add(arm, v.scale(c.value, e))
+                rate = v.add(rate, v.scale(c.rate, e))
+                gained = v.add(gained, v.scale(c.acceleration, e))
+                directions[c.number] = e
         model.references[link.body] = reference
         own_turn = found is None or found.turn == "ball"
         relative = extra = v.zero
@@ -181,21 +195,22 @@ class SpatialTree:
             motions |= {i: Motion(unit, v.zero) for i, unit in zip(indices, v.units, strict=True)}
         else:
             assert found is not None, "it is no free body"
-            first = self.count
             turn, quaternion, abouts, twisted = self._turn(found, link)
+            extra = twisted
             for i, about in abouts.items():
-                along = v.zero
+                along, c = v.zero, self.coordinates[i]
                 if found.screw:
                     slope, offset = (model.expression(e) for e in found.screw)
                     sign = g.one if link.forward else g.constant(-1.0)
                     axis = v.scale(sign, v.triple(model.direction(found.of_a[2] if link.forward else found.of_b[2])))
-                    place = g.add(g.mul(slope, g.input("q", first)), offset)
+                    place = g.add(g.mul(slope, c.value), offset)
                     arm = v.add(arm, v.scale(place, axis))
-                    rate = v.add(rate, v.scale(g.mul(slope, g.input("v", i)), axis))
+                    rate = v.add(rate, v.scale(g.mul(slope, c.rate), axis))
+                    gained = v.add(gained, v.scale(g.mul(slope, c.acceleration), axis))
                     along = v.back(turn, v.scale(slope, axis))
                 motions[i] = Motion(about, along)
-                relative = v.add(relative, v.scale(g.input("v", i), about))
-            extra = twisted
+                relative = v.add(relative, v.scale(c.rate, about))
+                extra = v.add(extra, v.scale(c.acceleration, about))
             axes = v.product(parent.axes, turn)
             euler = composed(g, parent.euler, quaternion)
         motions |= {i: Motion(v.zero, v.back(turn, e)) for i, e in directions.items()}
@@ -211,7 +226,7 @@ class SpatialTree:
         w = parent.omega
         moved = v.add(parent.velocity, v.cross(w, arm), rate)
         swing = v.cross(w, v.scale(g.constant(2.0), rate))
-        bias = v.add(parent.bias, v.times(parent.whirl, arm), swing)
+        bias = v.add(parent.bias, v.times(parent.whirl, arm), swing, gained)
         columns: dict[int, tuple[Triple, Triple]] = {}
         for i, (about, along) in parent.columns.items():
             turned = v.zero if own_turn else v.back(turn, about)
@@ -262,8 +277,9 @@ class SpatialTree:
             turn = v.product(to_parent, v.transposed(to_body))
             return turn, parameters_of(g, turn), {}, v.zero
         if found.turn == "axis":
-            q = g.input("q", self.count)
-            i = self._next()
+            (label,) = labels_of(model.mechanism, link)[1]
+            found_angle = self._coordinate(link.body, label)
+            q, i = found_angle.value, found_angle.number
             c, s = g.call("cos", q), g.mul(sign, g.call("sin", q))
             z = g.zero
             about_axis: Matrix = ((c, g.neg(s), z), (s, c, z), (z, z, g.one))
@@ -272,9 +288,9 @@ class SpatialTree:
             euler = composed(g, composed(g, parameters_of(g, to_parent), half), inverse(g, parameters_of(g, to_body)))
             axis = v.scale(sign, v.triple(model.direction(mine[2])))
             return turn, euler, {i: axis}, v.zero
-        first = self.count
-        one, two = self._next(), self._next()
-        qa, qb = g.input("q", first), g.input("q", first + 1)
+        (one, qa, rate_a, _), (two, qb, rate_b, _) = (
+            self._coordinate(link.body, label) for label in labels_of(model.mechanism, link)[1]
+        )
         fa, sa, za = (v.triple(model.direction(d)) for d in found.of_a)
         fb, sb, zb = (v.triple(model.direction(d)) for d in found.of_b)
         c1, s1, c2, s2 = g.call("cos", qa), g.call("sin", qa), g.call("cos", qb), g.call("sin", qb)
@@ -291,7 +307,7 @@ class SpatialTree:
         )
         of_a = parameters_of(g, v.transposed((fa, sa, za)))
         forwards = composed(g, composed(g, of_a, half_turn(g, qa, 3)), composed(g, half_turn(g, qb, 1), flip))
-        product = g.mul(g.input("v", one), g.input("v", two))
+        product = g.mul(rate_a, rate_b)
         if link.forward:
             turn = v.product(into_a, v.transposed(into_b))
             return turn, forwards, {one: in_b[2], two: zb}, v.scale(product, in_b[1])
@@ -323,8 +339,9 @@ class SpatialTree:
         v, found = self.v, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
-            alpha = v.add(p.alpha, *(v.scale(rates[i], about) for i, (about, _) in sorted(p.columns.items())))
-            at = v.add(p.bias, *(v.scale(rates[i], along) for i, (_, along) in sorted(p.columns.items())))
+            moving = [(rates[i], motion) for i, motion in sorted(p.columns.items()) if i >= 0]
+            alpha = v.add(p.alpha, *(v.scale(rate, about) for rate, (about, _) in moving))
+            at = v.add(p.bias, *(v.scale(rate, along) for rate, (_, along) in moving))
             at = v.add(at, v.times(v.whirl(p.omega, alpha), p.centre))
             at = v.add(v.times(p.axes, at), self.gravity)
             found |= {f"{body.name}.v{axis}": x for axis, x in zip("xyz", at, strict=True)}
@@ -341,10 +358,12 @@ class SpatialTree:
         """Return nothing: gravity is an acceleration of the ground."""
         return {}
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int]]:
-        """Return M and f of the state, from forces on the velocities of bodies, inertia apart."""
-        found = Composite(self.model, self.placed, forces)
-        return found.mass(self.size), found.force(self.size)
+    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+        """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
+        found, size = Composite(self.model, self.placed, forces), self.size
+        mass, f = found.mass(), found.force()
+        blocks = blocks_of({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, size, self.graph.zero)
+        return blocks, [f[i] for i in range(size)], driving_of(self.graph, self.coordinates, mass, f)
 
 
 def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:

@@ -46,7 +46,7 @@ def lower_law(
     implicit : bool
         Whether the descriptor form for implicit integrators is added.
     """
-    record, names = record_law(method, options), [p.name for p in method.parameters]
+    record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
     scalars = Scalars(equations, record.operations, names)
     scalars.run(range(len(record.operations)))
     hoister = Hoister(scalars.graph, model.layout.parameters + model.hoisted, len(names))
@@ -59,7 +59,7 @@ def lower_law(
     unknowns, level = 0, ""
     pattern: tuple[tuple[int, int], ...] = ()
     if implicit:
-        form = record_form(method, options)
+        form = record_form(method, options, driven=equations.driving is not None)
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
         found, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += found

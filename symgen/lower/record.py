@@ -64,9 +64,12 @@ class Record:
     form: str = ""
 
 
-def record_law(method: Method, options: Mapping[str, str]) -> Record:
-    """Record what a method asks for: its acceleration law, and its correction where the model's does not do."""
-    found = _Law(method)
+def record_law(method: Method, options: Mapping[str, str], driven: bool = False) -> Record:
+    """Record what a method asks for: its acceleration law, and its correction where the model's does not do.
+
+    `driven` says that drivers prescribe coordinates of a tree: their power is work.
+    """
+    found = _Law(method, driven)
     found.law(method.law(found.system, options))
     correction = method.correction(options)
     found.role = "metric"
@@ -76,7 +79,8 @@ def record_law(method: Method, options: Mapping[str, str]) -> Record:
 
 
 class _Law:
-    def __init__(self, method: Method | None) -> None:
+    def __init__(self, method: Method | None, driven: bool = False) -> None:
+        self.driven = driven
         self.system = Recorder(() if method is None else [p.name for p in method.parameters])
         self.parts: list[Part] = []
         self.sections: dict[str, tuple[str, ...]] = {}
@@ -112,9 +116,16 @@ class _Law:
     ) -> list[tuple[str, Value]]:
         """Return the rates of the state; forces do work at `velocities` where these are not the state's."""
         s = self.system
-        power = s.power if velocities is None else s.power.made(Scalar, "at_velocity", s.power, velocities)
-        work = power - multipliers.dot(s.nu)
+        work = self.work(acceleration, multipliers, velocities)
         return [("rates.q", position or s.q_rates), ("rates.v", acceleration), ("rates.work", work)]
+
+    def work(self, acceleration: Vector, multipliers: Vector, velocities: Vector | None = None) -> Scalar:
+        """Return the power of forces without potential and of drivers: those with rows, and those with coordinates."""
+        s = self.system
+        power = s.power + s.driving(acceleration) if self.driven else s.power
+        if velocities is not None:
+            power = power.made(Scalar, "at_velocity", power, velocities)
+        return power - multipliers.dot(s.nu)
 
     def iterated(self, law: Iteration) -> None:
         """Add what an iterated law is put together from: ``begin``, ``iterate`` and ``finish``."""
@@ -165,7 +176,7 @@ class _Law:
         constraints, factor = s.stored_constraints(), s.stored_factor(s.rank_factor(), "")
         change, accelerations = s.variable("change", "nv"), s.variable("rates.v", "nv")
         multipliers = s.solve(factor, constraints @ s.gauged(s.f - s.mass(accelerations)))
-        work = s.power - multipliers.dot(s.nu)
+        work = self.work(accelerations, multipliers)
         aim = [("residual", -s.gamma), ("force", s.f)]
         struck, weighed = constraints @ change, s.mass(change)
         self.add("aim", "the section `residual` = -gamma, the section `force` = f", *aim)
@@ -182,7 +193,7 @@ class _Law:
         self.sections |= {"basis": ("nv", "nv"), "small": ("nv", "nv"), "reduced": ("nv",), "force": ("nv",)}
         self.sections["weighed"] = ("nv",)
         change, multipliers = s.variable("change", "nv"), s.variable("multipliers", "m")
-        work, weighed = s.power - multipliers.dot(s.nu), s.mass(change)
+        work, weighed = self.work(s.variable("rates.v", "nv"), multipliers), s.mass(change)
         aim = (("residual", law.target), ("force", s.f))
         self.add("aim", "the section `residual` = what D v' shall be, `force` = f", *aim)
         self.add("weigh", "the section `weighed` = M times `change`", ("weighed", weighed))
@@ -271,7 +282,7 @@ def record_model() -> Record:
 # -- descriptor forms --------------------------------------------------------------------------------------------------
 
 
-def record_form(method: Method, options: Mapping[str, str], kind: str = "whole") -> Record:
+def record_form(method: Method, options: Mapping[str, str], kind: str = "whole", driven: bool = False) -> Record:
     """Record a method's descriptor form F(t, y, k) = 0: one part ``residual`` with groups of equations.
 
     Unknowns of a stage are k = (q', v', lambda), and for stabilised index 2 also eta. The equations are ``q' - N (v -
@@ -285,6 +296,8 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole")
         The method with its structural options, complete.
     kind : {"whole", "body", "joint", "force"}
         Whether all equations are meant, or what an element of that kind adds to them.
+    driven : bool
+        Whether drivers prescribe coordinates of a tree.
 
     Raises
     ------
@@ -316,7 +329,8 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole")
             found.append(("q", s.at_velocity(s.q_rates, s.D.transposed(eta))))
     if kind == "force":
         found.append(("v", -s.f))
-    power: Scalar = {"whole": s.power - drivers, "joint": -drivers}.get(kind, s.power)
+    applied = s.power + s.driving(accelerations) if driven else s.power
+    power: Scalar = {"whole": applied - drivers, "joint": -drivers}.get(kind, applied)
     if kind != "body":
         found.append(("power", power))
     part = Part(

@@ -98,6 +98,11 @@ class Scalars(Replay):
     def _on_power(self, operation: Operation) -> int:
         return self.equations.power
 
+    def _on_driving(self, operation: Operation, accelerations: Nodes) -> int:
+        g, driving = self.graph, self.equations.driving
+        assert driving is not None, "drivers prescribe coordinates"
+        return g.add(g.total(g.mul(node, accelerations[j]) for j, node in driving.entries), driving.rest)
+
     def _on_zeros(self, operation: Operation) -> Nodes:
         return (self.graph.zero,) * self.size(operation.size)
 

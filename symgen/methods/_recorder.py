@@ -66,6 +66,10 @@ class Recorder(System):
         """Return D as ``geometry`` left it."""
         return self.tape.named(Matrix, "stored_constraints")
 
+    def driving(self, accelerations: Vector) -> Scalar:
+        """Return the power of the drivers of prescribed coordinates, without what they do against rows."""
+        return accelerations.made(Scalar, "driving", accelerations)
+
     def holonomic_or(self, otherwise: Vector) -> Vector:
         """Return Phi, and in nonholonomic rows what stands in its place."""
         return otherwise.made(Vector, "holonomic_or", otherwise, size="m")

@@ -1,0 +1,84 @@
+"""Formulas of time and parameters with their derivatives: what rows and drivers follow."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import sympy as sp
+
+from symgen.formulate.equations import Driving
+from symgen.formulate.translate import Translator, to_sympy
+from symgen.vocabulary.expressions import Expr, names
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from symgen.describe.mechanism import Topology
+    from symgen.formulate.measures import Model
+    from symgen.ir.graph import Graph
+
+
+def as_symbols(e: Expr, *placeholders: str) -> dict[str, Any]:
+    """Return a symbol for each name of a formula and each placeholder."""
+    return {n: sp.Symbol(f"x{i}", real=True) for i, n in enumerate(dict.fromkeys([*placeholders, *names(e)]))}
+
+
+def translated(model: Model, symbols: dict[str, Any], expressions: list[Any], **nodes: int) -> list[int]:
+    """Return the nodes of SymPy expressions over symbols of names; placeholders stand for `nodes`."""
+    known = {symbol: nodes[n] if n in nodes else model.names[n] for n, symbol in symbols.items()}
+    return Translator(model.graph, known).all(expressions)
+
+
+def time_function(model: Model, e: Expr) -> tuple[int, int, int]:
+    """Return value, first and second time derivative of a formula of t and parameters."""
+    g = model.graph
+    if "t" not in names(e):
+        return model.expression(e), g.zero, g.zero
+    symbols = as_symbols(e)
+    value = to_sympy(e, symbols)
+    t = symbols["t"]
+    first = sp.diff(value, t)
+    nodes = translated(model, symbols, [value, first, sp.diff(first, t)])
+    return nodes[0], nodes[1], nodes[2]
+
+
+class Coordinate(NamedTuple):
+    """A coordinate of a tree as nodes, with its rate and what is known of that one's rate.
+
+    `number` is that of its velocity in the state, below 0 where a driver prescribes it; then `acceleration` is all of
+    it, else 0.
+    """
+
+    number: int
+    value: int
+    rate: int
+    acceleration: int
+
+
+def prescribed_coordinates(model: Model, topology: Topology) -> dict[tuple[str, str], Coordinate]:
+    """Return the coordinates that drivers prescribe, by body and label."""
+    g, found = model.graph, dict[tuple[str, str], Coordinate]()
+    for k, x in enumerate(topology.prescribed):
+        sign = g.constant(x.sign)
+        nodes = (g.mul(sign, node) for node in time_function(model, x.value))
+        found[x.body, x.label] = Coordinate(-1 - k, *nodes)
+    return found
+
+
+def driving_of(
+    graph: Graph,
+    coordinates: Mapping[int, Coordinate],
+    mass: Mapping[tuple[int, int], int],
+    forces: Mapping[int, int],
+) -> Driving | None:
+    """Return the power of drivers from their rows of M and f, None where there are none."""
+    driven = {i: c for i, c in coordinates.items() if i < 0}
+    if not driven:
+        return None
+    found, rest = dict[int, int](), graph.zero
+    for i, c in sorted(driven.items(), reverse=True):
+        rest = graph.sub(rest, graph.mul(c.rate, forces[i]))
+        for (row, j), node in sorted(mass.items()):
+            if row == i and j >= 0:
+                found[j] = graph.add(found.get(j, graph.zero), graph.mul(c.rate, node))
+    return Driving(tuple(sorted(found.items())), rest)
