@@ -4,7 +4,7 @@ Where steps land relative to the singular position matters more than their size,
 near 1e-3 s with RK4 for 10 s. The error is the largest distance of the pin B0 from the regular branch, which a reduced
 equation in one coordinate gives. A method may be wrong; a run that is wrong must not end `ok` without a warning.
 
-    python -m benchmarks.singular [N ...] [--steps 20]
+    python -m benchmarks.singular [N ...] [--steps 20] [--methods all] [--coordinates absolute,joint]
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from rich.table import Table
 import symgen
 from benchmarks.peers import models, reference
 from benchmarks.show import show
+from symgen.methods import METHODS as KINDS
 
 METHODS: tuple[tuple[str, Mapping[str, str | float]], ...] = (
     ("direct-correction", {"method.weight": "identity"}),
@@ -43,13 +44,15 @@ class Passage:
     seconds: float
 
 
-def run(windows: int, method: str, options: Mapping[str, str | float], step: float) -> Passage:
+def run(
+    windows: int, method: str, options: Mapping[str, str | float], step: float, coordinates: str = "absolute"
+) -> Passage:
     """Run one step size; an error where the run did not reach the end is that up to there."""
     truth = models.load(f"n-four-bar:{windows}")
     times = reference.sample_times(truth)
     angle = reference.angles(truth)[:, 0]
     result = symgen.load(f"n-four-bar:{windows}").simulate(
-        method=method, integrator="rk4", step=step, until=UNTIL, times=times, options=options
+        method=method, integrator="rk4", step=step, until=UNTIL, times=times, options=options, coordinates=coordinates
     )
     k = len(result.t)
     theta = result["vertical0.theta"]
@@ -69,7 +72,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m benchmarks.singular", description=__doc__)
     parser.add_argument("windows", type=int, nargs="*", default=[1, 2, 10], help="sizes of the N-four-bar")
     parser.add_argument("--steps", type=int, default=20, help="step sizes in [0.95, 1.05] 1e-3 s")
+    parser.add_argument("--methods", choices=["few", "all"], default="few", help="those below, or all with defaults")
+    parser.add_argument("--coordinates", default="absolute", help="absolute, joint, or both with a comma between")
     options = parser.parse_args(arguments)
+    methods = (
+        METHODS
+        if options.methods == "few"
+        else tuple((name, {}) for name, kind in KINDS.items() if "ode" in kind.forms)
+    )
     title = f"N-four-bar through its singular positions: RK4, {UNTIL:g} s, {options.steps} steps in [0.95, 1.05]e-3 s"
     table = Table(title=title)
     for column in (
@@ -86,15 +96,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         table.add_column(column, justify="left" if column in ("method", "statuses") else "right")
     wrong = 0
     for windows in options.windows:
-        for method, chosen in METHODS:
+        for method, chosen, coordinates in (
+            (method, chosen, coordinates)
+            for coordinates in options.coordinates.split(",")
+            for method, chosen in methods
+        ):
             steps = np.linspace(0.95e-3, 1.05e-3, options.steps)
-            passages = [run(windows, method, chosen, float(step)) for step in steps]
+            passages = [run(windows, method, chosen, float(step), coordinates) for step in steps]
             errors = np.array([p.error for p in passages])
             statuses = ", ".join(f"{n} {status}" for status, n in sorted(Counter(p.status for p in passages).items()))
             wrong += silent(passages)
             table.add_row(
                 str(windows),
-                " ".join([method, *(f"{key.partition('.')[2]}={value}" for key, value in chosen.items())]),
+                " ".join(
+                    [
+                        method,
+                        *([] if coordinates == "absolute" else [coordinates]),
+                        *(f"{key.partition('.')[2]}={value}" for key, value in chosen.items()),
+                    ]
+                ),
                 f"{np.median(errors):.1e}",
                 f"{errors.max():.1e}",
                 str(int((errors > WRONG).sum())),
