@@ -246,8 +246,9 @@ class Model:
             All settings at once.
         **changes
             Single settings, as for `simulate`. ``until`` is no end, but says in which time a motion that begins at rest
-            may be expected to cross the mechanism. Where an integrator with constant steps is given no ``step``, each
-            call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second runs mean nothing
+            may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the tree, by
+            their names, and `SteppedRun.bodies` says where bodies are. Where an integrator with constant steps is given
+            no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second runs mean nothing
             here and are refused.
 
         Raises
@@ -271,13 +272,15 @@ class Model:
         given = give_inputs(self.mechanism, asked)
         mechanism = given.mechanism
         chosen, reasons = resolve(mechanism, given.settings)
-        if chosen.coordinates == "joint":
-            raise InputError("start: coordinates", "absolute ones, as a run is taken step by step", "joint ones")
-        plan = make_plan(mechanism, replace(chosen, times=(), coordinates="absolute"))
+        plan = make_plan(mechanism, replace(chosen, times=()))
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)
-        compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
+        if plan.coordinates == "joint":
+            tree = tree_run(mechanism, plan, chosen.parameters, chosen.strict)
+            mechanism, compiled, start = tree.mechanism, tree.compiled, tree.start
+        else:
+            compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
         plan = watching(mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
         return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None, given.told)

@@ -18,6 +18,7 @@ from symgen.runtime.changes import begin_with_step
 from symgen.runtime.event_records import EventRecord, record_of
 from symgen.runtime.simulation import RESOLVED, Simulation
 from symgen.stepping.advance import Advance
+from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
@@ -59,7 +60,8 @@ class SteppedRun:
     Attributes
     ----------
     q, v, state : Named
-        Coordinates, velocities, and both: read-only views of what the run holds at present, without copies.
+        Coordinates, velocities, and both: read-only views of what the run holds at present, without copies. In joint
+        coordinates those of the joints of the tree.
     warnings, notes : tuple of str
         What there is to say of the start and the settings.
     """
@@ -80,6 +82,7 @@ class SteppedRun:
         self._free = free and not self._adaptive
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
         state = self._loop.state
+        self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         self._given = {name: words for name, words in (inputs or {}).items() if isinstance(words, str)}
@@ -106,6 +109,13 @@ class SteppedRun:
     def steps(self) -> int:
         """Steps that have been accepted."""
         return self._control[_STEPS]
+
+    @property
+    def bodies(self) -> dict[str, float]:
+        """Present coordinates and velocities of bodies by name, whatever the state is made of."""
+        if self._carried is None:
+            return dict(zip(self.state.names, self.state.tolist(), strict=True))
+        return dict(zip(self._carried.names, self._carried.at().tolist(), strict=True))
 
     @property
     def parameters(self) -> dict[str, float]:
@@ -246,6 +256,8 @@ class SteppedRun:
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
+            if self._carried is not None:
+                self._carried.check(p[:count])
             self._advance.begin()
             loop.changes.set(p[:count])
         self._changed = {name: found[name] for name in changed}

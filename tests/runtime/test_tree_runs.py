@@ -174,8 +174,6 @@ def test_refusals():
         model.simulate(coordinates="joint", shape="looped")
     with pytest.raises(InputError, match="absolute, joint, auto"):
         model.simulate(coordinates="relative")
-    with pytest.raises(InputError, match="step by step"):
-        model.start(coordinates="joint")
     blow = {"blow": {"when": "crank.theta - 0.9", "reset": {"crank.omega": "-crank.omega"}}}
     with pytest.raises(InputError, match="velocities other values"):
         model.simulate(coordinates="joint", events=blow)
