@@ -248,8 +248,8 @@ class Model:
             Single settings, as for `simulate`. ``until`` is no end, but says in which time a motion that begins at rest
             may be expected to cross the mechanism. In joint coordinates the state is that of the joints of the tree, by
             their names, and `SteppedRun.bodies` says where bodies are. Where an integrator with constant steps is given
-            no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second runs mean nothing
-            here and are refused.
+            no ``step``, each call of `SteppedRun.step` is one step. Settings of outputs, of repetitions and of second
+            runs mean nothing here and are refused.
 
         Raises
         ------
