@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.arguments import shown
-from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
+from symgen.compiling.choose_coordinates import choose_coordinates, weighed
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
@@ -142,8 +142,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
     choice = replace(choice, shape=shape.shape)
     coordinates = choose_coordinates(mechanism, "absolute" if resets else s.coordinates, shape.shape)
-    if coordinates.coordinates == "joint" and not massless and not _asked(s, "weight"):
-        choice = weighed_by_mass(choice)
+    if coordinates.coordinates == "joint" and not _asked(s, "weight"):
+        choice = weighed(choice, massless)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
     return Plan(
         choice,

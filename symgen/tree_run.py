@@ -183,8 +183,8 @@ def tree_run(
     """
     bodies, start = ready(mechanism, plan, parameters, strict)
     carried = on_tree(mechanism)
-    options = bodies.law.options
-    choice = replace(plan.choice, options=dict(options), shape="straight")
+    weight = {name: value for name, value in plan.choice.options.items() if name == "weight"}
+    choice = replace(plan.choice, options={**bodies.law.options, **weight}, shape="straight")
     compiled = compiled_for(carried, choice)
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info

@@ -49,7 +49,7 @@ def command(
 
     The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
     """
-    from symgen.compiling.choose_coordinates import choose_coordinates, weighed_by_mass
+    from symgen.compiling.choose_coordinates import choose_coordinates, weighed
     from symgen.compiling.choose_tree import on_tree
     from symgen.compiling.pipeline import MethodChoice, choose_method, generate
     from symgen.describe.load import load
@@ -70,7 +70,7 @@ def command(
         mechanism = on_tree(mechanism)
         massless = any(body.massless for body in mechanism.bodies)
         given = {name for name, asked in wanted.items() if "weight" in asked}
-        choices = [c if c.method.name in given or massless else weighed_by_mass(c) for c in choices]
+        choices = [c if c.method.name in given else weighed(c, massless) for c in choices]
     folder = Path(mechanism.name if output is None else output)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")

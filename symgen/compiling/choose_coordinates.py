@@ -33,14 +33,15 @@ class CoordinateChoice:
     reason: str
 
 
-def weighed_by_mass(choice: MethodChoice) -> MethodChoice:
+def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     """Return a method with corrections in the metric of the masses, where it leaves the choice.
 
     The identity in the angles and displacements of joints depends on which joints carry, that of the masses does not.
+    With massless bodies, whose M has no inverse, it is the identity in the velocities of bodies.
     """
     if "weight" not in choice.options:
         return choice
-    return replace(choice, options={**choice.options, "weight": "mass"})
+    return replace(choice, options={**choice.options, "weight": "body" if massless else "mass"})
 
 
 def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:

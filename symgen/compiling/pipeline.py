@@ -67,6 +67,13 @@ def choose_method(name: str, options: Mapping[str, str] | None = None, implicit:
     return MethodChoice(method, method.complete_options(options or {}), implicit)
 
 
+def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
+    """Return a choice as the mechanism's coordinates say it: the metric of bodies is the identity in their own."""
+    if mechanism.topology is not None or choice.options.get("weight") != "body":
+        return choice
+    return replace(choice, options={**choice.options, "weight": "identity"})
+
+
 def folder_of(mechanism: Mechanism) -> str:
     """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
     digest = hashlib.sha256(f"{mechanism_digest(mechanism)} {generator_digest()}".encode()).hexdigest()
@@ -123,6 +130,7 @@ def generate(
         If the code would be looped or for implicit integrators where it is not for ``cpu``; if tables are too long for
         ``cuda``, or a method iterates for ``lanes``; if numbers overflow.
     """
+    choices = tuple(for_coordinates(mechanism, choice) for choice in choices)
     if target != "cpu":
         _refuse_target(target, choices, shape)
     if shape == "looped":
@@ -195,7 +203,7 @@ def compile_model(
     InputError
         As for `generate`.
     """
-    store = Entries() if entries is None else entries
+    store, choice = Entries() if entries is None else entries, for_coordinates(mechanism, choice)
     arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
     if choice.shape == "looped" and target == "cpu":
         found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)

@@ -80,6 +80,10 @@ class Carried(Protocol):
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         ...
 
+    def metric(self) -> tuple[MassBlock, ...]:
+        """Return the metric of the velocities of bodies, centres of mass and angular ones, pulled back."""
+        ...
+
 
 def carried_energies(model: Model, forces: list[int]) -> tuple[int, int]:
     """Return the kinetic energy and gravity's potential of bodies on a tree; adds weights to `forces`.

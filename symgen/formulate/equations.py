@@ -120,6 +120,8 @@ class Equations:
         Where joints of a tree carry the bodies: coordinates, velocities and accelerations of these.
     driving : Driving, optional
         Where drivers prescribe coordinates of a tree, their power; no part of `power`.
+    metric : tuple of MassBlock
+        Where joints of a tree carry the bodies, the identity in the velocities of these, pulled back.
     """
 
     name: str
@@ -143,6 +145,7 @@ class Equations:
     inputs: tuple[str, ...] = ()
     bodies: tuple[int, ...] = ()
     driving: Driving | None = None
+    metric: tuple[MassBlock, ...] = ()
 
     @property
     def nq(self) -> int:

@@ -83,6 +83,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         dropped_rows=tuple(f"{row} = {other}" for row, other in repeats),
         bodies=_bodies(model),
         driving=driving,
+        metric=() if model.tree is None else model.tree.metric(),
     )
 
 

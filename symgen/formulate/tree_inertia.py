@@ -67,10 +67,12 @@ class Composite:
         Its bodies in an order in which each stands behind what carries it, the ground among them.
     forces : list of int
         On the velocities of bodies, and behind these on those of the state; gravity and inertia apart.
+    alike : bool
+        Whether all bodies have mass 1 and inertia 1 in all directions: M is the metric of their velocities then.
     """
 
-    def __init__(self, model: Model, placed: Mapping[str, Placed], forces: list[int]) -> None:
-        self.model, self.placed, self.forces = model, placed, forces
+    def __init__(self, model: Model, placed: Mapping[str, Placed], forces: list[int], alike: bool = False) -> None:
+        self.model, self.placed, self.forces, self.alike = model, placed, forces, alike
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]
         self.rigid: dict[str, Inertia] = {}
@@ -89,9 +91,11 @@ class Composite:
         """Return the inertia of a body with all that is welded to it."""
         v, body, p = self.v, self.model.mechanism.body(name), self.placed[name]
         assert isinstance(body, SpatialBody), "bodies in space"
-        m = self.model.expression(body.mass)
+        m = self.model.graph.one if self.alike else self.model.expression(body.mass)
         second = v.second(m, p.centre)
-        if body.inertia is not None:
+        if self.alike and not body.is_point:
+            second = v.plus(v.units, second)
+        elif body.inertia is not None:
             xx, yy, zz, xy, xz, yz = (self.model.expression(e) for e in body.inertia)
             second = v.plus(((xx, xy, xz), (xy, yy, yz), (xz, yz, zz)), second)
         found = Inertia(m, v.scale(m, p.centre), second)

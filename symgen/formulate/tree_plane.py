@@ -297,7 +297,13 @@ class PlanarTree:
 
     # -- M and f -------------------------------------------------------------------------------------------------------
 
-    def dynamics(self, forces: list[int]) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
+    def metric(self) -> tuple[MassBlock, ...]:
+        """Return the metric of the velocities of bodies, pulled back: M if all had mass 1 and inertia 1."""
+        return self.dynamics([self.graph.zero] * len(self.velocities), alike=True)[0]
+
+    def dynamics(
+        self, forces: list[int], alike: bool = False
+    ) -> tuple[tuple[MassBlock, ...], list[int], Driving | None]:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         g, model = self.graph, self.model
         masses, moments, seconds = dict[str, int](), dict[str, Pair](), dict[str, int]()
@@ -307,11 +313,11 @@ class PlanarTree:
                 continue
             body, p = model.mechanism.body(name), self.placed[name]
             assert isinstance(body, Body), "bodies of the plane"
-            m = model.expression(body.mass)
+            m = g.one if alike else model.expression(body.mass)
             fixed = self._scaled(m, p.centre)  # of the first moment, what is constant in the body's frame
             second = g.mul(m, g.dot(p.centre, p.centre))
-            if body.inertia is not None:
-                second = g.add(model.expression(body.inertia), second)
+            if not body.is_point:
+                second = g.add(g.one if alike or body.inertia is None else model.expression(body.inertia), second)
             first, w = model.first[name], p.spin
             push: Pair = (forces[first], forces[first + 1])
             turn = g.zero if body.is_point else forces[first + 2]

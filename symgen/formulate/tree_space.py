@@ -365,6 +365,12 @@ class SpatialTree:
         blocks = blocks_of({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, size, self.graph.zero)
         return blocks, [f[i] for i in range(size)], driving_of(self.graph, self.coordinates, mass, f)
 
+    def metric(self) -> tuple[MassBlock, ...]:
+        """Return the metric of the velocities of bodies, pulled back."""
+        nothing = [self.graph.zero] * len(self.velocities)
+        mass = Composite(self.model, self.placed, nothing, alike=True).mass()
+        return blocks_of({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, self.size, self.graph.zero)
+
 
 def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:
     return v.triple(nodes[:3]), v.triple(nodes[3:6]), v.triple(nodes[6:])

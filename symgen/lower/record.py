@@ -227,6 +227,19 @@ class _Law:
         self.metric_apart("D M^-1 D^T", factor)
         self.spread(s.minv(_change(s, s.stored_factor(factor, "law_"))))
 
+    def body_metric(self) -> None:
+        """Add a factorisation and spread in the metric of the velocities of bodies that joints of a tree carry."""
+        s = self.system
+        rank = s.rank_factor()
+        factor = s.weighted_factor(rank, "body")
+        entries, purpose = (
+            s.body_entries(),
+            "Phi, nu, D, the pivots that decide rank, and the factorisation of D W^-1 D^T",
+        )
+        self.sections["body_entry"] = ()
+        self.metric("geometry", purpose, ("geometry", s.geometry(rank)), ("law_", factor), ("body_entry", entries))
+        self.spread(s.body_inverse(_change(s, s.stored_factor(factor, "law_"))))
+
     def independent_metric(self) -> None:
         """Add geometry and spread that change dependent coordinates only: W^-1 = P G, P in ``dependent``."""
         s = self.system

@@ -10,7 +10,7 @@ from typing import Any
 
 from symgen.formulate.equations import Equations, MassBlock
 from symgen.ir.derivative import jacobian
-from symgen.ir.graph import PARAMETER
+from symgen.ir.graph import PARAMETER, Graph
 from symgen.ir.numerics import SKIP, SUSPICIOUS, TINY
 from symgen.ir.program import STATUS, Entry, Target
 from symgen.lower.factor import Factor, factorise, minimum_degree
@@ -220,18 +220,39 @@ class Scalars(Replay):
 
         M is replaced before anything is made of it: products with it do not keep its entries together.
         """
-        g, other = self.graph, copy(self)
-        places = {node: g.input("mass_entry", k) for k, node in enumerate(self.mass_entries)}
-        blocks = (
-            MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries))
-            for b in self.equations.mass
-        )
-        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
-            other.__dict__.pop(name, None)
-        other.equations = replace(self.equations, mass=tuple(blocks))
+        other = self._with_mass(_replaced(self.equations.mass, self.mass_entries, self.graph, "mass_entry"))
         other.values, other.kept, other.flags = {}, {}, []
         other.run(range(len(other.operations)))
         return other
+
+    @cached_property
+    def body(self) -> Scalars:
+        """The same tape with the metric of carried bodies in the place of M."""
+        return self._with_mass(self.equations.metric)
+
+    def _with_mass(self, mass: tuple[MassBlock, ...]) -> Scalars:
+        """Return the same tape with another matrix in the place of M, nothing evaluated yet."""
+        other = copy(self)
+        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
+            other.__dict__.pop(name, None)
+        other.equations = replace(self.equations, mass=mass)
+        return other
+
+    def _on_body_entries(self, operation: Operation) -> Nodes:
+        return self.body.mass_entries
+
+    def _on_weighted_body(self, operation: Operation, rank: Factor) -> Factor:
+        """Return the factor of D W^-1 D^T in the function that decides rank."""
+
+        def keep(row: int) -> int:
+            return self._decided(row, rank.pivots[row], rank.diagonal[row])
+
+        return self._weighted(self.body.mass_gram(self.rows), keep)
+
+    def _on_body_inverse(self, operation: Operation, x: Nodes) -> Nodes:
+        body = self.body
+        stored = body._with_mass(_replaced(body.equations.mass, body.mass_entries, self.graph, "body_entry"))
+        return stored._back(stored._forward(x))
 
     @cached_property
     def mass_matrix(self) -> dict[tuple[int, int], int]:
@@ -647,6 +668,12 @@ class Scalars(Replay):
     def _on_stored_factor(self, operation: Operation, factor: Factor) -> Factor:
         prefix = str(operation.payload[0])
         return self._keep_factor(factor, f"{prefix}lower", f"{prefix}reciprocal")
+
+
+def _replaced(mass: tuple[MassBlock, ...], entries: Nodes, graph: Graph, section: str) -> tuple[MassBlock, ...]:
+    """Return a matrix with entries as a section holds them."""
+    places = {node: graph.input(section, k) for k, node in enumerate(entries)}
+    return tuple(MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries)) for b in mass)
 
 
 def to_status(name: str, node: int) -> tuple[Target, int]:

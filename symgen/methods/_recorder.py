@@ -42,9 +42,18 @@ class Recorder(System):
         """Return the factor of D W D^T without the rows that `rank` leaves out.
 
         W is M^-1 (``mass``) or the identity (``identity``), with D as ``geometry`` left it; or the choice of dependent
-        columns times G (``dependent``), with D as it is being evaluated.
+        columns times G (``dependent``), or the inverse of the metric of carried bodies (``body``), with D as it is
+        being evaluated.
         """
         return rank.made(Factor, f"weighted_{weight}", rank)
+
+    def body_entries(self) -> Vector:
+        """Return the entries of the metric of carried bodies that change with the position."""
+        return self.tape.named(Vector, "body_entries", size="nv")
+
+    def body_inverse(self, x: Vector) -> Vector:
+        """Return the inverse of that metric times x, from the section ``body_entry``."""
+        return x.made(Vector, "body_inverse", x, size="nv")
 
     def augmented_metric(self, penalties: Vector) -> Factor:
         """Return the factor of ``M + D^T a D``, of D as ``geometry`` left it."""

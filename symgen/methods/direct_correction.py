@@ -31,7 +31,7 @@ class DirectCorrection(MultiplierMethod):
         ),
     )
     options = (
-        MethodOption("weight", ("identity", "mass"), "metric of the correction; the source's is the identity"),
+        MethodOption("weight", ("identity", "mass", "body"), "metric of the correction; the source's is the identity"),
         SOLVER,
     )
 

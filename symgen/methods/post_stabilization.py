@@ -25,7 +25,7 @@ class PostStabilization(MultiplierMethod):
         "Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; "
         "Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157"
     )
-    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"), SOLVER)
+    options = (MethodOption("weight", ("identity", "mass", "body"), "metric of the correction"), SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at both levels."""

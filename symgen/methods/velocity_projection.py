@@ -22,7 +22,7 @@ class VelocityProjection(MultiplierMethod):
     name = "velocity-projection"
     summary = "velocities are projected after each step; positions are left"
     reference = "Eich, SIAM J. Numer. Anal. 30 (1993) 1467-1482, doi 10.1137/0730076"
-    options = (MethodOption("weight", ("identity", "mass"), "metric of the correction"), SOLVER)
+    options = (MethodOption("weight", ("identity", "mass", "body"), "metric of the correction"), SOLVER)
 
     def correction(self, options: Mapping[str, str]) -> Correction:
         """Return one correction at velocity level."""

@@ -10,7 +10,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
-from symgen.compiling.pipeline import choose_method, generate
+from symgen.compiling.pipeline import choose_method, for_coordinates, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
@@ -79,7 +79,7 @@ class Emitted:
     """
 
     def __init__(self, mechanism: Mechanism, method: str = "lagrange", options=None, compiled: bool = False) -> None:
-        choice = choose_method(method, options)
+        choice = for_coordinates(mechanism, choose_method(method, options))
         self.generated, self.compiled = generate(mechanism, (choice,)), compiled
         package = types.ModuleType(f"emitted_{next(_counter)}")
         package.__path__ = []

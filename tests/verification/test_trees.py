@@ -189,3 +189,33 @@ def test_welds_in_space(forward, tmp_path):
     mechanism = load(path).mechanism
     assert not spanning_tree(mechanism).cut
     compare_with_plain(raw, mechanism)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "andrews", "spatial-slider-crank"])
+def test_the_metric_of_bodies_is_their_identity_pulled_back(name):
+    """The correction is the shortest change of the velocities of bodies: W = B^T B, B column by column."""
+    mechanism = load(name).mechanism
+    settings = Settings(method="direct-correction", coordinates="joint", options={"method.weight": "body"})
+    run = tree_run(mechanism, make_plan(mechanism, settings))
+    info, compiled, start = run.bodies.info, run.compiled, run.start
+    own, y, p, w = compiled.info, start.y.copy(), start.p.copy(), start.w.copy()
+
+    def speeds(v: np.ndarray) -> np.ndarray:
+        state, out = y.copy(), np.zeros(info.nq + 2 * info.nv)
+        state[own.nq : own.nq + own.nv] = v
+        interpreted(compiled.model.bodies)(0.0, state, p, w.copy(), np.zeros(own.ny), out)
+        return out[info.nq : info.nq + info.nv]
+
+    still = speeds(np.zeros(own.nv))
+    b = np.array([speeds(unit) - still for unit in np.eye(own.nv)]).T
+    interpreted(compiled.law_module.geometry)(0.0, y, p, w)
+    d, residual = compiled.jacobian(w), np.cos(np.arange(own.m) + 0.3)
+    compiled.section(w, "residual")[:] = residual
+    interpreted(compiled.law_module.spread)(p, w)
+    inverse = np.linalg.inv(b.T @ b)
+    expected = -inverse @ d.T @ np.linalg.solve(d @ inverse @ d.T, residual)
+    found = compiled.section(w, "change")
+    # both invert D W^-1 D^T, whose condition is some 1e4 here
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-9 * float(np.abs(expected).max()))
+    unweighed = -np.linalg.pinv(d) @ residual
+    assert np.abs(unweighed - expected).max() > 1e-6 * np.abs(expected).max(), "the metric matters here"

@@ -1,0 +1,17 @@
+"""Method `direct-correction` for model `four-bar`. Emitted by symgen; do not edit.
+
+positions and velocities are projected after each step with the pseudoinverse of D
+Marques, Souto, Flores, Multibody Syst. Dyn. 39 (2017) 385-419, doi 10.1007/s11044-016-9530-y; Yoon, Howe, Greenwood, J. Mech. Des. 116 (1994) 1058-1064
+digest 5a0879e70ad1e49683b99a216dbef576387e1c5c3a858c6fd5e65bf95f500c9d, format 3, templates a694aa875a452a90
+option solver = elimination
+option weight = body
+p[23] tolerance (default 1e-13)
+"""
+
+from .accept_body_32ee4c9a065548e0 import accept
+from .confirm_2581057f9d5d3055 import confirm
+from .metric_body_bd8b2111ca6ba1fd import geometry, spread
+from .prepare_97e25336ba4f9ea1 import prepare
+from .rhs_direct_f0b37fbebfd6ca93 import rhs
+
+__all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]
