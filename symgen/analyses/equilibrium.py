@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 MOST_STEPS, MOST_HALVINGS = 60, 12
 #: Times that a search is begun, the steps that a mechanism sinks before it is begun again, and how long these are.
 ATTEMPTS, SINKING, REACH = 4, 12, 0.3
+#: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to.
+NEAR = 0.15
 #: Forces and violations below this fraction of what they are compared with count as zero.
 TOLERANCE = 1e-10
 #: A stiffness below this fraction of the largest one is none.
@@ -103,6 +105,11 @@ class Balance:
     stiffness: Array
     motion: Array
 
+    @property
+    def scale(self) -> float:
+        """The largest stiffness."""
+        return float(np.abs(self.stiffness).max(initial=0.0)) or 1.0
+
 
 def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, float]] = ()) -> Balance:
     """Return the static problem; `lam` holds multipliers of all rows, then of what is held."""
@@ -163,7 +170,7 @@ def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> Arra
         now = balance(subject, y, lam, held)
         change, multipliers = _downhill(now)
         lam = _all_rows(subject, multipliers)
-        longest = np.abs(now.motion @ change).max(initial=0.0)
+        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
         y = subject.moved(y, now.motion @ (min(1.0, REACH / max(longest, 1e-300)) * change))
     return y
 
@@ -184,27 +191,29 @@ def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tu
     now = balance(subject, y, _all_rows(subject, lam), held)
     lam = np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0]
     now = balance(subject, y, _all_rows(subject, lam), held)
-    left, step, error = np.inf, 0, np.inf
+    left, step, error, size = np.inf, 0, np.inf, 0.0
     for step in range(MOST_STEPS):
-        size = max(np.abs(now.force).max(initial=0.0), np.abs(now.rows.T @ lam).max(initial=0.0), 1e-300)
+        size = max(size, np.abs(now.force).max(initial=0.0), 1e-3 * now.scale * subject.length)
         error = _error(subject, now, lam, size)
         if not np.isfinite(error):
             break
         if error < TOLERANCE and error >= 0.5 * left or error == 0.0:
             return y, _all_rows(subject, lam), step
         left = error if error < TOLERANCE else np.inf
-        for change, multipliers in (_newton(now, lam), _downhill(now)):
-            part, found = 1.0, None
-            if change is None:
-                continue
-            longest = np.abs(now.motion @ change).max(initial=0.0)
-            part = min(1.0, subject.length / longest) if longest > 0.0 else 1.0
+        matrix = _inverse(now)
+        found = None
+        for change, multipliers in () if matrix is None else _steps(subject, now, lam, matrix):
+            longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
+            part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
+            natural = np.linalg.norm(_correction(now, lam, matrix))
             for _ in range(MOST_HALVINGS):
                 tried = subject.moved(y, now.motion @ (part * change))
                 new = lam + part * (multipliers - lam)
                 then = balance(subject, tried, _all_rows(subject, new), held)
-                after = _error(subject, then, new, size)
-                if after < error * (1.0 - 1e-3 * part):
+                less = 1.0 - 1e-3 * part
+                if _error(subject, then, new, size) < error * less or (
+                    np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part)
+                ):
                     found = tried, new, then
                     break
                 part *= 0.5
@@ -226,19 +235,44 @@ def _error(subject: Subject, now: Balance, lam: Array, size: float) -> float:
     return float(np.hypot(unbalanced, np.linalg.norm(now.open) / subject.length))
 
 
-def _newton(now: Balance, lam: Array) -> tuple[Array | None, Array]:
-    """Return the step of Newton's method, the shortest one where the matrix is singular, and the new multipliers."""
-    n, k = len(now.force), len(now.open)
-    scale = np.abs(now.stiffness).max(initial=0.0) or 1.0
+def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> list[tuple[Array, Array]]:
+    """Return Newton's step and one downhill, that first which is to be tried first.
+
+    Newton's method finds equilibria of any kind. That is what is wanted near one; from further away it is left to
+    chance which, so that the mechanism sinks.
+    """
+    newton, downhill = _newton(now, lam, matrix), _downhill(now)
+    longest = np.abs(now.motion @ newton[0]) / lengths(subject)
+    return [newton, downhill] if longest.max(initial=0.0) < NEAR else [downhill, newton]
+
+
+def lengths(subject: Subject) -> Array:
+    """Return what changes of coordinates are compared with: the mechanism's length, or 1."""
+    return np.array([subject.length if q.unit == "m" else 1.0 for q in subject.compiled.info.coordinates])
+
+
+def _inverse(now: Balance) -> Array | None:
+    """Return the pseudo-inverse of Newton's matrix, forces over the largest stiffness; None where it is not finite."""
+    k, scale = len(now.open), now.scale
     matrix = np.block([[now.stiffness / scale, now.rows.T], [now.rows, np.zeros((k, k))]])
-    right = -np.concatenate([now.force / scale, now.open])
-    if not np.all(np.isfinite(matrix)):
-        return None, lam
-    found = np.linalg.lstsq(matrix, right, rcond=1e-13)[0]
-    return found[:n], found[n:] * scale
+    return np.linalg.pinv(matrix, rcond=1e-13) if np.all(np.isfinite(matrix)) else None
 
 
-def _downhill(now: Balance) -> tuple[Array | None, Array]:
+def _correction(now: Balance, lam: Array, matrix: Array) -> Array:
+    """Return what a matrix of Newton's makes of what is not balanced: a measure that does not know units of forces."""
+    right = np.concatenate([(now.force + now.rows.T @ lam) / now.scale, now.open])
+    found: Array = matrix @ right if np.all(np.isfinite(right)) else np.full(len(right), np.inf)
+    return found
+
+
+def _newton(now: Balance, lam: Array, matrix: Array) -> tuple[Array, Array]:
+    """Return the step of Newton's method, the shortest one where the matrix is singular, and the new multipliers."""
+    n = len(now.force)
+    found = -_correction(now, lam, matrix)
+    return found[:n], lam + found[n:] * now.scale
+
+
+def _downhill(now: Balance) -> tuple[Array, Array]:
     """Return a step that lowers the energy also where the stiffness is negative: its modes count by their size."""
     basis, inverse, _ = split(now.rows)
     closing = -inverse @ now.open

@@ -73,6 +73,12 @@ class DescriptorForm:
         Numbers of each space.
     functions : mapping of str to (int, int)
         Quantity of the state -> its place in ``functions``, and how many of value, rate and second rate are known.
+    units : mapping of str to str
+        Their units.
+    elements : tuple of (str, int)
+        Force and velocity of each value of the group ``elements``.
+    spaces : tuple of str
+        Names of the spaces, by number.
     pattern : Array of int64, shape (n, 3)
         Value, space and index of each derivative.
     """
@@ -82,6 +88,7 @@ class DescriptorForm:
     widths: Mapping[str, int]
     functions: Mapping[str, tuple[int, int]]
     units: Mapping[str, str]
+    elements: tuple[tuple[str, int], ...]
     pattern: NDArray[np.int64]
     spaces: tuple[str, ...]
 
@@ -174,6 +181,7 @@ def compile_linearised(
                 known = {
                     "sizes": list(program.sizes.items()),
                     "pattern": [list(place) for place in program.pattern],
+                    "elements": [list(place) for place in program.elements],
                     "functions": [[f.name, f.unit, f.orders] for f in program.functions],
                 }
                 store.put(folder, stem, emit_side(program.side), known)
@@ -189,4 +197,5 @@ def compile_linearised(
     widths = {"t": 1, "q": info.nq, "v": info.nv, "a": info.nv, "lam": info.m, "p": len(info.parameters)}
     pattern = np.array([(i, spaces.index(space), k) for i, space, k in known["pattern"]], dtype=np.int64).reshape(-1, 3)
     function = getattr(load_module(store.path(folder, stem)), NAME)
-    return DescriptorForm(function, places, widths, functions, units, pattern, spaces)
+    elements = tuple((str(name), int(i)) for name, i in known["elements"])
+    return DescriptorForm(function, places, widths, functions, units, elements, pattern, spaces)

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from symgen.describe.mechanism import Mechanism
+from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
@@ -18,8 +19,9 @@ from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
 from symgen.vocabulary.measures import Measure
 
-#: What is differentiated, in this order: q' = N v, the balance M v' + D^T lambda - f, D v' - gamma, D v - nu and Phi.
-GROUPS = ("motion", "balance", "accelerations", "velocities", "positions")
+#: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
+#: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
+#: What single forces add to the balance follows as ``elements``.
 #: Name of the emitted function.
 NAME = "linearised"
 
@@ -49,6 +51,8 @@ class LinearisedProgram:
         Values of each group, in their order.
     pattern : tuple of (int, str, int)
         Value, space (``t``, ``q``, ``v``, ``a``, ``lam``, ``p``) and index of each derivative.
+    elements : tuple of (str, int)
+        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
     functions : tuple of Function
         Coordinates of joints and outputs of the file; their values stand behind the groups, order by order.
     """
@@ -56,6 +60,7 @@ class LinearisedProgram:
     side: SideProgram
     sizes: Mapping[str, int]
     pattern: tuple[tuple[int, str, int], ...]
+    elements: tuple[tuple[str, int], ...]
     functions: tuple[Function, ...]
 
 
@@ -87,8 +92,10 @@ def lower_linearised(
     g = model.graph
     values = _descriptor(model, equations)
     sizes = {name: len(nodes) for name, nodes in values.items()}
+    elements, parts = _elements(model)
+    values, sizes = values | {"elements": parts}, sizes | {"elements": len(parts)}
     functions, nodes = _functions(model, equations)
-    outputs = [node for group in GROUPS for node in values[group]] + nodes
+    outputs = [node for group in sizes for node in values[group]] + nodes
     names = [p.name for p in mechanism.parameters]
     spaces = {"t": "t", "q": "q", "v": "v", "ydot": "a", "multipliers": "lam", "p": "p"}
     nq, nv = equations.nq, equations.nv
@@ -105,10 +112,10 @@ def lower_linearised(
     targets = tuple((Target("out", i), image) for i, image in enumerate(images))
     purpose = "The descriptor form with its derivatives"
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
-    labels = [f"{group} {i}" for group in GROUPS for i in range(sizes[group])]
+    labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
     side = side_program(mechanism, (block,), sections, labels)
-    return LinearisedProgram(side, sizes, tuple(pattern), functions)
+    return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
 
 
 def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
@@ -140,6 +147,20 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
         found["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in entries), image[row.nu]))
         found["positions"].append(g.zero if row.phi is None else image[row.phi])
     return found
+
+
+def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]:
+    """Return what each force element adds to the balance, velocity by velocity."""
+    if model.tree is not None:
+        return (), []
+    g, found = model.graph, dict[tuple[str, int], int]()
+    for force in model.mechanism.forces:
+        for effort in force.efforts:
+            exerted = exertion(model, effort)
+            for i, entry in sorted(exerted.row.items()):
+                key = force.name, i
+                found[key] = g.sub(found.get(key, g.zero), g.mul(entry, exerted.total))
+    return tuple(found), list(found.values())
 
 
 def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], list[int]]:
