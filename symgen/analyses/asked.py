@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from symgen import arguments
 from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, settle
+from symgen.analyses.linearise import LinearSystem, linear_system, named_states
+from symgen.analyses.modes import Modes, modes
+from symgen.analyses.reduced import tangent
 from symgen.analyses.subject import Subject, subject_of
 from symgen.errors import AnalysisError, InputError, nearest, quoted
 
@@ -39,7 +42,7 @@ def place_of(at: object, where: str = "at") -> str | float:
         if at in PLACES:
             return at
         try:
-            at = float(at)
+            return arguments.number(where, float(at), positive=True)
         except ValueError:
             raise InputError(where, f"{', '.join(PLACES)} or a time in s", quoted(at), nearest(at, PLACES)) from None
     return arguments.number(where, at, positive=True)
@@ -120,7 +123,9 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
             expected = f"a coordinate of the joints of {subject.mechanism.name}"
             raise InputError(f"cyclic '{name}'", expected, "none of that name", nearest(name, names))
         if names.index(name) not in free:
-            raise InputError(f"cyclic '{name}'", "a coordinate that no force and no row depends on", "one that changes them")
+            raise InputError(
+                f"cyclic '{name}'", "a coordinate that no force and no row depends on", "one that changes them"
+            )
     turning = [names.index(name) for name in cyclic] or free
     e = subject.evaluated(subject.y)
     motion = e.by("motion", "v")
@@ -151,6 +156,61 @@ def _without_effect(subject: Subject) -> list[int]:
     return [int(i) for i in np.flatnonzero(found)]
 
 
-def steady_equilibrium(subject: Subject, cyclic: Sequence[str] = ()) -> Equilibrium:
-    """Return a steady motion as an equilibrium: its stiffness has what turning adds, gyroscopic forces aside."""
-    return judged(subject, *steady_motion(subject, cyclic))
+def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
+    """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
+    subject = subject_of(mechanism, replace(settings, coordinates="joint"))
+    found = steady_motion(subject, arguments.words("cyclic", cyclic))
+    named_states(subject, tangent(subject, found[0]), (), False, "steady")
+    return judged(subject, *found)
+
+
+def scanned(
+    mechanism: Mechanism, settings: Settings, scan: tuple[str, Sequence[float] | Array]
+) -> tuple[Equilibrium, ...]:
+    """Return the equilibria over a range of a coordinate; see `symgen.analyses.equilibrium.equilibria`."""
+    name, values = range_of("scan", scan)
+    subject = subject_of(mechanism, settings)
+    subject.position(name)
+    return equilibria(subject, (name, values))
+
+
+def range_of(where: str, given: object) -> tuple[str, Array]:
+    """Return a name and its values, checked.
+
+    Raises
+    ------
+    InputError
+        If it is no pair of a name and finite numbers.
+    """
+    if not isinstance(given, tuple) or len(given) != 2 or not isinstance(given[0], str):
+        raise InputError(where, "a pair of a name and its values", quoted(given))
+    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", list(given[1])), dtype=np.float64)
+
+
+def asked_modes(
+    mechanism: Mechanism,
+    settings: Settings,
+    at: object,
+    run: Callable[[Settings], Result],
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+) -> Modes:
+    """Return the modes at a place; see `symgen.api.Model.modes`."""
+    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+    return modes(subject, y, None, states)
+
+
+def asked_system(
+    mechanism: Mechanism,
+    settings: Settings,
+    at: object,
+    run: Callable[[Settings], Result],
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+    instantaneous: bool = False,
+) -> LinearSystem:
+    """Return the linear system at a place; see `symgen.api.Model.linearise`."""
+    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+    return linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))

@@ -185,49 +185,60 @@ def _all_rows(subject: Subject, multipliers: Array) -> Array:
 
 
 def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tuple[Array, Array, int]:
-    kept = np.flatnonzero(~subject.redundant)
-
-    lam = np.zeros(len(kept) + len(held))
-    now = balance(subject, y, _all_rows(subject, lam), held)
-    lam = np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0]
+    count = int(np.sum(~subject.redundant)) + len(held)
+    now = balance(subject, y, _all_rows(subject, np.zeros(count)), held)
+    lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
     now = balance(subject, y, _all_rows(subject, lam), held)
     left, step, error, size = np.inf, 0, np.inf, 0.0
     for step in range(MOST_STEPS):
         size = max(size, np.abs(now.force).max(initial=0.0), 1e-3 * now.scale * subject.length)
         error = _error(subject, now, lam, size)
-        if not np.isfinite(error):
-            break
-        if error < TOLERANCE and error >= 0.5 * left or error == 0.0:
+        good = error < TOLERANCE
+        if good and (error >= 0.5 * left or error == 0.0):
             return y, _all_rows(subject, lam), step
-        left = error if error < TOLERANCE else np.inf
-        matrix = _inverse(now)
-        found = None
-        for change, multipliers in () if matrix is None else _steps(subject, now, lam, matrix):
-            longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
-            part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
-            natural = np.linalg.norm(_correction(now, lam, matrix))
-            for _ in range(MOST_HALVINGS):
-                tried = subject.moved(y, now.motion @ (part * change))
-                new = lam + part * (multipliers - lam)
-                then = balance(subject, tried, _all_rows(subject, new), held)
-                less = 1.0 - 1e-3 * part
-                if _error(subject, then, new, size) < error * less or (
-                    np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part)
-                ):
-                    found = tried, new, then
-                    break
-                part *= 0.5
-            if found is not None or error < TOLERANCE:
-                break
+        left = error if good else np.inf
+        found = _stepped(subject, y, lam, now, held, size, good)
+        if found is None and good:
+            return y, _all_rows(subject, lam), step
         if found is None:
-            if error < TOLERANCE:
-                return y, _all_rows(subject, lam), step
             break
         y, lam, now = found
     raise AnalysisError(
         f"no equilibrium was found from this start: after {step} steps {error:.3g} of the forces is not balanced; "
         "another start may lead to one"
     )
+
+
+def _stepped(
+    subject: Subject,
+    y: Array,
+    lam: Array,
+    now: Balance,
+    held: Sequence[tuple[str, float]],
+    size: float,
+    good: bool,
+) -> tuple[Array, Array, Balance] | None:
+    """Return what a step leads to: as long a one as makes forces, or the next step of Newton's method, smaller.
+
+    Where forces are `good` only Newton's step is tried, for the last digits.
+    """
+    matrix = _inverse(now)
+    if matrix is None:
+        return None
+    error, natural = _error(subject, now, lam, size), np.linalg.norm(_correction(now, lam, matrix))
+    for change, multipliers in _steps(subject, now, lam, matrix)[: 1 if good else 2]:
+        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
+        part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
+        for _ in range(MOST_HALVINGS):
+            tried = subject.moved(y, now.motion @ (part * change))
+            new = lam + part * (multipliers - lam)
+            then = balance(subject, tried, _all_rows(subject, new), held)
+            if _error(subject, then, new, size) < error * (1.0 - 1e-3 * part):
+                return tried, new, then
+            if np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part) and not good:
+                return tried, new, then
+            part *= 0.5
+    return None
 
 
 def _error(subject: Subject, now: Balance, lam: Array, size: float) -> float:

@@ -48,7 +48,11 @@ class LinearSystem:
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
-        return in_order(np.linalg.eigvals(self.A)) if len(self.A) else np.zeros(0, dtype=np.complex128)
+        return (
+            in_order(np.asarray(np.linalg.eigvals(self.A), dtype=np.complex128))
+            if len(self.A)
+            else np.zeros(0, dtype=np.complex128)
+        )
 
     def state_space(self) -> Any:
         """Return the system as `scipy.signal.StateSpace`."""
@@ -67,7 +71,9 @@ class LinearSystem:
         try:
             import control
         except ImportError:
-            raise InputError("to_control", "the library 'control' to be installed", "none", "pip install control") from None
+            raise InputError(
+                "to_control", "the library 'control' to be installed", "none", "pip install control"
+            ) from None
         names = {"states": list(self.states), "inputs": list(self.inputs), "outputs": list(self.outputs)}
         return control.ss(self.A, self.B, self.C, self.D, **names)
 
@@ -78,7 +84,7 @@ class LinearSystem:
         return {**matrices, **names, "about": self.about, "t": self.t}
 
 
-def in_order(values: Array) -> NDArray[np.complex128]:
+def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
     found = np.asarray(values, dtype=np.complex128) + 0.0
     grain = 1e-9 * np.abs(found).max(initial=0.0) or 1.0

@@ -35,7 +35,7 @@ class Modes:
     eigenvalues : Array of complex
         Of the reduced first-order system [1/s], by decreasing real part, then by decreasing imaginary part.
     omega_squared : Array
-        Squares of the angular frequencies [1/s^2] in increasing order, where nothing damps and nothing turns; else empty.
+        Squares of the angular frequencies [1/s^2] in increasing order; none where something damps or turns.
     degrees_of_freedom : int
         Velocities that are free.
     names : tuple of str
@@ -99,7 +99,9 @@ class Modes:
         }
 
 
-def modes(subject: Subject, y: Array, t: float | None = None, states: Sequence[str] = (), where: str = "modes") -> Modes:
+def modes(
+    subject: Subject, y: Array, t: float | None = None, states: Sequence[str] = (), where: str = "modes"
+) -> Modes:
     """Return the modes about a state of rest or of steady motion.
 
     Parameters

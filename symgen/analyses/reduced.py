@@ -157,7 +157,7 @@ def accelerations(e: Evaluated, basis: Array, inverse: Array) -> tuple[Array, Ar
 
 def _solved(heavy: Array, right: Array) -> Array:
     try:
-        return np.linalg.solve(heavy, right)
+        return np.asarray(np.linalg.solve(heavy, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         raise AnalysisError("nothing determines the accelerations: a body without mass is free to move") from None
 

@@ -8,6 +8,7 @@ meanwhile: they are cyclic. Both is asked at the state and again a little later 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from symgen.analyses.algebra import split
 from symgen.analyses.reduced import Quantity, Tangent, accelerations, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
-from symgen.errors import InputError
+from symgen.errors import AnalysisError, InputError
 
 Array = NDArray[np.float64]
 
@@ -25,8 +26,10 @@ STILL = 1e-7
 CLOSED = 1e-8
 #: The same later on, where the motion was followed by steps: their error is in it.
 LATER = 1e-4
-#: Steps, and radians or lengths of the mechanism between the instants at which is asked again.
-STEPS, APART = 60, 0.7
+#: Radians, or lengths of the mechanism, between the instants at which is asked again.
+APART = 0.7
+#: Times the motion's own rate that the fastest eigenvalue has where a motion is stiff.
+STIFF = 300.0
 
 
 def at_rest(subject: Subject, x: Tangent) -> bool:
@@ -48,7 +51,7 @@ def _limit(subject: Subject, x: Tangent) -> float:
     heavy = np.abs(np.diag(x.base.by("balance", "a")))
     lightest = heavy[heavy > 0.0].min(initial=1.0)
     scale = max(1.0, float(np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)) ** 2)
-    return STILL * max(scale, min(1e3, free / lightest))
+    return float(STILL * max(scale, min(1e3, free / lightest)))
 
 
 def still(subject: Subject, x: Tangent, quantity: Quantity) -> bool:
@@ -160,7 +163,8 @@ def found_states(subject: Subject, x: Tangent) -> tuple[str, ...]:
     names = [n for n in quantities_of(subject) if n not in turning and still(subject, x, x.quantity(n))]
     while names:
         _, _, rest, sizes = system(x, names)
-        kept = [n for n, row, size in zip(names, rest, sizes, strict=True) if np.abs(row).max(initial=0.0) <= CLOSED * size]
+        follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * sizes
+        kept = [name for name, one in zip(names, follows, strict=True) if one]
         if kept == names:
             break
         names = kept
@@ -195,20 +199,25 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str)
         others = [n for n in quantities_of(subject) if n not in names]
         gains = {n: _explains(x, rest[int(worst.argmax())], n) for n in others}
         also = max(gains, key=lambda n: gains[n]) if gains else ""
-        raise InputError(where, "states whose rates follow from them", f"'{name}', whose rate depends on others", f"'{also}' is one of them")
+        raise InputError(
+            where,
+            "states whose rates follow from them",
+            f"'{name}', whose rate depends on others",
+            f"'{also}' is one of them",
+        )
     if at_rest(subject, x):
         return
-    y, t = x.y, x.t
+    then = x
     for _ in range(2):
-        y, t = later(subject, y, t)
+        y, t = later(subject, then)
         then = tangent(subject, y, t)
         b = system(then, names)[0]
-        if np.abs(b - a).max(initial=0.0) > LATER * (1.0 + np.abs(a).max(initial=0.0)):
+        if not np.abs(b - a).max(initial=0.0) <= LATER * (1.0 + np.abs(a).max(initial=0.0)):
             expected = "a steady motion, about which everything that is looked at stays as it is"
             raise InputError(where, expected, f"one whose linear system is another at t = {t:.4g} s")
         for name in names:
             now, before = then.quantity(name), x.quantity(name)
-            if abs(now.value - before.value) > LATER * (1.0 + abs(before.value)):
+            if not abs(now.value - before.value) <= LATER * (1.0 + abs(before.value)):
                 raise InputError(where, "a steady motion", f"one in which '{name}' changes until t = {t:.4g} s")
 
 
@@ -227,34 +236,33 @@ def _check_still(subject: Subject, x: Tangent, names: Sequence[str], where: str)
         raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)
 
 
-def later(subject: Subject, y: Array, t: float) -> tuple[Array, float]:
-    """Return the state a little later on the motion, by Runge-Kutta steps and a projection behind them."""
-    nq, nv = subject.nq, subject.nv
-    kept = ~subject.redundant
-    speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))
-    step = APART / speed / STEPS
+def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
+    """Return the state a little later on the motion, and its time: followed by steps, and projected behind them."""
+    from scipy.integrate import solve_ivp
 
-    def slope(y: Array, t: float) -> Array:
-        e = subject.evaluated(y, t=t)
+    nq, nv, y = subject.nq, subject.nv, x.y
+    kept = ~subject.redundant
+
+    def slope(t: float | np.float64, z: Array) -> Array:
+        e = subject.evaluated(_filled(y, z), t=float(t))
         basis, inverse, _ = split(e.by("velocities", "v") * kept[:, None])
         return np.concatenate([e.value("motion"), accelerations(e, basis, inverse)[0]])
 
-    y = y.copy()
-    z = y[: nq + nv]
-    for _ in range(STEPS):
-        k1 = slope(_filled(y, z), t)
-        k2 = slope(_filled(y, z + 0.5 * step * k1), t + 0.5 * step)
-        k3 = slope(_filled(y, z + 0.5 * step * k2), t + 0.5 * step)
-        k4 = slope(_filled(y, z + step * k3), t + step)
-        z, t = z + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4), t + step
-    y = subject.moved(_filled(y, z), np.zeros(nq))
+    speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))
+    end = x.t + APART / speed
+    fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
+    method: Literal["Radau", "DOP853"] = "Radau" if fastest > STIFF * speed else "DOP853"
+    run = solve_ivp(slope, (x.t, end), y[: nq + nv], method=method, rtol=1e-8, atol=1e-10)
+    if not run.success:
+        raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
+    y = subject.moved(_filled(y, run.y[:, -1]), np.zeros(nq))
     for _ in range(4):
-        e = subject.evaluated(y, t=t)
+        e = subject.evaluated(y, t=end)
         inverse = split(e.by("velocities", "v") * kept[:, None])[1]
         y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * kept)))
-    e = subject.evaluated(y, t=t)
+    e = subject.evaluated(y, t=end)
     y[nq : nq + nv] -= split(e.by("velocities", "v") * kept[:, None])[1] @ (e.value("velocities") * kept)
-    return y, t
+    return y, end
 
 
 def _filled(y: Array, z: Array) -> Array:

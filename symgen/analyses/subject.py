@@ -105,7 +105,9 @@ class Subject:
         info = self.compiled.info
         return (*(q.name for q in info.coordinates), *(v.name for v in info.velocities))
 
-    def evaluated(self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None) -> Evaluated:
+    def evaluated(
+        self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None
+    ) -> Evaluated:
         """Evaluate the descriptor form; v' and the multipliers are 0 unless given."""
         w = self.w.copy()
         self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
@@ -141,9 +143,10 @@ class Subject:
         """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""
         info, found = self.compiled.info, self.evaluated(y).value("functions")
         result = {q.name: float(x) for q, x in zip(info.coordinates, y, strict=False)}
-        outputs = {o.name for o in self.mechanism.outputs}
-        for name, (at, orders) in self.form.functions.items():
-            if orders == 3 and name not in outputs:
+        shown = {f"{b.name}.{c}" for b in self.mechanism.bodies for c in b.coordinates}
+        shown |= {f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates}
+        for name, (at, _) in self.form.functions.items():
+            if name in shown:
                 result[name] = float(found[at])
         return result
 

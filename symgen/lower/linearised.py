@@ -140,11 +140,11 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     found: dict[str, list[int]] = {"motion": [image[n] for n in e.q_rates], "balance": balance}
     found |= {"accelerations": [], "velocities": [], "positions": []}
     for k, row in enumerate(e.rows):
-        entries = [(j, image[n]) for j, n in row.entries]
-        for j, n in entries:
+        own = [(j, image[n]) for j, n in row.entries]
+        for j, n in own:
             balance[j] = g.add(balance[j], g.mul(n, g.input("multipliers", k)))
-        found["accelerations"].append(g.sub(g.total(g.mul(n, rates[j]) for j, n in entries), image[row.gamma]))
-        found["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in entries), image[row.nu]))
+        found["accelerations"].append(g.sub(g.total(g.mul(n, rates[j]) for j, n in own), image[row.gamma]))
+        found["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in own), image[row.nu]))
         found["positions"].append(g.zero if row.phi is None else image[row.phi])
     return found
 
