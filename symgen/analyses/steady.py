@@ -13,9 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split
-from symgen.analyses.reduced import Quantity, Tangent, accelerations, quantities_of, tangent
+from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
+from symgen.ir.program import COUNTERS
+from symgen.runtime import abi
+from symgen.runtime.probe import Ready
 
 Array = NDArray[np.float64]
 
@@ -240,10 +243,12 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
     nq, nv, y = subject.nq, subject.nv, x.y
     kept = ~subject.redundant
 
+    rhs, w = Ready(subject.compiled.law_module.rhs, abi.RHS), subject.w.copy()
+    iw, whole = np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
+
     def slope(t: float, z: Array) -> Array:
-        e = subject.evaluated(_filled(y, z), t=t)
-        basis, inverse, _ = split(e.by("velocities", "v") * kept[:, None])
-        return np.concatenate([e.value("motion"), accelerations(e, basis, inverse)[0]])
+        rhs(t, _filled(y, z), subject.p, w, iw, whole)
+        return whole[: nq + nv].copy()
 
     speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))
     end = x.t + APART / speed
