@@ -305,10 +305,9 @@ class Model:
         AnalysisError
             If none is found.
         """
-        from symgen.analyses.equilibrium import equilibria
-        from symgen.analyses.subject import subject_of
+        from symgen.analyses.asked import asked_equilibrium
 
-        return equilibria(subject_of(self.mechanism, changed(settings, changes)))[0]
+        return asked_equilibrium(self.mechanism, changed(settings, changes))
 
     def equilibria(
         self, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object

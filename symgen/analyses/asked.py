@@ -171,7 +171,30 @@ def scanned(
     name, values = range_of("scan", scan)
     subject = subject_of(mechanism, settings)
     subject.position(name)
-    return equilibria(subject, (name, values))
+    return _of_bodies(mechanism, settings, subject, equilibria(subject, (name, values)))
+
+
+def asked_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
+    """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
+    subject = subject_of(mechanism, settings)
+    return _of_bodies(mechanism, settings, subject, equilibria(subject))[0]
+
+
+def _of_bodies(
+    mechanism: Mechanism, settings: Settings, subject: Subject, found: tuple[Equilibrium, ...]
+) -> tuple[Equilibrium, ...]:
+    """Return equilibria with coordinates of bodies and multipliers of all joints, also where a tree carries them."""
+    if subject.coordinates == "absolute":
+        return found
+    bodies = subject_of(mechanism, replace(settings, coordinates="absolute"))
+    whole = list[Equilibrium]()
+    for one in found:
+        y = np.zeros_like(bodies.y)
+        y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
+        own = judged(bodies, y, one.iterations)
+        kept = {"stability": one.stability, "omega_squared": one.omega_squared, "y": one.y, "lam": one.lam}
+        whole.append(replace(own, **kept))  # type: ignore[arg-type]  # of these fields
+    return tuple(whole)
 
 
 def range_of(where: str, given: object) -> tuple[str, Array]:
