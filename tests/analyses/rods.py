@@ -36,13 +36,18 @@ def hanging(kind):
         return model({"rod": rod}, {"pin": pin("ground", "rod", GROUND2, "A")})
     if kind == "distance":
         far = [[-1.0, 0.0], [0.6, 0.8]]
-        return model({"rod": rod}, {f"d{i}": pin("ground", "rod", p, "A", "distance", length=1.0) for i, p in enumerate(far)})
+        return model(
+            {"rod": rod}, {f"d{i}": pin("ground", "rod", p, "A", "distance", length=1.0) for i, p in enumerate(far)}
+        )
     if kind == "slot and rail":
         slot = {"type": "pin-in-slot", "between": ["rod", "ground"], "at": ["A", GROUND2]}
         return model({"rod": rod}, {"slot": {**slot, "axis": [0.0, 1.0]}, "rail": {**slot, "axis": [1.0, 0.0]}})
     if kind == "massless":
         bracket = {"mass": 0.0, "inertia": 0.0, "points": {"P": [0.0, 0.2]}, "position": [0.0, -0.2]}
-        joints = {"pin": pin("ground", "bracket", GROUND2, "P"), "weld": pin("bracket", "rod", "P", "A", "rigid", angle="-pi/2")}
+        joints = {
+            "pin": pin("ground", "bracket", GROUND2, "P"),
+            "weld": pin("bracket", "rod", "P", "A", "rigid", angle="-pi/2"),
+        }
         return model({"bracket": bracket, "rod": rod}, joints)
     if kind == "twice":
         joints = {name: pin("ground", "rod", GROUND2, "A") for name in ("pin", "again")}
@@ -74,7 +79,7 @@ def chain(n):
 
 
 def catenary(angle, n=10, span=1.0):
-    """Uniform links, 2 m and 2 kg in all, laid out one behind the other at `angle(i)`; the last end is not at its pin."""
+    """Uniform links, 2 m and 2 kg in all, laid out one behind the other at `angle(i)`: the last end is off its pin."""
     half, bodies, joints, x, y = 1.0 / n, {}, {}, 0.0, 0.0
     for i in range(n):
         a = float(angle(i))

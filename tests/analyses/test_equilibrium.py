@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from analyses import rods
 from numpy.testing import assert_allclose
 from scipy.optimize import minimize
 
+from analyses import rods
 from symgen.errors import AnalysisError, InputError
 
 #: The reference's four-bar: angles of the crank and squares of frequencies, by minimal coordinates with 30 digits.
