@@ -175,7 +175,8 @@ def found_states(subject: Subject, x: Tangent) -> tuple[str, ...]:
     for name in names:
         row = x.quantity(name).changes[: x.size]
         left = row - basis.T @ (basis @ row)
-        if np.linalg.norm(left) > 1e-7 * max(1e-300, np.linalg.norm(row)) and np.linalg.norm(row) > 1e-12:
+        size = float(np.linalg.norm(row))
+        if size > 1e-12 and float(np.linalg.norm(left)) > 1e-7 * size:
             basis = np.vstack([basis, left / np.linalg.norm(left)])
             independent.append(name)
     return tuple(independent)
