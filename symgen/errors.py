@@ -62,6 +62,10 @@ class SimulationError(SymgenError):
     """A run could not be started or its result cannot be used."""
 
 
+class AnalysisError(SymgenError):
+    """An analysis has no answer: no equilibrium was found, eigenvalues did not converge."""
+
+
 class StepError(SimulationError):
     """A run that goes on step by step cannot do so; it stays at the last accepted state.
 

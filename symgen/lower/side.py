@@ -156,7 +156,7 @@ def lower_side(
     graph, images = moved(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
-    return _program(mechanism, (block,), sections, labels)
+    return side_program(mechanism, (block,), sections, labels)
 
 
 def lower_integrands(
@@ -198,12 +198,13 @@ def lower_integrands(
         Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),
         Block("accumulate", "the same of a stage with the unknowns k", stage, kept, ("t", "y", "k", "p", "w")),
     )
-    return _program(mechanism, blocks, sections, [to_text(integral.of) for integral in found])
+    return side_program(mechanism, blocks, sections, [to_text(integral.of) for integral in found])
 
 
-def _program(
+def side_program(
     mechanism: Mechanism, blocks: tuple[Block, ...], sections: Mapping[str, tuple[int, int]], labels: Sequence[str]
 ) -> SideProgram:
+    """Return blocks as the program of a module of its own; `labels` say what the outputs are."""
     coordinates, velocities = quantities(mechanism)
     used = {table for block in blocks for table, _ in block.tables}
     return SideProgram(

@@ -23,7 +23,7 @@ from symgen.describe.load import parse_toml
 from symgen.describe.validate import validate
 
 NAMES = (
-    *("cam-follower", "cart-pole", "engine", "inverted-pendulum", "jansen-leg"),
+    *("bicycle", "cam-follower", "cart-pole", "engine", "inverted-pendulum", "jansen-leg"),
     *("klann-leg", "scissor-lift", "shaper", "wiper"),
 )
 GRAVITY = 9.81

@@ -1,0 +1,244 @@
+"""From what is asked for to an answer: where an analysis is made, and the analysis there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen import arguments
+from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, settle
+from symgen.analyses.linearise import LinearSystem, linear_system, named_states
+from symgen.analyses.modes import Modes, modes
+from symgen.analyses.reduced import tangent
+from symgen.analyses.subject import Subject, subject_of
+from symgen.errors import AnalysisError, InputError, nearest, quoted
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
+
+#: Places that are asked for by a word; another one is a time of a run.
+PLACES = ("equilibrium", "start", "steady")
+#: Tolerances of a run that leads to a state that is linearised about.
+FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
+
+
+def place_of(at: object, where: str = "at") -> str | float:
+    """Return a checked place: one of `PLACES`, or a time [s].
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    if isinstance(at, str):
+        if at in PLACES:
+            return at
+        try:
+            return arguments.number(where, float(at), positive=True)
+        except ValueError:
+            raise InputError(where, f"{', '.join(PLACES)} or a time in s", quoted(at), nearest(at, PLACES)) from None
+    return arguments.number(where, at, positive=True)
+
+
+def subject_at(
+    mechanism: Mechanism, settings: Settings, at: str | float, run: Callable[[Settings], Result], cyclic: Sequence[str]
+) -> tuple[Subject, Array]:
+    """Return what is analysed, and the state that it is analysed about.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
+    at : {"equilibrium", "start", "steady"} or float
+        At the equilibrium that the start leads to, at the start, in the steady motion that the start leads to, or
+        at a time of the run from the start [s].
+    run : callable
+        Settings -> result of a run.
+    cyclic : sequence of str
+        Coordinates that turn on in a steady motion; found unless given.
+
+    Raises
+    ------
+    InputError
+        If the start is wrong.
+    AnalysisError
+        If no equilibrium or steady motion is found, or the run fails.
+    """
+    if at == "steady":
+        subject = subject_of(mechanism, replace(settings, coordinates="joint"))
+        return subject, steady_motion(subject, cyclic)[0]
+    if cyclic:
+        raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(cyclic))
+    if isinstance(at, float):
+        result = run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
+        if result.status == "failed":
+            raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
+        settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
+    subject = subject_of(mechanism, settings)
+    if at == "equilibrium":
+        return subject, equilibria(subject)[0].y
+    if not subject.closed:
+        raise InputError("at start", "a start that closes the mechanism", "one that does not", "ask for an equilibrium")
+    return subject, subject.y
+
+
+def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, int]:
+    """Return a motion in which cyclic coordinates turn on at the speed of the start and nothing else changes.
+
+    Parameters
+    ----------
+    subject : Subject
+        In joint coordinates.
+    cyclic : sequence of str
+        Names of these coordinates; those that nothing depends on unless given.
+
+    Returns
+    -------
+    state : Array
+        q and v.
+    steps : int
+        Steps of Newton's method.
+
+    Raises
+    ------
+    InputError
+        If a name is no coordinate of the tree's joints, or something depends on it.
+    AnalysisError
+        If there is no such motion.
+    """
+    names = [q.name for q in subject.compiled.info.coordinates]
+    free = _without_effect(subject)
+    for name in cyclic:
+        if name not in names:
+            expected = f"a coordinate of the joints of {subject.mechanism.name}"
+            raise InputError(f"cyclic '{name}'", expected, "none of that name", nearest(name, names))
+        if names.index(name) not in free:
+            raise InputError(
+                f"cyclic '{name}'", "a coordinate that no force and no row depends on", "one that changes them"
+            )
+    turning = [names.index(name) for name in cyclic] or free
+    e = subject.evaluated(subject.y)
+    motion = e.by("motion", "v")
+    kept = np.zeros(subject.nv, dtype=np.bool_)
+    for i in turning:
+        kept |= motion[i] != 0.0
+    y = subject.y.copy()
+    v = y[subject.nq : subject.nq + subject.nv]
+    v[~kept] = 0.0
+    at, _, steps = settle(subject, y)
+    return at, steps
+
+
+def _without_effect(subject: Subject) -> list[int]:
+    """Return the coordinates that nothing depends on: along which all derivatives vanish, here and elsewhere.
+
+    What a driver moves depends on time as its own row does, which therefore counts for nothing.
+    """
+    rng = np.random.default_rng(0)
+    found = np.ones(subject.nq, dtype=np.bool_)
+    for k in range(3):
+        y = subject.y.copy()
+        y[: subject.nq] += 0.3 * k * rng.standard_normal(subject.nq)
+        v = y[subject.nq : subject.nq + subject.nv]
+        v[:] = rng.standard_normal(subject.nv)
+        e = subject.evaluated(y, rng.standard_normal(subject.nv), rng.standard_normal(subject.m))
+        for group in ("motion", "balance", "accelerations", "velocities", "positions"):
+            by = np.abs(e.by(group, "q"))
+            if group not in ("motion", "balance"):
+                by = by[e.by("positions", "t")[:, 0] == 0.0]
+            size = max(np.abs(e.by(group, s)).max(initial=0.0) for s in ("q", "v", "a", "lam"))
+            found &= by.max(axis=0, initial=0.0) <= 1e-11 * max(size, 1e-300)
+    return [int(i) for i in np.flatnonzero(found)]
+
+
+def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:
+    """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
+    subject = subject_of(mechanism, replace(settings, coordinates="joint"))
+    found = steady_motion(subject, arguments.words("cyclic", cyclic))
+    named_states(subject, tangent(subject, found[0]), (), False, "steady")
+    return judged(subject, *found)
+
+
+def scanned(
+    mechanism: Mechanism, settings: Settings, scan: tuple[str, Sequence[float] | Array]
+) -> tuple[Equilibrium, ...]:
+    """Return the equilibria over a range of a coordinate; see `symgen.analyses.equilibrium.equilibria`."""
+    name, values = range_of("scan", scan)
+    subject = subject_of(mechanism, settings)
+    subject.position(name)
+    return _of_bodies(mechanism, settings, subject, equilibria(subject, (name, values)))
+
+
+def asked_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
+    """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
+    subject = subject_of(mechanism, settings)
+    return _of_bodies(mechanism, settings, subject, equilibria(subject))[0]
+
+
+def _of_bodies(
+    mechanism: Mechanism, settings: Settings, subject: Subject, found: tuple[Equilibrium, ...]
+) -> tuple[Equilibrium, ...]:
+    """Return equilibria with coordinates of bodies and multipliers of all joints, also where a tree carries them."""
+    if subject.coordinates == "absolute":
+        return found
+    bodies = subject_of(mechanism, replace(settings, coordinates="absolute"))
+    whole = list[Equilibrium]()
+    for one in found:
+        y = np.zeros_like(bodies.y)
+        y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
+        own = judged(bodies, y, one.iterations)
+        kept = {"stability": one.stability, "omega_squared": one.omega_squared, "y": one.y, "lam": one.lam}
+        whole.append(replace(own, **kept))  # type: ignore[arg-type]  # of these fields
+    return tuple(whole)
+
+
+def range_of(where: str, given: object) -> tuple[str, Array]:
+    """Return a name and its values, checked.
+
+    Raises
+    ------
+    InputError
+        If it is no pair of a name and finite numbers.
+    """
+    if not isinstance(given, tuple) or len(given) != 2 or not isinstance(given[0], str):
+        raise InputError(where, "a pair of a name and its values", quoted(given))
+    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", list(given[1])), dtype=np.float64)
+
+
+def asked_modes(
+    mechanism: Mechanism,
+    settings: Settings,
+    at: object,
+    run: Callable[[Settings], Result],
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+) -> Modes:
+    """Return the modes at a place; see `symgen.api.Model.modes`."""
+    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+    return modes(subject, y, None, states)
+
+
+def asked_system(
+    mechanism: Mechanism,
+    settings: Settings,
+    at: object,
+    run: Callable[[Settings], Result],
+    states: Sequence[str] = (),
+    cyclic: Sequence[str] = (),
+    instantaneous: bool = False,
+) -> LinearSystem:
+    """Return the linear system at a place; see `symgen.api.Model.linearise`."""
+    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+    return linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))

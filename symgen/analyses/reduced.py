@@ -1,0 +1,218 @@
+"""The motion near a state as a linear system in as many unknowns as the mechanism is free in.
+
+Near a state with q' = N v, D v = nu, M v' + D^T lambda = f and D v' = gamma let q change by N Z_q s and v by
+Z u - D^+ (D v - nu)_q N Z_q s, Z_q and Z being orthonormal bases of what holonomic rows, and all rows, leave free. Then
+every change of v', of the multipliers and of what is computed from them is linear in s, u and the inputs. Where rows
+are nonholonomic there are more s than u.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.analyses.algebra import split
+from symgen.analyses.subject import RATE, Subject
+from symgen.compiling.linearised import Evaluated
+from symgen.errors import AnalysisError, InputError, nearest
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """How everything changes with x = (s, u, inputs) near a state; all matrices have as many columns.
+
+    Attributes
+    ----------
+    subject : Subject
+        The mechanism.
+    t : float
+        Time [s].
+    y : Array
+        The state.
+    a, lam : Array
+        v' and the multipliers there.
+    base : Evaluated
+        The descriptor form there.
+    positions, velocities : int
+        Numbers of s and u.
+    q, q_rates, v, rates, multipliers : Array
+        Changes of q, q', v, v' and lambda.
+    states, state_rates : Array, shape (positions + velocities, ...)
+        Changes of s and u themselves, and of their rates.
+    drift : Array, shape (positions + velocities,)
+        Rates of s and u at the state.
+    """
+
+    subject: Subject
+    t: float
+    y: Array
+    a: Array
+    lam: Array
+    base: Evaluated
+    positions: int
+    velocities: int
+    q: Array
+    q_rates: Array
+    v: Array
+    rates: Array
+    multipliers: Array
+    states: Array
+    state_rates: Array
+    drift: Array
+
+    @property
+    def size(self) -> int:
+        """Number of s and u."""
+        return self.positions + self.velocities
+
+    @property
+    def matrix(self) -> Array:
+        """A of (s, u)' = A (s, u)."""
+        return self.state_rates[:, : self.size]
+
+    def function(self, place: int) -> tuple[float, Array]:
+        """Return the value of a quantity of the state, and how it changes."""
+        changes = self.base.by("functions", "q")[place] @ self.q + self.base.by("functions", "v")[place] @ self.v
+        changes = changes + self.base.by("functions", "a")[place] @ self.rates
+        changes = changes + self.base.by("functions", "lam")[place] @ self.multipliers
+        changes[self.size :] += self.base.by("functions", "p")[place][self.inputs]
+        return float(self.base.value("functions")[place]), changes
+
+    @property
+    def inputs(self) -> list[int]:
+        """Where the inputs stand among the parameters."""
+        return inputs_of(self.subject)
+
+    def quantity(self, name: str) -> Quantity:
+        """Return a quantity of the state by name, with its rate.
+
+        Raises
+        ------
+        InputError
+            If there is none of that name; says the nearest one.
+        """
+        known = quantities_of(self.subject)
+        if name not in known:
+            expected = f"a coordinate, velocity or output of the state of {self.subject.mechanism.name}"
+            raise InputError(f"state '{name}'", expected, "none of that name", nearest(name, known))
+        space, at = known[name]
+        e, y, nq = self.base, self.y, self.subject.nq
+        if space == "q":
+            return Quantity(name, float(y[at]), float(e.value("motion")[at]), self.q[at], self.q_rates[at])
+        if space == "v":
+            return Quantity(name, float(y[nq + at]), float(self.a[at]), self.v[at], self.rates[at])
+        value, rate = self.function(at), self.function(at + 1)
+        return Quantity(name, value[0], rate[0], value[1], rate[1])
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of the state: its value and rate, and how both change with (s, u, inputs)."""
+
+    name: str
+    value: float
+    rate: float
+    changes: Array
+    rate_changes: Array
+
+
+def inputs_of(subject: Subject) -> list[int]:
+    """Return where the inputs stand among the parameters."""
+    names = [p.name for p in subject.compiled.info.parameters]
+    return [names.index(name) for name in subject.mechanism.inputs]
+
+
+def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
+    """Return the quantities of the state whose rates are known: by name where each stands.
+
+    Coordinates and velocities of the state, coordinates of joints and outputs with ``.rate`` behind the name of their
+    rates.
+    """
+    info = subject.compiled.info
+    known: dict[str, tuple[str, int]] = {}
+    for name, (at, orders) in subject.form.functions.items():
+        if orders >= 2:
+            known[name] = "functions", at
+        if orders == 3:
+            known[name + RATE] = "functions", at + 1
+    known |= {q.name: ("q", i) for i, q in enumerate(info.coordinates)}
+    known |= {v.name: ("v", i) for i, v in enumerate(info.velocities)}
+    return known
+
+
+def accelerations(e: Evaluated, basis: Array, inverse: Array) -> tuple[Array, Array]:
+    """Return v' and the multipliers from the descriptor form evaluated with v' = 0 and no multipliers."""
+    mass, force, gap = e.by("balance", "a"), e.value("balance"), e.value("accelerations")
+    a = -inverse @ gap
+    heavy = basis.T @ mass @ basis
+    if len(heavy):
+        a = a - basis @ _solved(heavy, basis.T @ (force + mass @ a))
+    return a, -inverse.T @ (force + mass @ a)
+
+
+def _solved(heavy: Array, right: Array) -> Array:
+    try:
+        return np.asarray(np.linalg.solve(heavy, right), dtype=np.float64)
+    except np.linalg.LinAlgError:
+        raise AnalysisError("nothing determines the accelerations: a body without mass is free to move") from None
+
+
+def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
+    """Return how everything changes near a state that satisfies the constraints.
+
+    Parameters
+    ----------
+    subject : Subject
+        The mechanism.
+    y : Array
+        The state: q and v.
+    t : float, optional
+        Time [s]; that of the start unless given.
+
+    Raises
+    ------
+    InputError
+        If an input moves a joint: its rates would be inputs as well.
+    AnalysisError
+        If nothing determines the accelerations.
+    """
+    now = subject.t if t is None else t
+    first = subject.evaluated(y, t=now)
+    d = first.by("velocities", "v")
+    basis, inverse, _ = split(d)
+    a, lam = accelerations(first, basis, inverse)
+    e = subject.evaluated(y, a, lam, now)
+    places = inputs_of(subject)
+    for group in ("velocities", "positions"):
+        if np.any(e.by(group, "p")[:, places]):
+            raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
+    motion, mass = e.by("motion", "v"), e.by("balance", "a")
+    free = split(d[subject.holonomic])[0]
+    positions, velocities, inputs = free.shape[1], basis.shape[1], len(places)
+    width = positions + velocities + inputs
+    q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
+    q[:, :positions] = motion @ free
+    v[:, :positions] = -inverse @ (e.by("velocities", "q") @ q[:, :positions])
+    v[:, positions : positions + velocities] = basis
+    force = e.by("balance", "q") @ q + e.by("balance", "v") @ v
+    gap = e.by("accelerations", "q") @ q + e.by("accelerations", "v") @ v
+    force[:, positions + velocities :] += e.by("balance", "p")[:, places]
+    gap[:, positions + velocities :] += e.by("accelerations", "p")[:, places]
+    rates = -inverse @ gap
+    if velocities:
+        rates = rates - basis @ _solved(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
+    multipliers = -inverse.T @ (force + mass @ rates)
+    q_rates = e.by("motion", "q") @ q + motion @ v
+    back = np.linalg.pinv(motion @ free)
+    states = np.eye(positions + velocities, width)
+    state_rates = np.vstack([back @ q_rates, basis.T @ rates])
+    drift = np.concatenate([back @ e.value("motion"), basis.T @ a])
+    return Tangent(
+        *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
+        *(states, state_rates, drift),
+    )

@@ -1,0 +1,295 @@
+"""Motions that stay what they are: at rest, or steady in what is looked at.
+
+A linear system with constant matrices exists about a state where what is looked at, the states, does not change, and
+where the rates of the states depend on nothing else. Turning wheels, a heading, a distance travelled may change
+meanwhile: they are cyclic. Both is asked at the state and again a little later on the motion.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.analyses.algebra import split
+from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
+from symgen.analyses.subject import RATE, Subject
+from symgen.errors import AnalysisError, InputError
+from symgen.ir.program import COUNTERS
+from symgen.runtime import abi
+from symgen.runtime.probe import Ready
+
+Array = NDArray[np.float64]
+
+#: Rates below this fraction of the motion's own count as none.
+STILL = 1e-7
+#: How far one quantity may follow from others, as a fraction of it.
+CLOSED = 1e-8
+#: The same later on, where the motion was followed by steps: their error is in it.
+LATER = 1e-4
+#: Radians, or lengths of the mechanism, between the instants at which is asked again.
+APART = 0.7
+#: Steps between them; a motion with an eigenvalue that asks for more is stiff.
+STEPS = 60
+
+
+def at_rest(subject: Subject, x: Tangent) -> bool:
+    """Whether nothing moves at a state, nor begins to, nor is driven."""
+    moving = np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)
+    if moving > STILL * (1.0 + _speed_of_change(subject)):
+        return False
+    driven = max(np.abs(x.base.by(g, "t")).max(initial=0.0) for g in ("balance", "velocities", "accelerations"))
+    return bool(np.abs(x.a).max(initial=0.0) <= _limit(subject, x) and driven == 0.0)
+
+
+def _speed_of_change(subject: Subject) -> float:
+    return float(np.sqrt(9.81 / subject.length))
+
+
+def _limit(subject: Subject, x: Tangent) -> float:
+    """Return the rate of a velocity that counts as none."""
+    free = np.abs(x.base.value("balance") - x.base.by("balance", "a") @ x.a).max(initial=0.0)
+    heavy = np.abs(np.diag(x.base.by("balance", "a")))
+    lightest = heavy[heavy > 0.0].min(initial=1.0)
+    scale = max(1.0, float(np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)) ** 2)
+    return float(STILL * max(scale, min(1e3, free / lightest)))
+
+
+def still(subject: Subject, x: Tangent, quantity: Quantity) -> bool:
+    """Whether a quantity does not change at a state."""
+    speed = np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)
+    return abs(quantity.rate) <= max(_limit(subject, x), STILL * float(speed))
+
+
+def rates_of(subject: Subject, name: str) -> str | None:
+    """Return what the rate of a coordinate is called, None where it has no name or the quantity is a velocity."""
+    info = subject.compiled.info
+    names = [q.name for q in info.coordinates]
+    if name in names:
+        velocity = _velocity_of(subject, names.index(name))
+        if velocity is not None:
+            return velocity
+    if name in subject.form.functions and subject.form.functions[name][1] == 3:
+        return name + RATE
+    return None
+
+
+def _velocity_of(subject: Subject, at: int) -> str | None:
+    """Return the velocity that a coordinate's rate is, None where it is a combination of several."""
+    entries, _, columns = subject.form.entries("motion", "v")
+    rows = subject.form.pattern[entries, 0] - subject.form.places["motion"][0]
+    found = columns[rows == at]
+    spinning = any(first <= at < first + 4 for first, _ in subject.compiled.info.spins)
+    return subject.compiled.info.velocities[int(found[0])].name if len(found) == 1 and not spinning else None
+
+
+def with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
+    """Return states with the rates of coordinates among them that are not named themselves behind them.
+
+    Raises
+    ------
+    InputError
+        If a name means nothing.
+    """
+    known = quantities_of(subject)
+    own = {q.name for q in subject.compiled.info.coordinates}
+    found = list(dict.fromkeys(names))
+    for name in tuple(found):
+        if name in own or (name in subject.form.functions and subject.form.functions[name][1] == 3):
+            rate = rates_of(subject, name)
+            other = name + RATE
+            if rate is None:
+                expected = "a state whose rate has a name: a coordinate of a body or joint, or an output"
+                raise InputError(f"state '{name}'", expected, "one of several that turn a body together")
+            if rate not in found and not (other in found and other in known):
+                found.append(other if other in known and name not in own else rate)
+    return tuple(found)
+
+
+def chosen(subject: Subject, x: Tangent) -> tuple[str, ...]:
+    """Return names of states that determine all others, coordinates before velocities."""
+    info = subject.compiled.info
+    turning = {first + k for first, _ in info.spins for k in range(4)}
+    candidates: dict[str, float] = {}
+    for i, q in enumerate(info.coordinates):
+        candidates[q.name] = 0.2 if i in turning else 1.0 / subject.length if q.unit == "m" else 1.0
+    joints = {name: unit for name, unit in subject.form.units.items() if subject.form.functions[name][1] == 3}
+    for name, unit in joints.items():
+        if name not in {o.name for o in subject.mechanism.outputs}:
+            candidates[name] = 0.9 / subject.length if unit == "m" else 0.9
+    positions = _independent(x, candidates, x.positions, slice(0, x.positions))
+    rates = [rates_of(subject, name) for name in positions]
+    if x.positions == x.velocities and None not in rates:
+        return (*positions, *(r for r in rates if r is not None))
+    known = {v.name: 1.0 / subject.length if v.unit == "m/s" else 1.0 for v in info.velocities}
+    known |= {name + RATE: weight for name, weight in candidates.items() if name in joints}
+    return (*positions, *_independent(x, known, x.velocities, slice(x.positions, x.size)))
+
+
+def _independent(x: Tangent, weights: dict[str, float], count: int, columns: slice) -> list[str]:
+    from scipy import linalg
+
+    if not count:
+        return []
+    names = list(weights)
+    rows = np.array([x.quantity(name).changes[columns] * weights[name] for name in names])
+    order = linalg.qr(rows.T, mode="r", pivoting=True)[1]
+    return [names[i] for i in sorted(order[:count])]
+
+
+def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+    """Return A and B of named states, what of their rates depends on something else, and that something's size.
+
+    Returns
+    -------
+    a, b : Array
+        x' = A x + B u.
+    rest : Array, shape (n, size)
+        What of the states' rates does not follow from the states.
+    sizes : Array, shape (n,)
+        What it is compared with.
+    """
+    found = [x.quantity(name) for name in names]
+    n = x.size
+    states = np.array([q.changes for q in found]).reshape(len(found), -1)
+    rates = np.array([q.rate_changes for q in found]).reshape(len(found), -1)
+    a = np.linalg.lstsq(states[:, :n].T, rates[:, :n].T, rcond=1e-11)[0].T
+    rest = rates[:, :n] - a @ states[:, :n]
+    return a, rates[:, n:] - a @ states[:, n:], rest, 1e-300 + np.abs(rates[:, :n]).max(initial=0.0) + np.zeros(len(a))
+
+
+def found_states(subject: Subject, x: Tangent) -> tuple[str, ...]:
+    """Return the named quantities that do not change and whose rates follow from each other: the steady ones."""
+    turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if _of_spin(subject, i)}
+    names = [n for n in quantities_of(subject) if n not in turning and still(subject, x, x.quantity(n))]
+    while names:
+        _, _, rest, sizes = system(x, names)
+        follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * sizes
+        kept = [name for name, one in zip(names, follows, strict=True) if one]
+        if kept == names:
+            break
+        names = kept
+    independent = list[str]()
+    basis = np.zeros((0, x.size))
+    for name in names:
+        row = x.quantity(name).changes[: x.size]
+        left = row - basis.T @ (basis @ row)
+        size = float(np.linalg.norm(row))
+        if size > 1e-12 and float(np.linalg.norm(left)) > 1e-7 * size:
+            basis = np.vstack([basis, left / np.linalg.norm(left)])
+            independent.append(name)
+    return tuple(independent)
+
+
+def _of_spin(subject: Subject, at: int) -> bool:
+    return any(first <= at < first + 4 for first, _ in subject.compiled.info.spins)
+
+
+def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str) -> None:
+    """Refuse a motion in which states change, or depend on what is no state.
+
+    Raises
+    ------
+    InputError
+        If it is not steady; says which state changes, or what is missing among the states.
+    """
+    _check_still(subject, x, names, where)
+    a, _, rest, sizes = system(x, names)
+    worst = np.abs(rest).max(axis=1, initial=0.0) / sizes
+    if len(names) and worst.max() > CLOSED:
+        name = names[int(worst.argmax())]
+        others = [n for n in quantities_of(subject) if n not in names]
+        gains = {n: _explains(x, rest[int(worst.argmax())], n) for n in others}
+        also = max(gains, key=lambda n: gains[n]) if gains else ""
+        raise InputError(
+            where,
+            "states whose rates follow from them",
+            f"'{name}', whose rate depends on others",
+            f"'{also}' is one of them",
+        )
+    if at_rest(subject, x):
+        return
+    then = x
+    for _ in range(2):
+        y, t = later(subject, then)
+        then = tangent(subject, y, t)
+        b = system(then, names)[0]
+        if not np.abs(b - a).max(initial=0.0) <= LATER * (1.0 + np.abs(a).max(initial=0.0)):
+            expected = "a steady motion, about which everything that is looked at stays as it is"
+            raise InputError(where, expected, f"one whose linear system is another at t = {t:.4g} s")
+        for name in names:
+            now, before = then.quantity(name), x.quantity(name)
+            if not abs(now.value - before.value) <= LATER * (1.0 + abs(before.value)):
+                raise InputError(where, "a steady motion", f"one in which '{name}' changes until t = {t:.4g} s")
+
+
+def _explains(x: Tangent, row: Array, name: str) -> float:
+    own = x.quantity(name).changes[: x.size]
+    size = np.linalg.norm(own)
+    return float(abs(own @ row) / size) if size > 0.0 else 0.0
+
+
+def _check_still(subject: Subject, x: Tangent, names: Sequence[str], where: str) -> None:
+    moving = [q for name in names if not still(subject, x, q := x.quantity(name))]
+    if moving:
+        worst = max(moving, key=lambda q: abs(q.rate))
+        expected = "a state of rest, or of a motion in which no state changes"
+        hint = "ask for an equilibrium, or name the states that stay as they are"
+        raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)
+
+
+def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
+    """Return the state a little later on the motion, and its time: followed by steps, and projected behind them."""
+    nq, nv, y = subject.nq, subject.nv, x.y
+    kept = ~subject.redundant
+
+    rhs, w = Ready(subject.compiled.law_module.rhs, abi.RHS), subject.w.copy()
+    iw, whole = np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
+
+    def slope(t: float, z: Array) -> Array:
+        rhs(t, _filled(y, z), subject.p, w, iw, whole)
+        return whole[: nq + nv].copy()
+
+    speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))
+    end = x.t + APART / speed
+    fastest = np.abs(np.linalg.eigvals(x.matrix)).max(initial=0.0)
+    stiff = fastest * APART / speed > STEPS
+    z = (_by_implicit_steps if stiff else _by_steps)(slope, x.t, end, y[: nq + nv])
+    y = subject.moved(_filled(y, z), np.zeros(nq))
+    for _ in range(4):
+        e = subject.evaluated(y, t=end)
+        inverse = split(e.by("velocities", "v") * kept[:, None])[1]
+        y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * kept)))
+    e = subject.evaluated(y, t=end)
+    y[nq : nq + nv] -= split(e.by("velocities", "v") * kept[:, None])[1] @ (e.value("velocities") * kept)
+    return y, end
+
+
+def _by_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array) -> Array:
+    """Return what Runge's, Heun's and Kutta's steps lead to."""
+    step = (end - t) / STEPS
+    for i in range(STEPS):
+        now = t + i * step
+        k1 = slope(now, z)
+        k2 = slope(now + 0.5 * step, z + 0.5 * step * k1)
+        k3 = slope(now + 0.5 * step, z + 0.5 * step * k2)
+        k4 = slope(now + step, z + step * k3)
+        z = z + step / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+    return z
+
+
+def _by_implicit_steps(slope: Callable[[float, Array], Array], t: float, end: float, z: Array) -> Array:
+    """Return the same of a stiff motion."""
+    from scipy.integrate import solve_ivp
+
+    run = solve_ivp(lambda t, z: slope(float(t), z), (t, end), z, method="Radau", rtol=1e-8, atol=1e-10)
+    if not run.success:
+        raise AnalysisError(f"the motion cannot be followed beyond t = {run.t[-1]:.4g} s: {run.message}")
+    return np.asarray(run.y[:, -1], dtype=np.float64)
+
+
+def _filled(y: Array, z: Array) -> Array:
+    found = y.copy()
+    found[: len(z)] = z
+    return found

@@ -1,0 +1,201 @@
+"""What an analysis is about: a mechanism with its descriptor form, its parameters and a state to begin with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
+from symgen.compiling.pipeline import compile_model
+from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.holds import holds_of
+from symgen.describe.start import described_start
+from symgen.errors import AssemblyError, InputError, nearest
+from symgen.plan import Plan, make_plan
+from symgen.run_setup import give_inputs, held_of, ready
+from symgen.runtime import abi
+from symgen.settings import Settings
+from symgen.tree_run import tree_run
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.compiled import CompiledModel
+
+Array = NDArray[np.float64]
+
+#: What a name of a rate ends in.
+RATE = ".rate"
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A mechanism, ready to be analysed.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With its tree where the state is that of joints.
+    compiled : CompiledModel
+        Names, sizes and sections; its functions close starts.
+    form : DescriptorForm
+        The descriptor form with its derivatives.
+    t : float
+        Time [s].
+    y : Array
+        The state at the start: q, v, and what stands behind.
+    p, w : Array
+        Parameters and scratch.
+    notes : tuple of str
+        What was changed to close the mechanism.
+    closed : bool
+        Whether the start satisfies the constraints.
+    """
+
+    mechanism: Mechanism
+    compiled: CompiledModel
+    form: DescriptorForm
+    t: float
+    y: Array
+    p: Array
+    w: Array
+    notes: tuple[str, ...] = ()
+    closed: bool = True
+
+    @property
+    def coordinates(self) -> str:
+        """``absolute``, or ``joint`` where the state is that of a tree."""
+        return "absolute" if self.mechanism.topology is None else "joint"
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return self.compiled.info.nq
+
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+        return self.compiled.info.nv
+
+    @property
+    def m(self) -> int:
+        """Number of constraint rows."""
+        return self.compiled.info.m
+
+    @property
+    def length(self) -> float:
+        """Length of the mechanism [m]."""
+        return float(self.w[abi.LENGTH]) or 1.0
+
+    @property
+    def holonomic(self) -> NDArray[np.bool_]:
+        """Which rows restrict positions."""
+        return np.array([row.holonomic for row in self.compiled.info.rows], dtype=np.bool_)
+
+    @property
+    def redundant(self) -> NDArray[np.bool_]:
+        """Which rows depend on others at the start and near it."""
+        return np.asarray(self.compiled.section(self.w, "mask") > 0.0)
+
+    @property
+    def state_names(self) -> tuple[str, ...]:
+        """Names of q and v."""
+        info = self.compiled.info
+        return (*(q.name for q in info.coordinates), *(v.name for v in info.velocities))
+
+    def evaluated(
+        self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None
+    ) -> Evaluated:
+        """Evaluate the descriptor form; v' and the multipliers are 0 unless given."""
+        w = self.w.copy()
+        self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
+        rates = np.zeros(self.nv) if a is None else a
+        return self.form.at(self.t if t is None else t, y, rates, self.p, w)
+
+    def moved(self, y: Array, change: Array) -> Array:
+        """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""
+        found = y.copy()
+        found[: self.nq] += change
+        for first, _ in self.compiled.info.spins:
+            found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
+        return found
+
+    def position(self, name: str) -> tuple[str, int]:
+        """Return where a coordinate stands: ``q`` and its index, or ``functions`` and the place of its value.
+
+        Raises
+        ------
+        InputError
+            If there is none of that name.
+        """
+        names = [q.name for q in self.compiled.info.coordinates]
+        if name in names:
+            return "q", names.index(name)
+        known = {f for f, (_, orders) in self.form.functions.items() if orders == 3}
+        if name in known:
+            return "functions", self.form.functions[name][0]
+        expected = f"a coordinate of {self.mechanism.name}"
+        raise InputError(f"'{name}'", expected, "none of that name", nearest(name, {*names, *known}))
+
+    def named(self, y: Array) -> dict[str, float]:
+        """Return the coordinates by name: the state's own, those of bodies where a tree carries them, and of joints."""
+        info, found = self.compiled.info, self.evaluated(y).value("functions")
+        result = {q.name: float(x) for q, x in zip(info.coordinates, y, strict=False)}
+        shown = {f"{b.name}.{c}" for b in self.mechanism.bodies for c in b.coordinates}
+        shown |= {f"{joint.name}.{label}" for joint in self.mechanism.joints for label, _ in joint.coordinates}
+        for name, (at, _) in self.form.functions.items():
+            if name in shown:
+                result[name] = float(found[at])
+        return result
+
+
+def subject_of(mechanism: Mechanism, settings: Settings) -> Subject:
+    """Return a mechanism with its start, ready to be analysed.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
+
+    Raises
+    ------
+    InputError
+        If a setting is wrong.
+    """
+    given = give_inputs(mechanism, settings)
+    mechanism, settings = given.mechanism, replace(given.settings, shape="straight")
+    plan = make_plan(mechanism, settings)
+    notes: tuple[str, ...] = ()
+    closed = True
+    if plan.coordinates == "joint":
+        tree = tree_run(mechanism, plan, settings.parameters)
+        mechanism, compiled, start = tree.mechanism, tree.compiled, tree.start
+        t, y, p, w, notes = start.t, start.y, start.p, start.w, start.notes
+    else:
+        try:
+            compiled, start = ready(mechanism, plan, settings.parameters)
+            t, y, p, w, notes = start.t, start.y, start.p, start.w, start.notes
+        except AssemblyError:
+            compiled, y, p, w = _open(mechanism, plan, settings)
+            t, closed = 0.0, False
+    form = compile_linearised(mechanism, compiled, mechanism.inputs)
+    return Subject(mechanism, compiled, form, t, y.copy(), p.copy(), w.copy(), notes, closed)
+
+
+def _open(mechanism: Mechanism, plan: Plan, settings: Settings) -> tuple[CompiledModel, Array, Array, Array]:
+    """Return what is described where nothing closes: a static search closes it as it goes on."""
+    compiled = compile_model(mechanism, plan.choice)
+    info, values = compiled.info, parameter_values(mechanism, settings.parameters)
+    numbers = scalars(values)
+    q, v = described_start(mechanism, numbers)
+    held = held_of(info, plan.holds or holds_of(mechanism), numbers, v)
+    y, w = np.zeros(info.ny), compiled.scratch()
+    y[: info.nq] = q
+    for i, value in held.coordinates.items():
+        y[i] = value
+    w[abi.LENGTH] = max(1e-300, float(np.ptp(np.array(q)))) or 1.0
+    return compiled, y, compiled.parameter_array(values, plan.method_parameters), w

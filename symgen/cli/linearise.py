@@ -1,0 +1,69 @@
+"""``symgen linearise MODEL``: a linear system about a state."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from symgen.cli import OK, write_json
+from symgen.cli._analyses import names, place_options
+from symgen.cli._options import json_option
+from symgen.settings import Settings
+
+if TYPE_CHECKING:
+    from symgen.analyses.linearise import LinearSystem
+
+
+@click.command("linearise", short_help="Find the linear system x' = A x + B u, y = C x + D u about a state.")
+@click.argument("model")
+@place_options
+@click.option("--instantaneous", is_flag=True, help="Give the system of the instant where a motion is not steady.")
+@json_option
+def command(
+    model: str, at: str, states: str | None, cyclic: str | None, instantaneous: bool, as_json: bool, **asked: Any
+) -> int:
+    """Find the linear system of MODEL about a state of rest or of steady motion.
+
+    Inputs are those of the file, outputs its formulas. A motion in which states change is refused.
+    """
+    from symgen.api import load
+
+    loaded = load(model)
+    found = loaded.linearise(
+        Settings(**asked),
+        at=at,
+        states=names("--states", states),
+        cyclic=names("--cyclic", cyclic),
+        instantaneous=instantaneous,
+    )
+    if as_json:
+        write_json({"mechanism": loaded.name, **found.to_dict()})
+    else:
+        _show(found)
+    return OK
+
+
+def _show(found: LinearSystem) -> None:
+    from rich.table import Table
+
+    from symgen.cli._tables import console
+
+    matrices = (
+        ("x' = A x", found.states, found.states, found.A),
+        ("+ B u", found.states, found.inputs, found.B),
+        ("y = C x", found.outputs, found.states, found.C),
+        ("+ D u", found.outputs, found.inputs, found.D),
+    )
+    for title, rows, columns, values in matrices:
+        if not values.size:
+            continue
+        table = Table(box=None, header_style="dim", pad_edge=False)
+        table.add_column(title)
+        for name in columns:
+            table.add_column(name, justify="right")
+        for name, row in zip(rows, values, strict=True):
+            table.add_row(name, *(f"{x:.6g}" for x in row))
+        console().print(table)
+    if found.left_out:
+        click.echo(f"outputs left out, as they depend on more than the states: {', '.join(found.left_out)}")

@@ -1,0 +1,201 @@
+"""The descriptor form with its exact derivatives, compiled on demand beside a model's modules.
+
+The function is evaluated a few times an analysis, so it is plain Python; SymPy and Jinja2 are imported only where the
+cache has no entry.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.pipeline import folder_of, generator_digest
+from symgen.compiling.side import READ
+from symgen.describe.mechanism import Mechanism
+from symgen.errors import InputError
+from symgen.lower.windings import winding_order
+from symgen.runtime.compiled import CompiledModel
+from symgen.store.entries import Entries
+from symgen.store.modules import interpreted, load_module
+
+Array = NDArray[np.float64]
+
+#: Name of the emitted function, and what its module is called after.
+NAME = "linearised"
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """Values and derivatives at one state, by group.
+
+    Attributes
+    ----------
+    form : DescriptorForm
+        What was evaluated.
+    out : Array
+        All numbers.
+    """
+
+    form: DescriptorForm
+    out: Array
+
+    def value(self, group: str) -> Array:
+        """Return the values of a group."""
+        first, size = self.form.places[group]
+        return self.out[first : first + size]
+
+    def by(self, group: str, space: str) -> Array:
+        """Return the derivatives of a group by ``t``, ``q``, ``v``, ``a``, ``lam`` or ``p``, shape (values, size)."""
+        first, size = self.form.places[group]
+        found = np.zeros((size, self.form.widths[space]))
+        entries, rows, columns = self.form.entries(group, space)
+        found[rows - first, columns] = self.out[self.form.values + entries]
+        return found
+
+
+@dataclass(frozen=True)
+class DescriptorForm:
+    """The function and where its numbers belong.
+
+    Attributes
+    ----------
+    function : compiled function
+        ``(t, y, p, w, ydot, out)``.
+    places : mapping of str to (int, int)
+        Group -> first value and how many; groups of `symgen.lower.linearised`, and ``functions``.
+    widths : mapping of str to int
+        Numbers of each space.
+    functions : mapping of str to (int, int)
+        Quantity of the state -> its place in ``functions``, and how many of value, rate and second rate are known.
+    units : mapping of str to str
+        Their units.
+    elements : tuple of (str, int)
+        Force and velocity of each value of the group ``elements``.
+    spaces : tuple of str
+        Names of the spaces, by number.
+    pattern : Array of int64, shape (n, 3)
+        Value, space and index of each derivative.
+    """
+
+    function: Any
+    places: Mapping[str, tuple[int, int]]
+    widths: Mapping[str, int]
+    functions: Mapping[str, tuple[int, int]]
+    units: Mapping[str, str]
+    elements: tuple[tuple[str, int], ...]
+    pattern: NDArray[np.int64]
+    spaces: tuple[str, ...]
+
+    @property
+    def values(self) -> int:
+        """How many values stand before the derivatives."""
+        return sum(size for _, size in self.places.values())
+
+    @cached_property
+    def _split(self) -> dict[tuple[str, str], tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]]:
+        found = {}
+        for group, (first, size) in self.places.items():
+            inside = (self.pattern[:, 0] >= first) & (self.pattern[:, 0] < first + size)
+            for k, space in enumerate(self.spaces):
+                entries = np.flatnonzero(inside & (self.pattern[:, 1] == k))
+                found[group, space] = entries, self.pattern[entries, 0], self.pattern[entries, 2]
+        return found
+
+    def entries(self, group: str, space: str) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Return number, value and index of each derivative of a group by a space."""
+        return self._split[group, space]
+
+    @cached_property
+    def _plain(self) -> Any:
+        return interpreted(self.function)
+
+    def at(self, t: float, y: Array, a: Array, p: Array, w: Array) -> Evaluated:
+        """Evaluate at a state.
+
+        Parameters
+        ----------
+        t : float
+            Time [s].
+        y : Array
+            q and v, and whatever stands behind.
+        a : Array, shape (nv,)
+            v'.
+        p, w : Array
+            Parameters, and scratch with the multipliers in their section.
+        """
+        out = np.zeros(self.values + len(self.pattern))
+        rates = np.concatenate([np.zeros(self.widths["q"]), a])
+        with np.errstate(all="ignore"):
+            self._plain(t, y, p, w, rates, out)
+        return Evaluated(self, out)
+
+
+def compile_linearised(
+    mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...] = (), entries: Entries | None = None
+) -> DescriptorForm:
+    """Return the descriptor form of a mechanism with its derivatives, generated only if the cache does not have it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is analysed, with its tree where the state is that of joints.
+    compiled : CompiledModel
+        The model that it is evaluated beside: its ``p`` and ``w``.
+    by : tuple of str
+        Parameters that it is differentiated by.
+    entries : Entries, optional
+        The cache; by default the user's.
+
+    Raises
+    ------
+    InputError
+        If numbers that meet in a formula overflow.
+    """
+    store = Entries() if entries is None else entries
+    info = compiled.info
+    turning = winding_order(mechanism, compiled.shape)
+    sections = {section: info.sections[section] for section in READ if section in info.sections}
+    rows = {row.name: i for i, row in enumerate(info.rows)}
+    folder = folder_of(mechanism)
+    text = "\n".join([str(sorted(sections.items())), str(rows), repr(turning), str(by), generator_digest()])
+    stem = f"{NAME}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    known = store.get(folder, stem)
+    if known is None:
+        with store.building(folder):
+            known = store.get(folder, stem)  # another process may have built it while this one waited
+            if known is None:
+                from symgen.emit.side import emit_side
+                from symgen.lower.linearised import lower_linearised
+
+                try:
+                    program = lower_linearised(mechanism, by, turning, sections, rows)
+                except OverflowError:
+                    expected = "numbers whose products, sums and quotients are finite"
+                    raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
+                known = {
+                    "sizes": list(program.sizes.items()),
+                    "pattern": [list(place) for place in program.pattern],
+                    "elements": [list(place) for place in program.elements],
+                    "functions": [[f.name, f.unit, f.orders] for f in program.functions],
+                }
+                store.put(folder, stem, emit_side(program.side), known)
+    spaces = ("t", "q", "v", "a", "lam", "p")
+    places, first = dict[str, tuple[int, int]](), 0
+    functions, units, at = dict[str, tuple[int, int]](), dict[str, str](), 0
+    for name, unit, orders in known["functions"]:
+        functions[name], units[name] = (at, orders), unit
+        at += orders
+    for group, size in (*known["sizes"], ("functions", at)):
+        places[group] = first, size
+        first += size
+    widths = {"t": 1, "q": info.nq, "v": info.nv, "a": info.nv, "lam": info.m, "p": len(info.parameters)}
+    pattern = np.array([(i, spaces.index(space), k) for i, space, k in known["pattern"]], dtype=np.int64).reshape(-1, 3)
+    function = getattr(load_module(store.path(folder, stem)), NAME)
+    elements = tuple((str(name), int(i)) for name, i in known["elements"])
+    return DescriptorForm(function, places, widths, functions, units, elements, pattern, spaces)

@@ -1,0 +1,198 @@
+"""The descriptor form of a mechanism with its exact derivatives, as one function in a module of its own.
+
+Analyses ask for it: equilibria, linear systems, modes. Everything is differentiated on the graph, operation by
+operation, so nothing is expanded and nothing is approximated; multipliers are inputs, so that what they add to the
+stiffness is there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from symgen.describe.mechanism import Mechanism
+from symgen.formulate.efforts import exertion
+from symgen.formulate.equations import Equations
+from symgen.formulate.formulate import formulate
+from symgen.ir.derivative import Key, jacobian
+from symgen.ir.program import Block, Target
+from symgen.lower.side import SideModel, SideProgram, moved, side_program
+from symgen.vocabulary.measures import Measure
+
+#: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
+#: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
+#: What single forces add to the balance follows as ``elements``.
+#: Name of the emitted function.
+NAME = "linearised"
+
+
+@dataclass(frozen=True)
+class Function:
+    """A quantity of the state by name: its value, its rate and the rate of that.
+
+    `orders` counts which of the three there are: a quantity of positions has all of them, one of velocities two, as
+    the rate of v' is not known; one of accelerations or multipliers its value alone.
+    """
+
+    name: str
+    unit: str
+    orders: int
+
+
+@dataclass(frozen=True)
+class LinearisedProgram:
+    """A side program with what its outputs are.
+
+    Attributes
+    ----------
+    side : SideProgram
+        One function: all values, then all structural nonzeros of their derivatives.
+    sizes : mapping of str to int
+        Values of each group, in their order.
+    pattern : tuple of (int, str, int)
+        Value, space (``t``, ``q``, ``v``, ``a``, ``lam``, ``p``) and index of each derivative.
+    elements : tuple of (str, int)
+        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
+    functions : tuple of Function
+        Coordinates of joints and outputs of the file; their values stand behind the groups, order by order.
+    """
+
+    side: SideProgram
+    sizes: Mapping[str, int]
+    pattern: tuple[tuple[int, str, int], ...]
+    elements: tuple[tuple[str, int], ...]
+    functions: tuple[Function, ...]
+
+
+def lower_linearised(
+    mechanism: Mechanism,
+    by: Sequence[str],
+    turning: Sequence[Measure],
+    sections: Mapping[str, tuple[int, int]],
+    rows: Mapping[str, int],
+) -> LinearisedProgram:
+    """Lower the descriptor form with its derivatives.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism, with or without a tree.
+    by : sequence of str
+        Parameters that it is differentiated by, beside t, q, v, v' and lambda.
+    turning, sections, rows
+        As for `symgen.lower.side.lower_side`.
+
+    Raises
+    ------
+    OverflowError
+        If numbers that meet in a formula overflow.
+    """
+    equations = formulate(mechanism)
+    model = SideModel(mechanism, turning=turning, rows=rows)
+    g = model.graph
+    values = _descriptor(model, equations)
+    sizes = {name: len(nodes) for name, nodes in values.items()}
+    elements, parts = _elements(model)
+    values, sizes = values | {"elements": parts}, sizes | {"elements": len(parts)}
+    functions, nodes = _functions(model, equations)
+    outputs = [node for group in sizes for node in values[group]] + nodes
+    names = [p.name for p in mechanism.parameters]
+    spaces = {"t": "t", "q": "q", "v": "v", "ydot": "a", "multipliers": "lam", "p": "p"}
+    nq, nv = equations.nq, equations.nv
+    keys: list[Key] = [("t", 0)]
+    keys += [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
+    keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
+    keys += [("p", names.index(name)) for name in by]
+    pattern, derivatives = [], []
+    for i, slopes in enumerate(jacobian(g, outputs, keys)):
+        for space, index in sorted(slopes):
+            pattern.append((i, spaces[space], index - nq if space == "ydot" else index))
+            derivatives.append(slopes[space, index])
+    graph, images = moved(g, [*outputs, *derivatives])
+    targets = tuple((Target("out", i), image) for i, image in enumerate(images))
+    purpose = "The descriptor form with its derivatives"
+    block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
+    labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]
+    labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
+    side = side_program(mechanism, (block,), sections, labels)
+    return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
+
+
+def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
+    """Return the nodes of each group in the graph of formulas."""
+    g = model.graph
+    wanted = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
+    wanted += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
+    wanted += [n for row in e.rows for _, n in row.entries]
+    keys = {
+        key: g.input(*key)
+        for n in e.graph.needed(wanted)
+        if e.graph.nodes[n].op == "input" and isinstance(key := e.graph.nodes[n].payload, tuple)
+    }
+    image = dict(zip(wanted, g.inline(e.graph, wanted, keys), strict=True))
+    velocities = [g.input("v", i) for i in range(e.nv)]
+    rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]
+    balance = [g.neg(image[n]) for n in e.forces]
+    for block in e.mass:
+        for i, entries in zip(block.columns, block.entries, strict=True):
+            for j, n in zip(block.columns, entries, strict=True):
+                balance[i] = g.add(balance[i], g.mul(image[n], rates[j]))
+    found: dict[str, list[int]] = {"motion": [image[n] for n in e.q_rates], "balance": balance}
+    found |= {"accelerations": [], "velocities": [], "positions": []}
+    for k, row in enumerate(e.rows):
+        own = [(j, image[n]) for j, n in row.entries]
+        for j, n in own:
+            balance[j] = g.add(balance[j], g.mul(n, g.input("multipliers", k)))
+        found["accelerations"].append(g.sub(g.total(g.mul(n, rates[j]) for j, n in own), image[row.gamma]))
+        found["velocities"].append(g.sub(g.total(g.mul(n, velocities[j]) for j, n in own), image[row.nu]))
+        found["positions"].append(g.zero if row.phi is None else image[row.phi])
+    return found
+
+
+def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]:
+    """Return what each force element adds to the balance, velocity by velocity."""
+    if model.tree is not None:
+        return (), []
+    g, found = model.graph, dict[tuple[str, int], int]()
+    for force in model.mechanism.forces:
+        for effort in force.efforts:
+            exerted = exertion(model, effort)
+            for i, entry in sorted(exerted.row.items()):
+                key = force.name, i
+                found[key] = g.sub(found.get(key, g.zero), g.mul(entry, exerted.total))
+    return tuple(found), list(found.values())
+
+
+def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], list[int]]:
+    """Return coordinates of joints and outputs, and the nodes of their values and rates."""
+    found, nodes = list[Function](), list[int]()
+    named = [
+        (f"{joint.name}.{label}", joint.unit(label), model.measure(measure).value)
+        for joint in model.mechanism.joints
+        for label, measure in joint.coordinates
+    ]
+    if model.tree is not None:  # where bodies are carried their coordinates are quantities of the state as well
+        bodies = mechanism_bodies(model)
+        named += [(name, "", model.names[name]) for name in bodies]
+    named += [(o.name, o.unit, model.expression(o.value)) for o in model.mechanism.outputs]
+    for name, unit, value in named:
+        spaces = {
+            key[0]
+            for n in model.graph.needed([value])
+            if model.graph.nodes[n].op == "input" and isinstance(key := model.graph.nodes[n].payload, tuple)
+        }
+        if spaces & {"z", "status"}:
+            continue  # an integral has a history, not a value of the state
+        chain = [value]
+        for last in ("v", "ydot")[len(spaces & {"v"}) :] if not spaces & {"ydot", "multipliers"} else ():
+            chain += model.rates(chain[-1:])
+            if last == "ydot":
+                break
+        found.append(Function(name, unit, len(chain)))
+        nodes += chain
+    return tuple(found), nodes
+
+
+def mechanism_bodies(model: SideModel) -> list[str]:
+    """Return the names of coordinates and velocities of all bodies."""
+    return [f"{b.name}.{c}" for b in model.mechanism.bodies for c in (*b.coordinates, *b.speeds)]

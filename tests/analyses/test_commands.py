@@ -1,0 +1,90 @@
+"""Commands of analyses: keys of their JSON, tables, words of refusals and exit codes."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from symgen.cli import main
+
+
+@pytest.fixture
+def cli(capsys):
+    """Run the command line; return exit code, standard output and standard error."""
+
+    def run(*arguments):
+        code = main([str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+def facts(cli, *words):
+    code, out, err = cli(*words, "--json")
+    assert code == 0, err
+    return json.loads(out)
+
+
+KEYS = {"q", "stability", "omega_squared", "residual", "iterations", "multipliers", "not_unique"}
+
+
+def test_equilibria_as_programs_read_them(cli):
+    found = facts(cli, "equilibrium", "four-bar", "--scan", "crank.theta=lin(0,6.28,13)")["equilibria"]
+    assert [e["stability"] for e in found] == ["unstable", "stable"] and all(set(e) >= KEYS for e in found)
+    assert set(found[0]["multipliers"]) == {f"{j}.{c}" for j in "ABCD" for c in "xy"}
+    assert {"crank.theta", "rocker.x", "A.angle"} <= set(found[0]["q"])
+    (again,) = facts(cli, "equilibrium", "four-bar", "--start", "crank.theta=4.0", "--coordinates", "joint")[
+        "equilibria"
+    ]
+    assert again["q"]["crank.theta"] == pytest.approx(found[1]["q"]["crank.theta"], rel=1e-12)
+    assert set(again["q"]) >= set(found[0]["q"]) and set(again["multipliers"]) == set(found[0]["multipliers"])
+
+
+def test_modes_and_systems_as_programs_read_them(cli):
+    modes = facts(cli, "modes", "four-bar", "--start", "crank.theta=4.0")
+    (square,) = modes["omega_squared"]
+    assert modes["degrees_of_freedom"] == 1 and modes["eigenvalues"][0] == [0.0, pytest.approx(square**0.5)]
+    assert modes["eigenvalues"][1] == [0.0, pytest.approx(-(square**0.5))]
+    found = facts(cli, "linearise", "bicycle", "--at", "start", "--states", "lean,steer")
+    assert set(found) >= {"A", "B", "C", "D", "states", "inputs", "outputs"}
+    assert found["states"] == ["lean", "steer", "lean.rate", "steer.rate"] and found["inputs"] == ["steer_torque"]
+    assert found["outputs"] == ["lean", "steer"] and found["C"][0] == pytest.approx([1, 0, 0, 0], abs=1e-12)
+
+
+def test_tables_are_readable(cli, tmp_path):
+    code, out, _ = cli("equilibrium", "four-bar", "--start", "crank.theta=4.0")
+    assert code == 0 and out.startswith("stable; omega^2 [1/s^2]: 8.35") and "crank.theta" in out
+    code, out, _ = cli("modes", "four-bar", "--start", "crank.theta=4.0")
+    assert code == 0 and "1 degrees of freedom" in out and "coupler" in out and "%" in out
+    code, out, _ = cli("linearise", "bicycle", "--at", "start", "--states", "lean,steer")
+    assert code == 0 and "x' = A x" in out and "+ B u" in out and "steer.rate" in out
+    picture = tmp_path / "locus.svg"
+    words = ("modes", "four-bar", "--start", "crank.theta=4.0", "--over", "rocker_mass=lin(4,6,3)", "--plot", picture)
+    code, out, _ = cli(*words)
+    assert code == 0 and "rocker_mass" in out and picture.exists()
+    code, out, _ = cli("equilibrium", "flyball-governor", "--steady")
+    assert code == 0 and "hinge1.angle" in out
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "says"),
+    [
+        (("equilibrium", "four-bar", "--scan", "crank.theta"), 2, "NAME=VALUES"),
+        (("equilibrium", "four-bar", "--scan", "crank.theta=lin(0,6)"), 2, "lin(first, last, count)"),
+        (("equilibrium", "four-bar", "--scan", "crank.theta=lin(2,3,3)"), 1, "no equilibrium was found"),
+        (("equilibrium", "four-bar", "--scan", "rank.theta=lin(2,3,3)"), 2, "did you mean 'crank.theta'"),
+        (("equilibrium", "four-bar", "--start", "crank.thet=1"), 2, "did you mean 'crank.theta'"),
+        (("equilibrium", "four-bar", "--scan", "crank.theta=lin(2,3,3)", "--steady"), 2, "at rest"),
+        (("modes", "four-bar", "--at", "start"), 2, "a state of rest"),
+        (("modes", "four-bar", "--at", "begin"), 2, "equilibrium, start, steady or a time"),
+        (("modes", "four-bar", "--plot", "x.svg"), 2, "--over"),
+        (("modes", "four-bar", "--over", "mass=lin(1,2,3)"), 2, "mass"),
+        (("linearise", "four-bar", "--states", "A.angel"), 2, "did you mean 'A.angle'"),
+        (("linearise", "four-bar", "--states", ","), 2, "words separated by commas"),
+    ],
+)
+def test_bad_use_ends_in_a_sentence(cli, words, code, says):
+    got, out, err = cli(*words)
+    assert got == code and not out and says in err and err.count("\n") == 1

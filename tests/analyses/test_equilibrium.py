@@ -1,0 +1,112 @@
+"""Equilibria: closed forms and minimal coordinates, stability, redundant rows, what is refused."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import minimize
+
+from analyses import rods
+from symgen.errors import AnalysisError, InputError
+
+#: The reference's four-bar: angles of the crank and squares of frequencies, by minimal coordinates with 30 digits.
+STABLE, UNSTABLE = (4.358800068629289, 22.57021890188508), (1.216140211569189, -14.27973070577865)
+#: Ten links of 2 m in all on pins 1 m apart: horizontal force [N], lowest joint [m], first angle [rad].
+CATENARY = (2.251170075733, -0.8043709982912, -1.321141266113)
+#: Starts of the links, none of which ends at the pin.
+STARTS = {
+    "straight": lambda i: 0.0,
+    "down": lambda i: -1.0,
+    "two arms": lambda i: -0.9 if i < 5 else 0.7,
+    "slope": lambda i: -0.3 + 0.1 * i,
+}
+
+
+@pytest.mark.parametrize("kind", rods.KINDS)
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_rod_hangs(kind, coordinates):
+    found = rods.hanging(kind).equilibrium(coordinates=coordinates)
+    swinging = [x for x in found.omega_squared if abs(x) > 1e-6]
+    assert_allclose(swinging, 14.715, rtol=1e-13)
+    assert len(swinging) == (2 if kind in ("ball", "distances in space") else 1)
+    # a rod on a ball turns about itself as it likes
+    assert found.stability == ("indifferent" if kind in ("ball", "distances in space") else "stable")
+    height = "rod.y" if "rod.y" in found.q and "rod.z" not in found.q else "rod.z"
+    assert_allclose(found.q[height], -0.5, rtol=1e-12)
+    assert found.residual < 1e-12
+    assert found.not_unique == (("pin", "again") if kind == "twice" else ())
+
+
+def test_a_rod_on_its_head_is_an_equilibrium_too():
+    found = rods.hanging("revolute").equilibrium(start={"rod.theta": math.pi / 2 - 0.05})
+    assert found.stability == "unstable"
+    assert_allclose(found.omega_squared, [-14.715], rtol=1e-13)
+    assert_allclose(found.q["rod.theta"], math.pi / 2, rtol=1e-14)
+    assert_allclose([found.multipliers["pin.x"], abs(found.multipliers["pin.y"])], [0.0, 19.62], atol=1e-12)
+
+
+@pytest.mark.parametrize("doubled", [False, True])
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_both_equilibria_of_a_four_bar(doubled, coordinates):
+    values = np.linspace(0.0, 2 * math.pi, 13)
+    first, second = rods.four_bar(doubled).equilibria(("crank.theta", values), coordinates=coordinates)
+    for found, (angle, square), word in ((first, UNSTABLE, "unstable"), (second, STABLE, "stable")):
+        assert_allclose(found.q["crank.theta"], angle, rtol=1e-12)
+        assert_allclose(found.omega_squared, [square], rtol=1e-12)
+        assert found.stability == word
+        assert found.not_unique == (("D", "D2", "link") if doubled else ())
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_links_hang_as_a_catenary(start):
+    found = rods.catenary(STARTS[start]).equilibrium()
+    ends = [found.q[f"l{i}.y"] - 0.1 * math.sin(found.q[f"l{i}.theta"]) for i in range(10)]
+    got = abs(found.multipliers["j0.x"]), min(ends), found.q["l0.theta"]
+    assert_allclose(got, CATENARY, rtol=1e-11)
+    assert found.iterations <= 30 and found.stability == "stable"
+
+
+def test_the_catenary_has_the_least_energy():
+    """The same with angles alone, by SciPy: heights of the middles under two conditions."""
+
+    def height(a):
+        y = np.concatenate([[0.0], np.cumsum(0.2 * np.sin(a))])
+        return np.sum(0.5 * (y[1:] + y[:-1]))
+
+    ends = [
+        {"type": "eq", "fun": lambda a: np.sum(0.2 * np.cos(a)) - 1.0},
+        {"type": "eq", "fun": lambda a: np.sum(0.2 * np.sin(a))},
+    ]
+    least = minimize(height, np.linspace(-1.2, 1.2, 10), constraints=ends, method="SLSQP", tol=1e-14).x
+    found = rods.catenary(STARTS["two arms"]).equilibrium()
+    assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
+
+
+def test_parameters_and_drivers_are_held():
+    spring = rods.mass_spring_damper()
+    assert_allclose(spring.equilibrium(inputs={"push": 400.0}).q["body.x"], 0.3 + 400 / 4000, rtol=1e-13)
+    assert_allclose(spring.equilibrium(parameters={"k": 100.0}).omega_squared, [100 / 1.6], rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("scan", "says"),
+    [
+        (("crank.thet", [0.0, 1.0]), "did you mean 'crank.theta'"),
+        (("crank.theta", [0.0]), "two values or more"),
+        ("crank.theta", "a pair of a name and its values"),
+        (("crank.x", [7.0, 9.0]), "values that the coordinate can have"),
+    ],
+)
+def test_bad_scans_are_refused(scan, says):
+    with pytest.raises(InputError, match=says):
+        rods.four_bar().equilibria(scan)
+
+
+def test_no_equilibrium_is_said():
+    with pytest.raises(AnalysisError, match=r"no equilibrium was found with crank\.theta from 2 to 3"):
+        rods.four_bar().equilibria(("crank.theta", [2.0, 2.5, 3.0]))
+    with pytest.raises(AnalysisError, match="no equilibrium was found from this start"):
+        rods.model({"free": {"type": "point", "mass": 1.0, "position": [0.0, 0.0]}}, {}).equilibrium()

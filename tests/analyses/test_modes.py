@@ -1,0 +1,143 @@
+"""Modes and linear systems at rest, by closed forms, SymPy's Linearizer, complex steps and minimal coordinates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+import sympy as sp
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.special import roots_laguerre
+from sympy.physics.mechanics import LagrangesMethod, ReferenceFrame, dynamicsymbols
+
+import symgen
+from analyses import bricard_alone, rods
+from symgen.errors import InputError
+
+
+@pytest.mark.parametrize("n", [2, 10, 40])
+def test_a_hanging_chain_has_the_zeros_of_laguerre_s_polynomial(n):
+    found = rods.chain(n).modes()
+    squares = rods.GRAVITY * roots_laguerre(n)[0]
+    assert found.degrees_of_freedom == n
+    assert_allclose(found.omega_squared, squares, rtol=1e-12)
+    assert_allclose(found.eigenvalues.imag[:n], np.sqrt(squares)[::-1], rtol=1e-12)
+    assert np.all(found.eigenvalues.real == 0.0)
+
+
+def test_shapes_are_normalised_and_tables_sum_to_one():
+    model = rods.chain(5)
+    found = model.modes()
+    gram = found.shapes.real @ found.shapes.real.T  # all masses are 1 kg
+    assert_allclose(gram, np.eye(5), atol=1e-12)
+    assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)
+    assert_allclose(sum(found.stiffening.values()), 1.0, rtol=1e-10)
+    share = found.participation["m4"][0]  # energies by hand: squares of the shape's components
+    lowest = found.shapes[0].real
+    assert_allclose(share, np.sum(lowest[-2:] ** 2), rtol=1e-12)
+    # links stiffen by what they carry: N (difference of displacements)^2 / l over omega^2
+    across = np.diff(np.concatenate([[0.0], lowest[::2]]))
+    links = np.array([found.stiffening[f"l{i}"][0] for i in range(5)])
+    assert_allclose(links, rods.GRAVITY * np.arange(5, 0, -1) * across**2 / found.omega_squared[0], rtol=1e-9)
+
+
+def test_bricard_s_redundant_row_is_harmless():
+    model = symgen.load("bricard")
+    rest = model.equilibrium()
+    found = model.modes()
+    square, slope = bricard_alone.square_at(math.pi / 2)
+    assert abs(slope) < 1e-12 and rest.not_unique  # the first rod has turned by a right angle
+    assert_allclose([rest.q["rod1.x"], rest.q["rod1.z"]], [0.0, -0.5], atol=1e-12)
+    assert_allclose(found.omega_squared, [square], rtol=1e-9)
+    assert_allclose(model.modes(coordinates="joint").omega_squared, [square], rtol=1e-9)
+
+
+def test_damped_eigenvalues_are_those_of_the_textbook():
+    model = rods.mass_spring_damper()
+    found, root = model.modes(), 50.0 * math.sqrt(1 - 0.05**2)
+    assert_allclose(found.eigenvalues, [-2.5 + 1j * root, -2.5 - 1j * root], rtol=1e-13)
+    assert not len(found.omega_squared)
+    assert_allclose([found.frequencies[0], found.damping[0]], [root / (2 * math.pi), 0.05], rtol=1e-12)
+
+
+def test_inputs_and_outputs_have_their_names():
+    model = rods.mass_spring_damper()
+    found = model.linearise(states=["body.x"])
+    assert (found.states, found.inputs, found.outputs) == (("body.x", "body.vx"), ("push",), ("where", "pull", "both"))
+    assert_allclose(found.A, [[0.0, 1.0], [-2500.0, -5.0]], rtol=1e-13)
+    assert_allclose(found.B, [[0.0], [1 / 1.6]], rtol=1e-13)
+    # the spring pulls the body back: its force is what it exerts along its length, dampers included
+    assert_allclose(np.abs(found.C), [[1.0, 0.0], [4000.0, 8.0], [0.0, 2.0]], atol=1e-12)
+    assert_allclose(found.D, [[0.0], [0.0], [1.0]], atol=1e-15)
+    space = found.state_space()
+    assert_allclose(np.linalg.eigvals(space.A).imag, [49.93746, -49.93746], rtol=1e-6)
+    assert (space.B.shape, space.C.shape, space.D.shape) == ((2, 1), (3, 2), (3, 1))
+
+
+def test_four_bar_by_sympy_s_linearizer():
+    """Three absolute angles and two conditions, linearised at the stable equilibrium by SymPy."""
+    angles, t = dynamicsymbols("a b c"), dynamicsymbols._t
+    (a, b, c), speeds = angles, [x.diff(t) for x in angles]
+    lengths, masses, g = (1, 3, 3), (1, 3, 3), sp.Rational(981, 100)
+
+    def end(length, angle):
+        return sp.Matrix([length * sp.cos(angle), length * sp.sin(angle)])
+
+    middles = [end(1, a) / 2, end(1, a) + end(3, b) / 2, sp.Matrix([4, 0]) + end(3, c) / 2]
+    kinetic = sum(
+        m * (p.diff(t).dot(p.diff(t))) / 2 + m * sp.Rational(length**2, 24) * s**2
+        for m, length, p, s in zip(masses, lengths, middles, speeds, strict=True)
+    )
+    height = sum(m * g * p[1] for m, p in zip(masses, middles, strict=True))
+    loop = list(end(1, a) + end(3, b) - sp.Matrix([4, 0]) - end(3, c))
+    method = LagrangesMethod(kinetic - height, angles, hol_coneqs=loop, frame=ReferenceFrame("N"))
+    method.form_lagranges_equations()
+    model = rods.four_bar()
+    rest = model.equilibria(("crank.theta", np.linspace(4.0, 5.0, 3)))[0]
+    values = {x: rest.q[f"{n}.theta"] for x, n in zip(angles, ("crank", "coupler", "rocker"), strict=True)}
+    point = {**values, **dict.fromkeys(speeds, 0), **{s.diff(t): 0 for s in speeds}}
+    lam = sp.symbols("l1 l2")
+    balance = method.eom.subs(dict(zip(method.lam_vec, lam, strict=True))).subs(point)
+    solved = np.linalg.lstsq(
+        np.array(balance.jacobian(lam), float), -np.array(balance.subs(dict.fromkeys(lam, 0)), float), rcond=None
+    )[0]
+    point |= dict(zip(method.lam_vec, solved.ravel(), strict=True))
+    linear = method.linearize(
+        q_ind=[a], qd_ind=[speeds[0]], q_dep=[b, c], qd_dep=speeds[1:], op_point=point, A_and_B=True
+    )
+    matrix = np.array(linear[0], float)
+    found = model.linearise(at="start", states=["crank.theta"], start={"crank.theta": rest.q["crank.theta"]})
+    assert_allclose(found.A, matrix, rtol=1e-9, atol=1e-9)  # the start is closed to rounding of its positions
+    assert_allclose(-found.A[1, 0], 22.57021890188508, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        (
+            {"at": "start"},
+            "expected a state of rest, or of a motion in which no state changes, got one where 'B.angle.rate",
+        ),
+        ({"states": ["crank.thet"]}, "did you mean 'crank.theta'"),
+        ({"states": ["crank.theta", "rocker.theta"]}, "states that do not depend on each other"),
+        ({"states": ["crank.omega"]}, "states whose rates follow from them"),
+        ({"at": "rest"}, "equilibrium, start, steady or a time"),
+        ({"at": -1.0}, "above 0"),
+        ({"cyclic": ["A.angle"]}, "names where a steady motion is searched"),
+        ({"at": 0.3}, "a state of rest, or of a motion in which no state changes"),
+    ],
+)
+def test_what_has_no_linear_system_is_refused(asked, says):
+    with pytest.raises(InputError, match=says):
+        rods.four_bar().linearise(**asked)
+
+
+def test_a_motion_has_the_system_of_the_instant_if_it_is_asked_for():
+    """About a swinging rod: theta'' = -1.5 g cos(theta) has its own slope at every angle."""
+    model = rods.hanging("revolute")
+    found = model.linearise(at=0.2, instantaneous=True, states=["rod.theta"], start={"rod.theta": -1.3})
+    own = solve_ivp(lambda t, y: [y[1], -14.715 * math.cos(y[0])], (0, 0.2), [-1.3, 0.0], rtol=1e-12, atol=1e-14)
+    assert_allclose([found.about["rod.theta"], found.about["rod.omega"]], own.y[:, -1], rtol=1e-9)
+    assert_allclose(found.A, [[0.0, 1.0], [14.715 * math.sin(own.y[0, -1]), 0.0]], rtol=1e-9, atol=1e-12)

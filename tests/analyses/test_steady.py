@@ -1,0 +1,172 @@
+"""Steady motions: bicycle, disc, conical pendulum, governor; values of the literature and by minimal coordinates."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import symgen
+from analyses import rods
+from symgen.errors import InputError
+
+#: Rows of A for the rates of lean and steer rate, constant, by v and by v^2 (Meijaard et al. 2007, and SymPy's test of
+#: the same benchmark).
+STILL = np.array([[9.48977444677355, -0.571523173729245, 0.0, 0.0], [11.7194768719633, 30.9087533932407, 0.0, 0.0]])
+BY_SPEED = np.array([[0, 0, -0.105522449805691, -0.330515398992311], [0, 0, 3.67680523332152, -3.08486552743311]])
+BY_SQUARE = np.array([[0.0, -0.891197738059089, 0.0, 0.0], [0.0, -1.97171508499972, 0.0, 0.0]])
+EIGENVALUES = {
+    0.0: [5.530943717654, 3.131643247907, -3.131643247907, -5.530943717654],
+    5.0: [-0.3228664290041, -0.7753418821958 + 4.464867713788j, -0.7753418821958 - 4.464867713788j, -14.0783896928],
+}
+#: Speeds at which weave becomes stable and capsize unstable [m/s], from the same paper.
+WEAVE, CAPSIZE = 4.29238253634111, 6.02426201538837
+
+
+@pytest.mark.parametrize("v", [0.0, 1.0, 5.0, 10.0])
+def test_a_bicycle_rides(v):
+    found = symgen.load("bicycle").linearise(at="start", states=["lean", "steer"], parameters={"speed": v})
+    assert found.states == ("lean", "steer", "lean.rate", "steer.rate")
+    assert_allclose(found.A[:2], np.eye(4)[2:], atol=1e-12)
+    assert_allclose(found.A[2:], STILL + v * BY_SPEED + v**2 * BY_SQUARE, rtol=1e-12, atol=1e-12)
+    if v in EIGENVALUES:
+        assert_allclose(found.eigenvalues(), EIGENVALUES[v], rtol=1e-10)
+    # a torque on the handlebar works through the inverse of the paper's mass matrix
+    mass = np.array([[80.81722, 2.31941332208709], [2.31941332208709, 0.29784188199686]])
+    assert_allclose(found.B[2:, 0], np.linalg.inv(mass)[:, 1], rtol=1e-12)
+
+
+def test_weave_and_capsize_speeds(tmp_path):
+    asked = {"at": "start", "states": ["lean", "steer"]}
+    found = symgen.load("bicycle").locus(("speed", np.linspace(4.0, 6.5, 6)), **asked)
+    assert_allclose([c.value for c in found.crossings], [WEAVE, CAPSIZE], rtol=1e-9)
+    assert [c.rising for c in found.crossings] == [False, True]
+    assert_allclose(found.crossings[0].eigenvalue.imag, 3.43503384866144, rtol=1e-8)
+    assert found.plot(tmp_path / "locus.svg").read_text().lstrip().startswith("<?xml")
+
+
+def test_a_turn_is_no_straight_ride():
+    with pytest.raises(InputError, match=r"in which no state changes, got one where 'steer\.rate' changes"):
+        symgen.load("bicycle").linearise(at="start", states=["lean", "steer"], parameters={"lean_rate": 0.1})
+
+
+def disc(spin, radius=0.3):
+    """A thin disc that rolls upright: x forward, z up, the axis of the disc along y."""
+    body = {
+        "mass": 2.0,
+        "inertia": [2 * radius**2 / 4, 2 * radius**2 / 2, 2 * radius**2 / 4],
+        "position": [0.0, 0.0, radius],
+        "velocity": [spin * radius, 0.0, 0.0],
+        "angular_velocity": [0.0, spin, 0.0],
+    }
+    contact = {"type": "rolling-disc", "body": "disc", "radius": radius, "axis": [0, 1, 0], "normal": [0, 0, 1]}
+    up = [
+        "(2*(disc.e1*disc.e3 - disc.e0*disc.e2))",
+        "(2*(disc.e2*disc.e3 + disc.e0*disc.e1))",
+        "(disc.e0**2 - disc.e1**2 - disc.e2**2 + disc.e3**2)",
+    ]
+    outputs = {
+        "lean": f"asin({up[1]})",  # about x, which points forward
+        "turn": f"(disc.wx*{up[0]} + disc.wz*{up[2]})/sqrt(1 - {up[1]}**2)",
+    }
+    return rods.model({"disc": body}, {"contact": contact}, "spatial", outputs=outputs)
+
+
+def test_a_disc_stands_upright_above_the_critical_spin():
+    """lean'' = 4/5 g/r lean + 6/5 Omega u, u' = -2 Omega lean'."""
+    critical = 3.301514803844
+    squares = []
+    for spin in (1.0, critical, 5.0):
+        found = disc(spin).linearise(at="start", states=["lean", "turn"])
+        assert found.states == ("lean", "turn", "lean.rate")
+        stiff = 0.8 * rods.GRAVITY / 0.3
+        own = [[0, 0, 1], [0, 0, -2 * spin], [stiff, 1.2 * spin, 0]]
+        assert_allclose(found.A, own, atol=1e-11)
+        squares.append(stiff - 2.4 * spin**2)
+    assert squares[0] > 0 > squares[2] and abs(squares[1]) < 1e-10
+
+
+def conical(rate=5.0):
+    """A point mass on a massless rod in a vertical plane that a driver turns."""
+    bodies = {
+        "yoke": {"mass": 1.0, "inertia": [0.1, 0.1, 0.1], "position": [0.0, 0.0, 0.0]},
+        "bob": {
+            "mass": 1.0,
+            "inertia": [0.0, 0.0, 0.0],
+            "position": [math.sin(1.0), 0.0, -math.cos(1.0)],
+            "orientation": {"x_axis": [math.cos(1.0), 0.0, math.sin(1.0)], "y_axis": [0.0, 1.0, 0.0]},
+            "points": {"top": [0.0, 0.0, 1.0]},
+        },
+    }
+    joints = {
+        "shaft": rods.pin("ground", "yoke", rods.GROUND3, "centre", axis=[0.0, 0.0, 1.0]),
+        "hinge": rods.pin("yoke", "bob", "centre", "top", axis=[0.0, 1.0, 0.0]),
+        "motor": {"type": "driver", "joint": "shaft", "value": f"{rate}*t"},
+    }
+    return rods.model(bodies, joints, "spatial")
+
+
+def test_a_driven_conical_pendulum():
+    angle, omega = 1.167556903805, 4.598973363698  # arccos(g / Omega^2), Omega sin(angle)
+    found = conical().steady()
+    assert_allclose(-found.q["bob.z"], math.cos(angle), rtol=1e-11)
+    assert_allclose(found.omega_squared, [omega**2], rtol=1e-11)
+    assert_allclose(conical().modes(at="steady").eigenvalues, [1j * omega, -1j * omega], rtol=1e-11)
+
+
+def governor(x, parameters=(8e5, 4e4, 0.5)):
+    """Rates of the shaft's speed, angle and rate of each arm below the horizontal, height and rate of the slider."""
+    k, c, l0 = parameters
+    speed, a1, b1, a2, b2, s, w = x
+    arm, along = 5.3, 0.3 * 2 * 0.01**2 / 12
+    across = 0.3 * (1 + 0.01**2) / 12 + 0.3 * 0.5**2 + 5.0
+    first = 0.3 * 0.5 + 5.0  # mass times distance from the hinge
+    inertia = 2 * 0.3 * 0.01**2 / 12 + 3 * 2 * 0.1**2 / 12
+    slope = 0.0
+    push, torques = -3.0 * 9.81, []
+    for a, b in ((a1, b1), (a2, b2)):
+        inertia = (
+            inertia + arm * 0.05**2 + 2 * 0.05 * first * np.cos(a) + along * np.sin(a) ** 2 + across * np.cos(a) ** 2
+        )
+        by_angle = -2 * 0.05 * first * np.sin(a) + 2 * (along - across) * np.sin(a) * np.cos(a)
+        slope = slope + by_angle * b
+        x1, z1 = 0.5 * np.cos(a), 1 - 0.5 * np.sin(a) - s
+        length = np.sqrt(x1**2 + z1**2)
+        rate = (x1 * (-0.5 * np.sin(a) * b) + z1 * (-0.5 * np.cos(a) * b - w)) / length
+        pull = k * (length - l0) + c * rate
+        push = push + pull * z1 / length
+        by_a = (x1 * (-0.5 * np.sin(a)) + z1 * (-0.5 * np.cos(a))) / length
+        torques.append((0.5 * by_angle * speed**2 + 9.81 * first * np.cos(a) - pull * by_a) / across)
+    return np.array([-slope * speed / inertia, b1, torques[0], b2, torques[1], w, push / 3.0])
+
+
+def test_the_flyball_governor_about_its_steady_speed():
+    x = np.array([2 * math.pi, 0.35, 0.0, 0.35, 0.0, 0.66, 0.0])  # near what the start leads to
+    free = [1, 3, 5]  # at the speed of the start, by Newton's method with a complex step
+
+    def jacobian(x):
+        return np.array([governor(x + 1e-30j * e).imag / 1e-30 for e in np.eye(7)]).T
+
+    for _ in range(60):
+        step = np.linalg.solve(jacobian(x)[np.ix_([2, 4, 6], free)], governor(x)[[2, 4, 6]])
+        x[free] -= min(1.0, 0.05 / np.abs(step).max()) * step
+    found = symgen.load("flyball-governor").linearise(at="steady")
+    names = ["bearing.angle.rate", "hinge1.angle", "hinge1.angle.rate", "hinge2.angle", "hinge2.angle.rate"]
+    names += ["sleeve.displacement", "sleeve.displacement.rate"]
+    order = [found.states.index(name) for name in names]
+    matrix, own = found.A[np.ix_(order, order)], jacobian(x)
+    assert_allclose(matrix, own, rtol=1e-10, atol=1e-9 * np.abs(own).max())
+    values = np.sort_complex(found.eigenvalues())
+    assert_allclose(values, np.sort_complex(np.linalg.eigvals(own)), rtol=1e-10, atol=1e-10 * np.abs(own).max())
+
+
+def test_cyclic_coordinates_can_be_named():
+    model = symgen.load("flyball-governor")
+    named = model.steady(cyclic=["bearing.angle"])
+    assert_allclose(named.q["hinge1.angle"], model.steady().q["hinge1.angle"], rtol=1e-12)
+    with pytest.raises(InputError, match=r"did you mean 'bearing\.angle'"):
+        model.steady(cyclic=["bearing.angl"])
+    with pytest.raises(InputError, match="a coordinate that no force and no row depends on"):
+        model.steady(cyclic=["sleeve.displacement"])
