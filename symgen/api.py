@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,6 +25,9 @@ from symgen.settings import SHAPES, Settings, changed, default
 from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from symgen.analyses.kinematics import Kinematics
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
@@ -236,6 +239,37 @@ class Model:
             compiled, outcome = tree.bodies, tree.carried(outcome)
         state = None if tree is None else tree.compiled
         return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told, state)
+
+    def kinematics(
+        self,
+        times: ArrayLike | None = None,
+        settings: Settings | None = None,
+        transmission: Sequence[str] = (),
+        **changes: object,
+    ) -> Kinematics:
+        """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
+
+        Parameters
+        ----------
+        times : array, optional
+            Increasing, of any sign [s]; those of the outputs of a run of the file unless given.
+        settings : Settings, optional
+            All settings at once.
+        transmission : sequence of str
+            Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If freedom is left that no driver drives, or is driven twice; if an argument is wrong.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.kinematics import kinematics
+
+        return kinematics(self.mechanism, changed(settings, changes), times, transmission)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.

@@ -30,6 +30,7 @@ COMMANDS = {
     "inspect": ("symgen.cli.inspect", "Show the equations of a mechanism, and what was left out."),
     "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
     "run": ("symgen.cli.run", "Simulate a mechanism."),
+    "kinematics": ("symgen.cli.kinematics", "Move a driven mechanism without integrating."),
     "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
     "stress": ("symgen.cli.stress", "Find where methods stop being stable: stiff and extreme cases."),
     "sweep": ("symgen.cli.sweep", "Run a mechanism for many parameters and starts."),
