@@ -27,6 +27,7 @@ from symgen.tree_run import tree_run
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
+    from symgen.analyses.inverse import Inverse
     from symgen.analyses.kinematics import Kinematics
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
@@ -270,6 +271,43 @@ class Model:
         from symgen.analyses.kinematics import kinematics
 
         return kinematics(self.mechanism, changed(settings, changes), times, transmission)
+
+    def inverse(
+        self,
+        motion: Result | Kinematics | str | Path | None = None,
+        settings: Settings | None = None,
+        times: ArrayLike | None = None,
+        actuators: Sequence[str] = (),
+        weights: Mapping[str, float] | None = None,
+        **changes: object,
+    ) -> Inverse:
+        """Return the efforts that a motion needs; see `docs/inverse.md`.
+
+        Parameters
+        ----------
+        motion : Result, Kinematics or path, optional
+            A recorded motion, or the file that one was saved to; what the drivers prescribe unless given.
+        settings : Settings, optional
+            All settings at once.
+        times : array, optional
+            Of a motion that drivers prescribe [s].
+        actuators : sequence of str
+            What exerts the motion: drivers, joints, forces and inputs; all drivers unless given.
+        weights : mapping of str to float, optional
+            Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong; without a motion, if freedom is left that no driver drives.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.inverse import inverse
+
+        return inverse(self.mechanism, changed(settings, changes), motion, times, actuators, weights)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.

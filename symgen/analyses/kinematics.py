@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from symgen import arguments
+from symgen.analyses.passing import Passage
 from symgen.analyses.prescribed import drivers_of, make_driven
-from symgen.analyses.tracing import Passage, trace
+from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require

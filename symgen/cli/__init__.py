@@ -31,6 +31,7 @@ COMMANDS = {
     "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
     "run": ("symgen.cli.run", "Simulate a mechanism."),
     "kinematics": ("symgen.cli.kinematics", "Move a driven mechanism without integrating."),
+    "inverse": ("symgen.cli.inverse", "Find the efforts that a motion needs."),
     "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
     "stress": ("symgen.cli.stress", "Find where methods stop being stable: stiff and extreme cases."),
     "sweep": ("symgen.cli.sweep", "Run a mechanism for many parameters and starts."),

@@ -140,13 +140,42 @@ class Motion:
 
 @dataclass(frozen=True, kw_only=True)
 class PrescribedMotion(Motion):
-    """A motion that is known with its accelerations, shape (k, nv); multipliers are worked out from it."""
+    """A motion that is known with its accelerations; multipliers are worked out from it, or known as well.
 
-    given: Array
+    Attributes
+    ----------
+    given : Array, shape (k, nv)
+        Accelerations.
+    found : Array, shape (k, m), optional
+        Multipliers.
+    """
+
+    given: Array = field(repr=False)
+    found: Array | None = field(default=None, repr=False)
 
     @cached_property
     def _rates(self) -> Observed:
-        return super()._rates._replace(accelerations=np.ascontiguousarray(self.given))
+        given = np.ascontiguousarray(self.given)
+        if self.found is not None:
+            return self._seen[2]._replace(accelerations=given, multipliers=np.ascontiguousarray(self.found))
+        return super()._rates._replace(accelerations=given)
+
+    @cached_property
+    def responses(self) -> Observed:
+        """Accelerations and multipliers that the law gives in these states, whatever is known of the motion."""
+        return super()._rates
+
+    def measured(self) -> Array:
+        """Return the status of all states, as `status_columns` are, with angles that count turns followed through."""
+        from symgen.runtime.observe import observe_status
+
+        (sizes, outputs, _), w = self._seen, self.start.w.copy()
+        status = np.zeros((len(self.times), abi.N_STATUS + self.compiled.info.windings))
+        model = self.compiled.model
+        observe_status(
+            model.geometry, model.measure, sizes, outputs._replace(status=status), self.p, w, np.zeros(sizes.ny)
+        )
+        return status
 
 
 @dataclass(frozen=True, kw_only=True)
