@@ -259,7 +259,7 @@ class Model:
         transmission : sequence of str
             Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
         **changes
-            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``.
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
 
         Raises
         ------
@@ -296,7 +296,7 @@ class Model:
         weights : mapping of str to float, optional
             Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
         **changes
-            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``.
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
 
         Raises
         ------

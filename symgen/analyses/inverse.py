@@ -166,7 +166,7 @@ def inverse(
     mechanism : Mechanism
         The description.
     settings : Settings
-        Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count.
+        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
     motion : optional
         A result of a run or of kinematics, or the path of a file that a result was saved to; what the drivers
         prescribe unless given.

@@ -91,7 +91,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
     mechanism : Mechanism
         The description.
     settings : Settings
-        Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count.
+        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
     until : float
         Last time [s]: inputs are known up to it.
 
@@ -156,7 +156,9 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     loose = _refuse_excess(mechanism, settings, until, what, drivers) if masked else None
     if start.rank < info.m - masked or (freedom > 0 and loose == len(drivers)):
         got = "a singular position, from which several motions go on"
-        raise InputError(what, "a start that is none of several branches", got, "begin it elsewhere with --start")
+        raise InputError(
+            what, "a start that is none of several branches", got, "describe it, and begin its drivers, elsewhere"
+        )
     if freedom > 0:
         names = free_coordinates(found, freedom)
         of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"

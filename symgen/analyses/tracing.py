@@ -29,6 +29,8 @@ NODES, SPACING = 3, 0.05
 NEAR, ATTEMPTS = 0.01, 4
 #: The state extrapolated over a singular position has to be corrected by less than this part of the sine.
 CONTINUED = 0.1
+#: Times that compiled code goes through at once.
+PIECE = 500_000
 #: The shortest step beside the time that a motion takes.
 LEAST = 1e-13
 #: Coordinates named of those that could move at a singular position, and the part of the largest from which one counts.
@@ -107,7 +109,7 @@ class Tracer:
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, info.nv)
-        scale = 1.0 / (np.sqrt(compiled.section(self.w, "gauge")) * length)
+        scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
         tolerance = decisions.ROUNDING * length * max(info.m, 1)
         self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
         move = model.move if info.nq != info.nv else compiled_form(stay)
@@ -137,9 +139,13 @@ class Tracer:
         seen = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
         ended = ""
         while True:
-            code = self.follow(self.times, seen)
+            # in pieces, between which the process can be interrupted
+            done = min(int(self.stand.counts[f.AT]) + PIECE, k)
+            code = self.follow(self.times[:done], seen)
             if code == f.DONE:
-                break
+                if done == k:
+                    break
+                continue
             if self._choose is not None and self._chosen_anew():
                 continue
             crossed = self._cross(code, seen) if code in (f.SINGULAR, f.PASSING) else False

@@ -36,7 +36,7 @@ from symgen.settings import Settings
     metavar="NAME=VALUE",
     help="Weight of an actuator where efforts are not unique: the sum of (weight effort)^2 is smallest.",
 )
-@setting_options("parameters", "inputs", "start", "strict", "shape")
+@setting_options("parameters", "inputs", "strict", "shape")
 @click.option(
     *("--quantity", "quantities"),
     multiple=True,

@@ -24,7 +24,7 @@ from symgen.settings import Settings
     metavar="PIN",
     help="A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
 )
-@setting_options("parameters", "inputs", "start", "strict", "shape")
+@setting_options("parameters", "inputs", "strict", "shape")
 @click.option(
     *("--quantity", "quantities"),
     multiple=True,

@@ -60,8 +60,7 @@ class Course(NamedTuple):
     entries, constants : Array
         D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
     scale : Array, shape (nv,)
-        What makes numbers of changes: angles count as the distance that they move a body's end, over the length of the
-        mechanism.
+        What makes numbers of changes: 1 for angles, one over the length of the mechanism for lengths.
     """
 
     nq: int

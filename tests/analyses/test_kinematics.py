@@ -118,6 +118,46 @@ def test_far_times_keep_the_branch(driven):
     assert np.abs(coarse.a.values - fine.a.values[at]).max() < 1e-10
 
 
+def test_the_branch_is_the_one_that_is_described():
+    """The same linkage with the pin C on the other side of the line from B to D."""
+    found = model(four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK, above=False)).kinematics(np.linspace(0.0, 1.0, 11))
+    at = 0.7 + 2.0 * math.pi * found.t
+    c = meeting(np.column_stack([np.cos(at), np.sin(at)]), 3.0, [3.0, 0.0], 2.5, left=False)
+    assert np.abs(found.curve("coupler.far") - c).max() < 1e-13
+
+
+def test_massless_links_have_kinematics_and_forces_along_them():
+    raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
+    raw["bodies"]["coupler"] |= {"mass": 0.0, "inertia": 0.0}
+    found = model(raw).kinematics(np.linspace(0.0, 1.0, 9))
+    force = np.column_stack([found.reactions["B.Fx"], found.reactions["B.Fy"]])
+    way = found.curve("coupler.far") - found.curve("coupler.near")
+    cross = force[:, 0] * way[:, 1] - force[:, 1] * way[:, 0]
+    assert np.abs(cross).max() < 1e-10 * np.abs(force).max()
+    lever = found.curve("crank.far")
+    moment = force[:, 0] * lever[:, 1] - force[:, 1] * lever[:, 0] + 0.5 * 9.81 * lever[:, 0]
+    assert np.abs(found.efforts["motor"] - moment).max() < 1e-9  # the crank turns steadily
+
+
+def test_looped_code_gives_the_same(driven):
+    times = np.linspace(0.0, 0.5, 11)
+    looped, straight = driven.kinematics(times, shape="looped"), driven.kinematics(times)
+    for table in ("q", "v", "a", "reactions", "points"):
+        own, other = getattr(looped, table).values, getattr(straight, table).values
+        assert np.abs(own - other).max() < 1e-11 * np.abs(other).max()
+
+
+def test_forces_of_inputs_that_jump_reach_the_motor():
+    raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
+    raw["inputs"] = {"load": {"default": 0.0, "unit": "N m"}}
+    raw["forces"] = {"brake": {"type": "torque", "body": "crank", "torque": "load"}}
+    times = [0.0, 0.2, 0.3, 0.4]
+    free = model(raw).kinematics(times)
+    found = model(raw).kinematics(times, inputs={"load": "2 if t > 0.25 else -1"})
+    assert np.abs(found.efforts["motor"] - free.efforts["motor"] - [1.0, 1.0, -2.0, -2.0]).max() < 1e-11
+    assert np.array_equal(found.q.values, free.q.values)
+
+
 def test_angles_in_space_count_turns():
     raw = {
         "mechanism": {"name": "shaft", "space": "spatial", "gravity": [0.0, 0.0, -9.81]},
@@ -171,6 +211,8 @@ def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():
         assert found.passages[-1].kind == "dead centre" and found.passages[-1].drivers == ("motor",)
         assert abs(found.passages[-1].t - t) < 1e-12
         assert found.ended.startswith("dead centre at t = 0.222632616 s: 'motor' can go no further")
+    nothing = stuck.kinematics([0.9])
+    assert not nothing.ok and len(nothing.t) == 0 and nothing.to_json()["q"]["crank.theta"] == []
 
 
 def test_a_branch_near_another_one_is_not_left():
