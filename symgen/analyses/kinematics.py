@@ -175,7 +175,13 @@ class Kinematics(Tables):
             **{name: self.series(name) for name in tables},
             "not_unique": list(self.non_unique_reactions),
             "passages": [
-                {"t": p.t, "kind": p.kind, "coordinates": list(p.coordinates), "drivers": list(p.drivers)}
+                {
+                    "t": p.t,
+                    "kind": p.kind,
+                    "coordinates": list(p.coordinates),
+                    "drivers": list(p.drivers),
+                    "words": p.words,
+                }
                 for p in self.passages
             ],
             "ended": self.ended or None,
