@@ -9,7 +9,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.describe.mechanism import Mechanism
+from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.errors import AssemblyError, InputError
 from symgen.plan import make_plan
 from symgen.run_setup import give_inputs, ready
@@ -17,7 +17,7 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.probe import Ready
 from symgen.vocabulary.expressions import readings
-from symgen.vocabulary.measures import Integral
+from symgen.vocabulary.measures import GROUND, Integral
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 #: Singular values below this part of the largest one count as zero, and parts of a direction below this one's largest.
 CUTOFF = 1e-9
 DRIVER = "driver"
+#: Coordinates of joints on the ground, where motors sit, are named rather than others.
+ON_GROUND = 10.0
 
 
 @dataclass(frozen=True)
@@ -78,9 +80,17 @@ def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
 
 
 def instantaneous(mechanism: Mechanism) -> Mechanism:
-    """Return a mechanism without what only a run can say of it: outputs that are integrals, and events."""
+    """Return a mechanism without what only a run can say of it: outputs that are integrals, events, and velocities."""
     kept = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
-    return msgspec.structs.replace(mechanism, outputs=kept, events=())
+    bodies = tuple(_still(body) for body in mechanism.bodies)
+    return msgspec.structs.replace(mechanism, bodies=bodies, outputs=kept, events=())
+
+
+def _still(body: AnyBody) -> AnyBody:
+    """Return a body whose velocities follow from the drivers, whatever the file says of them."""
+    if isinstance(body, SpatialBody):
+        return msgspec.structs.replace(body, velocity=(None, None, None), angular_velocity=(None, None, None))
+    return msgspec.structs.replace(body, velocity=(None, None), angular_velocity=None)
 
 
 def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescribed:
@@ -209,12 +219,12 @@ def free_coordinates(found: Prescribed, count: int) -> list[str]:
     basis = (right[-count:] * scale).T  # directions of v, shape (nv, count)
     names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
     rates = np.vstack([rates_of_joints(found, basis), basis])
-    chosen = list[str]()
-    rest = rates.copy()
-    joints = len(info.joint_coordinates)
+    chosen, rest, joints = list[str](), rates.copy(), len(info.joint_coordinates)
+    grounded = {joint.name for joint in found.mechanism.joints if GROUND in joint.bodies}
+    liked = np.array([ON_GROUND if name.partition(".")[0] in grounded else 1.0 for name in names])
+    liked[joints:] = CUTOFF  # these where no joint tells
     for _ in range(count):
-        sizes = np.linalg.norm(rest, axis=1)
-        sizes[joints:] *= CUTOFF  # these where no joint tells
+        sizes = np.linalg.norm(rest, axis=1) * liked
         k = int(np.argmax(sizes))
         chosen.append(names[k])
         if not np.any(rest[k]):

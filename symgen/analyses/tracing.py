@@ -108,7 +108,7 @@ class Tracer:
         self.span = max(float(np.abs(self.times).max()), 1e-9)
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
-        numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, info.nv)
+        numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
         scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
         tolerance = decisions.ROUNDING * length * max(info.m, 1)
         self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
@@ -147,6 +147,9 @@ class Tracer:
                     break
                 continue
             if self._choose is not None and self._chosen_anew():
+                continue
+            if code == f.CHOOSE:  # the same ones
+                self.clock[f.BEST] = self.clock[f.SINE]
                 continue
             crossed = self._cross(code, seen) if code in (f.SINGULAR, f.PASSING) else False
             if not crossed and not self._shortened(code):
@@ -197,7 +200,8 @@ class Tracer:
         nothing = f.Followed(np.empty((1, self.info.ny)), np.empty((1, self.info.nv)), self._status_row())
         at, self.stand.counts[f.AT] = int(self.stand.counts[f.AT]), 0
         self.clock[f.REACH] = self.span
-        code = self.follow(np.array([t]), nothing)
+        while (code := self.follow(np.array([t]), nothing)) == f.CHOOSE:
+            self.clock[f.BEST] = self.clock[f.SINE]  # rows stay those that they are
         self.stand.counts[f.AT] = at
         return code == f.DONE
 

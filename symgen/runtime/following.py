@@ -14,6 +14,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare
+from symgen.runtime.redundancy import FALLEN
 from symgen.store.jit import jit
 
 #: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
@@ -26,16 +27,19 @@ REFINED = 1e-2
 MEASURED = 1e-13
 #: Rounds of refinement.
 ROUNDS = 4
-#: Below this sine the sign of the determinant is looked at after every step, else where it may have been passed.
-LOOKED_AT = 0.05
+#: A step moves nothing by more than this [rad, or the length of the mechanism].
+LONGEST = 0.5
+#: Behind steps that move something by more than this, and below this sine, the sign of the determinant is looked at;
+#: else where 0 may have been passed.
+LONG, LOOKED_AT = 0.1, 0.05
 
 #: How a step, and the loop, ended.
-DONE, REFUSED, UNDEFINED, SINGULAR, PASSING = range(5)
+DONE, REFUSED, UNDEFINED, SINGULAR, PASSING, CHOOSE = range(6)
 
 #: What a clock holds: the time, the longest step to try, the sine, how fast it changes, the sign of the determinant,
-#: and time and sine of the last attempt.
-TIME, REACH, SINE, SLOPE, SIGN, TRIED, TRIED_SINE = range(7)
-N_CLOCK = 7
+#: time, sine and predicted motion of the last attempt, and the largest sine since rows were chosen that stand for all.
+TIME, REACH, SINE, SLOPE, SIGN, TRIED, TRIED_SINE, FAR, BEST = range(9)
+N_CLOCK = 9
 #: What is counted: times that are done, steps, and whether a state was settled.
 AT, TAKEN, SETTLED = range(3)
 N_COUNTS = 3
@@ -53,8 +57,9 @@ class Course(NamedTuple):
         Coordinates, velocities, constraint rows, length of the state, angles whose turns are counted.
     residual, change, mask, jacobian : int
         Where these sections of ``w`` begin.
-    rank : int
-        Of D, wherever the position is not singular: as many as there are velocities.
+    masked, rank : int
+        Rows that depend on others for ever, and the rank of D where the position is not singular: as many as there are
+        velocities.
     tolerance, least : float
         Of the violation of positions [m], and the shortest step [s].
     entries, constants : Array
@@ -72,6 +77,7 @@ class Course(NamedTuple):
     change: int
     mask: int
     jacobian: int
+    masked: int
     rank: int
     tolerance: float
     least: float
@@ -122,7 +128,7 @@ class Followed(NamedTuple):
     status: Any
 
 
-COURSE = types.NamedTuple((*(_I8,) * 10, _F, _F, _K, _A, _A), Course)
+COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
 STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
 FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
 
@@ -201,14 +207,19 @@ def attempt(
     t = stand.clock[TIME] + h
     for i in range(nq):
         z[i] = y[i]
+    far = 0.0
     for j in range(nv):
         change = h * (y[nq + j] + h * (0.5 * a[j] + h * jerk[j] / 6.0))
+        far = max(far, abs(change) * course.scale[j])
         if nq == nv:
             z[j] += change
         else:
             w[course.change + j] = change
         z[nq + j] = y[nq + j] + h * (a[j] + 0.5 * h * jerk[j])
         rates[nq + j] = a[j] + h * jerk[j]
+    stand.clock[FAR] = far
+    if far > LONGEST:
+        return REFUSED
     if nq != nv:
         move(z, w)
     for i in range(course.windings):
@@ -252,11 +263,12 @@ def take(course: Any, h: float, w: Any, stand: Any) -> bool:
     steepest = slope if slope > fresh else fresh
     clock[TRIED_SINE] = sine
     # a sine falls to 0 and rises again in a straight line
-    if h == 0.0 or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
+    if h == 0.0 or clock[FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
         sign = sign_of(course, w, stand.dense)
         if h != 0.0 and sign * clock[SIGN] < 0.0:
             return False
     clock[SINE], clock[SLOPE], clock[SIGN] = sine, fresh, sign
+    clock[BEST] = sine if h == 0.0 or sine > clock[BEST] else clock[BEST]
     for i in range(course.ny):
         stand.y[i] = stand.trial[i]
     for j in range(course.nv):
@@ -351,7 +363,8 @@ def follow(
     -------
     int
         `DONE`, or why the next step failed: `REFUSED` (no closed position in reach), `UNDEFINED` (a number that is
-        not finite) however short it is, `SINGULAR` (at a singular position) or `PASSING` (one lies between).
+        not finite) however short it is, `SINGULAR` (at a singular position) or `PASSING` (one lies between);
+        `CHOOSE` where other rows may have to stand for all.
     """
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
     clock, counts = stand.clock, stand.counts
@@ -366,6 +379,8 @@ def follow(
             break
         target = times[k]
         while clock[TIME] != target:
+            if course.masked != 0 and clock[SINE] * clock[SINE] < FALLEN * clock[BEST] * clock[BEST]:
+                return CHOOSE
             h = target - clock[TIME]
             whole = abs(h) <= clock[REACH]
             h = h if whole else math.copysign(clock[REACH], h)

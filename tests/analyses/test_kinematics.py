@@ -12,6 +12,7 @@ from symgen.cli import main
 from symgen.describe.validate import validate
 from symgen.errors import InputError
 from tests.analyses.linkages import four_bar, meeting
+from tests.support.models import parallelogram
 
 CRANK = "start + 2*pi*t"
 
@@ -198,6 +199,18 @@ def test_a_rhombus_goes_through_its_change_points(rhombus, times):
     met = np.array([p.t for p in found.passages])
     assert np.abs(met - (turns * math.pi - 0.7) / (2.0 * math.pi)).max() < 1e-12
     assert all(p.kind == "passed" and "singular position at t =" in p.words for p in found.passages)
+
+
+@pytest.mark.parametrize("times", [np.linspace(0.0, 1.0, 101), [0.0, 0.25, 0.5, 1.0]], ids=["fine", "coarse"])
+def test_redundant_links_go_through_flat_positions(times):
+    """Three parallel links: a row depends on the others for ever, and two more positions are singular."""
+    raw = parallelogram()
+    raw["joints"]["motor"] = {"type": "driver", "joint": "A0", "value": "pi/2 - 2*pi*t"}
+    found = model(raw).kinematics(times)
+    assert np.abs(found["link2.theta"] - math.pi / 2.0 + 2.0 * math.pi * found.t).max() < 1e-13
+    assert np.abs(found["bar.theta"]).max() < 1e-13 and np.abs(found["link1.alpha"]).max() < 1e-9
+    assert np.abs(np.array([p.t for p in found.passages]) - [0.25, 0.75]).max() < 1e-12
+    assert found.non_unique_reactions == ("A0", "B0", "A1", "B1", "A2", "B2")
 
 
 def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():
