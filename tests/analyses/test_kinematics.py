@@ -17,6 +17,22 @@ from tests.support.models import parallelogram
 CRANK = "start + 2*pi*t"
 
 
+def slider_crank(slide):
+    """A crank of 1 m and a rod of 3 m; the slider is driven where `slide` says how it moves, else the crank is."""
+    raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK if slide is None else None)
+    raw["bodies"].pop("rocker"), raw["joints"].pop("D")
+    far = math.cos(0.7) + math.sqrt(9.0 - math.sin(0.7) ** 2)
+    raw["bodies"]["slider"] = {"mass": 1.0, "inertia": 1.0, "position": [far, 0.0]}
+    middle = [(math.cos(0.7) + far) / 2.0, math.sin(0.7) / 2.0]
+    raw["bodies"]["coupler"] |= {"position": middle, "angle": -math.asin(math.sin(0.7) / 3.0)}
+    raw["joints"]["C"] = {"type": "revolute", "between": ["coupler", "slider"], "at": ["far", "centre"]}
+    rail = {"type": "prismatic", "between": ["ground", "slider"], "at": [[0.0, 0.0], "centre"], "axis": [1.0, 0.0]}
+    raw["joints"]["rail"] = rail
+    if slide is not None:
+        raw["joints"]["motor"] = {"type": "driver", "joint": "rail", "value": slide}
+    return raw
+
+
 def model(raw):
     return symgen.load(validate(raw, "test"))
 
@@ -228,6 +244,43 @@ def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():
     assert not nothing.ok and len(nothing.t) == 0 and nothing.to_json()["q"]["crank.theta"] == []
 
 
+def test_a_slider_drives_a_crank_over_both_dead_centres():
+    """The slider moves as a steady crank would have moved it: at its ends it stands still, and the crank goes on."""
+    raw = slider_crank("cos(0.7 + 2*pi*t) + sqrt(9 - sin(0.7 + 2*pi*t)**2)")
+    for times in (np.linspace(0.0, 1.6, 161), [0.0, 0.8, 1.6]):
+        found = model(raw).kinematics(times)
+        assert np.abs(found["crank.theta"] - 0.7 - 2.0 * math.pi * found.t).max() < 1e-11
+        assert np.abs(found["crank.omega"] - 2.0 * math.pi).max() < 1e-9
+        ends = (np.arange(1, 4) * math.pi - 0.7) / (2.0 * math.pi)
+        assert np.abs(np.array([p.t for p in found.passages]) - ends).max() < 1e-9
+
+
+def test_random_linkages_go_as_far_as_circles_meet():
+    random, tried = np.random.default_rng(5), 0
+    while tried < 10:
+        ground, crank, coupler, rocker = (float(x) for x in random.uniform(0.3, 3.0, 4))
+        start, above = float(random.uniform(-math.pi, math.pi)), bool(random.integers(2))
+        shortest, longest = abs(coupler - rocker), coupler + rocker
+        d = math.dist((crank * math.cos(start), crank * math.sin(start)), (ground, 0.0))
+        if not 1.05 * shortest < d < 0.95 * longest:
+            continue
+        tried += 1
+        # angles at which B is at the shortest or longest distance from D, where coupler and rocker are in line
+        cosines = [(ground**2 + crank**2 - x * x) / (2.0 * ground * crank) for x in (shortest, longest)]
+        limits = [a for c in cosines if abs(c) < 1.0 for a in (math.acos(c), -math.acos(c))]
+        end = min(((a - start) % math.tau for a in limits), default=math.inf) / math.tau
+        linkage = model(four_bar((ground, crank, coupler, rocker), start, CRANK, above=above))
+        for times in (np.linspace(0.0, 1.5, 6), np.linspace(0.0, 1.5, 151)):
+            found = linkage.kinematics(times)
+            assert len(found.t) == np.count_nonzero(times < end) and found.ok == (end > 1.5)
+            angle = start + 2.0 * math.pi * found.t
+            b = crank * np.column_stack([np.cos(angle), np.sin(angle)])
+            c = meeting(b, coupler, [ground, 0.0], rocker, left=above)
+            assert np.abs(found.curve("coupler.far") - c).max() < 1e-10
+            if end < 1.5:
+                assert abs(found.passages[-1].t - end) < 1e-9
+
+
 def test_a_branch_near_another_one_is_not_left():
     """A hair's breadth from the rhombus there are two branches, which nearly meet where it is flat."""
     found = model(four_bar((1.0001, 1.0, 1.0, 1.0), 0.7, CRANK)).kinematics(np.linspace(0.0, 0.385, 78))
@@ -293,18 +346,7 @@ def test_transmission_angles_follow_the_law_of_cosines(driven):
 
 def test_transmission_at_a_slider():
     """A slider-crank's angle between rod and normal of the slide: cos = (crank/rod) sin(angle), slide along x."""
-    raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
-    raw["bodies"].pop("rocker"), raw["joints"].pop("D")
-    raw["bodies"]["slider"] = {"mass": 1.0, "inertia": 1.0, "position": [3.5, 0.0]}
-    raw["bodies"]["coupler"] |= {"position": [2.1, 0.3], "angle": -0.2}
-    raw["joints"]["C"] = {"type": "revolute", "between": ["coupler", "slider"], "at": ["far", "centre"]}
-    raw["joints"]["rail"] = {
-        "type": "prismatic",
-        "between": ["ground", "slider"],
-        "at": [[0.0, 0.0], "centre"],
-        "axis": [1.0, 0.0],
-    }
-    found = model(raw).kinematics(np.linspace(0.0, 1.0, 25), transmission="C")
+    found = model(slider_crank(None)).kinematics(np.linspace(0.0, 1.0, 25), transmission="C")
     sine = np.sin(0.7 + 2.0 * math.pi * found.t) / 3.0
     assert np.abs(np.abs(np.cos(found.transmission["C"])) - np.abs(sine)).max() < 1e-13
 
@@ -352,3 +394,37 @@ def test_the_command_refuses_in_one_sentence(capsys):
     assert "not driven" in capsys.readouterr().err
     assert main(["kinematics", "driven-four-bar", "--times", "0,x"]) == 2
     assert "--times" in capsys.readouterr().err
+
+
+def test_the_command_ends_at_a_dead_centre(tmp_path, capsys):
+    """A rod on a pin whose tip is lifted: it stands upright after half a second."""
+    path = tmp_path / "lift.toml"
+    path.write_text(
+        """
+[mechanism]
+name = "lift"
+gravity = [0.0, -9.81]
+[bodies.rod]
+mass = 1.0
+inertia = 0.1
+points = { foot = [-0.5, 0.0], tip = [0.5, 0.0] }
+position = [0.43, 0.25]
+angle = 0.5235987755982988
+[joints.pin]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], "foot"]
+[joints.lift]
+type = "driver"
+body = "rod"
+point = "tip"
+coordinate = "y"
+value = "0.5 + t"
+"""
+    )
+    assert main(["kinematics", str(path), "--times", "lin(0,1,11)", "--json"]) == 1
+    out, err = capsys.readouterr()
+    found = json.loads(out)
+    assert found["t"] == [0.0, 0.1, 0.2, 0.30000000000000004, 0.4] and "dead centre at t = 0.5 s: 'lift'" in err
+    assert found["ended"].startswith("dead centre") and found["passages"][0]["kind"] == "dead centre"
+    assert np.allclose(np.sin(found["q"]["rod.theta"]), 0.5 + np.array(found["t"]), rtol=0.0, atol=1e-14)
