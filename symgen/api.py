@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     from symgen.analyses.linearise import LinearSystem
     from symgen.analyses.locus import Locus
     from symgen.analyses.modes import Modes
+    from numpy.typing import ArrayLike
+
+    from symgen.analyses.inverse import Inverse
+    from symgen.analyses.kinematics import Kinematics
     from symgen.compiling.pipeline import MethodChoice
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
@@ -242,6 +246,74 @@ class Model:
             compiled, outcome = tree.bodies, tree.carried(outcome)
         state = None if tree is None else tree.compiled
         return build_result(mechanism, chosen, plan, compiled, outcome, spread, second, given.told, state)
+
+    def kinematics(
+        self,
+        times: ArrayLike | None = None,
+        settings: Settings | None = None,
+        transmission: Sequence[str] = (),
+        **changes: object,
+    ) -> Kinematics:
+        """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
+
+        Parameters
+        ----------
+        times : array, optional
+            Increasing, of any sign [s]; those of the outputs of a run of the file unless given.
+        settings : Settings, optional
+            All settings at once.
+        transmission : sequence of str
+            Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If freedom is left that no driver drives, or is driven twice; if an argument is wrong.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.kinematics import kinematics
+
+        return kinematics(self.mechanism, changed(settings, changes), times, transmission)
+
+    def inverse(
+        self,
+        motion: Result | Kinematics | str | Path | None = None,
+        settings: Settings | None = None,
+        times: ArrayLike | None = None,
+        actuators: Sequence[str] = (),
+        weights: Mapping[str, float] | None = None,
+        **changes: object,
+    ) -> Inverse:
+        """Return the efforts that a motion needs; see `docs/inverse.md`.
+
+        Parameters
+        ----------
+        motion : Result, Kinematics or path, optional
+            A recorded motion, or the file that one was saved to; what the drivers prescribe unless given.
+        settings : Settings, optional
+            All settings at once.
+        times : array, optional
+            Of a motion that drivers prescribe [s].
+        actuators : sequence of str
+            What exerts the motion: drivers, joints, forces and inputs; all drivers unless given.
+        weights : mapping of str to float, optional
+            Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong; without a motion, if freedom is left that no driver drives.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.inverse import inverse
+
+        return inverse(self.mechanism, changed(settings, changes), motion, times, actuators, weights)
 
     def start(self, settings: Settings | None = None, **changes: object) -> SteppedRun:
         """Return a run that goes on step by step, at its start.

@@ -148,7 +148,7 @@ class TreeRun:
         return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class CarriedOutcome(Outcome):
     """What a run in joint coordinates gave, as the motion of bodies.
 
@@ -162,9 +162,9 @@ class CarriedOutcome(Outcome):
         Work done until there [J].
     """
 
-    inner: Outcome = field(kw_only=True, repr=False)
-    end_state: Array = field(kw_only=True, repr=False)
-    work: float = field(kw_only=True)
+    inner: Outcome = field(repr=False)
+    end_state: Array = field(repr=False)
+    work: float
 
 
 def tree_run(

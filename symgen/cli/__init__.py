@@ -33,6 +33,8 @@ COMMANDS = {
     "equilibrium": ("symgen.cli.equilibrium", "Find where a mechanism rests, and whether it stays there."),
     "modes": ("symgen.cli.modes", "Find frequencies, damping and shapes about a state."),
     "linearise": ("symgen.cli.linearise", "Find the linear system about a state."),
+    "kinematics": ("symgen.cli.kinematics", "Move a driven mechanism without integrating."),
+    "inverse": ("symgen.cli.inverse", "Find the efforts that a motion needs."),
     "compare": ("symgen.cli.compare", "Compare methods and integrators: error against run time."),
     "stress": ("symgen.cli.stress", "Find where methods stop being stable: stiff and extreme cases."),
     "sweep": ("symgen.cli.sweep", "Run a mechanism for many parameters and starts."),

@@ -164,3 +164,20 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     else:
         check_writable(option, path)
     return path
+
+
+def time_list(option: str, text: str) -> tuple[float, ...]:
+    """Return the times of ``lin(0, 1, 101)`` or of a comma-separated list, of any sign.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+    """
+    if "(" in text:
+        from symgen.ensemble.axes import parse
+
+        return tuple(parse(text, option).tolist())
+    return tuple(
+        _number(option, "finite times, separated by commas, or lin(first, last, count)", w) for w in words(option, text)
+    )

@@ -49,6 +49,18 @@ def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
     console().print(table)
 
 
+def show_summary(found: Mapping[str, Mapping[str, Any]]) -> None:
+    """Print what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
+    table = Table(box=None, header_style="dim", pad_edge=False)
+    table.add_column("effort")
+    for heading in ("largest", "rms", "unit", "at [s]", "peak power [W]", "energy [J]"):
+        table.add_column(heading, justify="left" if heading == "unit" else "right")
+    for name, entry in found.items():
+        power = (f"{entry[key]:.6g}" if key in entry else "" for key in ("peak_power", "energy"))
+        table.add_row(name, f"{entry['max']:.6g}", f"{entry['rms']:.6g}", entry["unit"], f"{entry['at']:.6g}", *power)
+    console().print(table)
+
+
 def _final(result: Result, most: int = 12) -> Table:
     """Return the last positions and velocities, of the first bodies where there are many."""
     table = Table(title="final state", title_justify="left", box=None, header_style="dim", pad_edge=False)

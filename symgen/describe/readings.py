@@ -97,7 +97,7 @@ def of_force(force: Force, order: int) -> Table:
             for component in _components(effort, word):
                 components.setdefault(component, []).append(effort)
         for component, efforts in components.items():
-            unit = "N m" if _turns(efforts[0].measure) else "N"
+            unit = "N m" if is_turning(efforts[0].measure) else "N"
             found[component] = Reading(f"{name}.{component}", Exerted(tuple(efforts))), unit
         found["power"] = Reading(f"{name}.power", Exerted(force.efforts, power=True)), "W"
     return found
@@ -117,15 +117,15 @@ def _components(effort: Effort, extent: str) -> list[str]:
     """Return what an effort is part of: the force or torque along a measure, or components along axes."""
     if extent:
         return ["force" if extent == "length" else "torque"]
-    kind = "M" if _turns(effort.measure) else "F"
+    kind = "M" if is_turning(effort.measure) else "F"
     axes_ = re.findall(r"(turn_)?([xyz])(?![a-z])", effort.label)
     return [("M" if turn else kind) + axis for turn, axis in axes_] or [effort.label]
 
 
-def _turns(measure: Source) -> bool:
+def is_turning(measure: Source) -> bool:
     """Whether what works along a measure is a torque."""
     if isinstance(measure, Sum):
-        return _turns(measure.terms[0][1])
+        return is_turning(measure.terms[0][1])
     return isinstance(measure, Angle | Turn | Bearing | Spin | Dot)
 
 

@@ -49,6 +49,9 @@ PREFIX = {
     "outputs": "",
     "energy": "energy.",
     "violations": "violation.",
+    # of analyses along a motion
+    "efforts": "effort.",
+    "rates": "rate.",
 }
 #: Table -> name of its second dimension in a dataset.
 _DIMENSION = {

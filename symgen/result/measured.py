@@ -15,7 +15,7 @@ from symgen.result.labelled import Array, labelled
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.result.labelled import Labelled
-    from symgen.runtime.outcome import Outcome
+    from symgen.runtime.outcome import Motion
 
 
 @dataclass(frozen=True)
@@ -26,14 +26,14 @@ class Measured:
     ----------
     mechanism : Mechanism
         What was run.
-    outcome : Outcome
+    outcome : Motion
         States and accelerations at the outputs.
     multipliers : callable
         Returns lambda at the outputs, shape (k, m), of minimum norm where the rows of D are dependent.
     """
 
     mechanism: Mechanism
-    outcome: Outcome
+    outcome: Motion
     multipliers: Callable[[], Array]
 
     def columns(self, table: str) -> tuple[Column, ...]:

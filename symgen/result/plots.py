@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +22,8 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#0
 DASHES = ("-", "--", ":", "-.")
 #: More lines than this have no legend.
 LONGEST_LEGEND = 14
+#: Label of the axis, lines, and whether their sizes are drawn on a logarithmic scale.
+Panel = tuple[str, Labelled, bool]
 #: Smaller violations are drawn here: a logarithm has no zero.
 FLOOR = 1e-17
 
@@ -47,8 +49,11 @@ def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "ener
     for name in what:
         if name not in PANELS:
             raise InputError("plot", "the name of a panel", f"'{name}'", nearest(name, PANELS))
-    figure = draw(result, what)
-    # no date in the file: the same result gives the same bytes
+    return write_figure(draw(result, what), path)
+
+
+def write_figure(figure: Any, path: Path) -> Path:
+    """Write a matplotlib figure to a file, without a date: the same result gives the same bytes."""
     kind = path.suffix.lower().removeprefix(".")
     metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind, {})
     return write_whole(path, lambda file: figure.savefig(file, format=kind, dpi=150, metadata=metadata))
@@ -56,19 +61,40 @@ def plot(result: Result, path: Path, what: tuple[str, ...] = ("positions", "ener
 
 def draw(result: Result, what: tuple[str, ...]) -> Any:
     """Return a matplotlib figure with one panel, or several, for each word of `what`."""
+    panels = [panel for name in what for panel in PANELS[name](result)]
+    status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
+    return over_time(result.t, panels, f"{result.mechanism}, {result.method}, {result.integrator} ({status})")
+
+
+def over_time(t: Any, panels: list[Panel], title: str) -> Any:
+    """Return a matplotlib figure of panels over time."""
     from matplotlib.figure import Figure
 
-    panels = [panel for name in what for panel in PANELS[name](result)]
     figure = Figure(figsize=(8.0, 0.8 + 2.4 * max(1, len(panels))), layout="constrained")
     axes = np.atleast_1d(figure.subplots(max(1, len(panels)), 1, sharex=True))
     for ax, (label, table, logarithmic) in zip(axes, panels, strict=False):
-        _lines(ax, result.t, table, logarithmic)
+        _lines(ax, t, table, logarithmic)
         ax.set_ylabel(label)
         ax.grid(True, alpha=0.3)
     axes[-1].set_xlabel("t [s]")
-    status = result.status if result.status == "ok" else f"{result.status}: {result.reason}"
-    title = f"{result.mechanism}, {result.method}, {result.integrator} ({status})"
     figure.suptitle("\n".join(textwrap.wrap(title, 95)), fontsize=10)
+    return figure
+
+
+def paths(curves: Mapping[str, Any], title: str) -> Any:
+    """Return a matplotlib figure of curves in the plane of x and y, arrays of shape (k, 2 or more) [m], by name."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(7.0, 6.0), layout="constrained")
+    ax = figure.subplots()
+    for i, (name, curve) in enumerate(curves.items()):
+        style = DASHES[i // len(COLOURS) % len(DASHES)]
+        ax.plot(curve[:, 0], curve[:, 1], style, color=COLOURS[i % len(COLOURS)], linewidth=1.2, label=name)
+    ax.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    ax.grid(True, alpha=0.3)
+    if 0 < len(curves) <= LONGEST_LEGEND:
+        ax.legend(fontsize=7)
+    figure.suptitle("\n".join(textwrap.wrap(title, 80)), fontsize=10)
     return figure
 
 
@@ -85,10 +111,7 @@ def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:
         ax.legend(fontsize=7, ncols=2, loc="best")
 
 
-_Panel = tuple[str, Labelled, bool]
-
-
-def _by_unit(table: Labelled, what: str) -> list[_Panel]:
+def by_unit(table: Labelled, what: str) -> list[Panel]:
     """Return one panel for each unit in a table."""
     panels = []
     for unit in dict.fromkeys(table.units):
@@ -98,31 +121,31 @@ def _by_unit(table: Labelled, what: str) -> list[_Panel]:
     return panels
 
 
-def _positions(result: Result) -> list[_Panel]:
-    return [(f"{_quantity(p[0])}", p[1], p[2]) for p in _by_unit(result.q, "position")]
+def _positions(result: Result) -> list[Panel]:
+    return [(f"{_quantity(p[0])}", p[1], p[2]) for p in by_unit(result.q, "position")]
 
 
 def _quantity(label: str) -> str:
     return label.replace("position [rad]", "angle [rad]")
 
 
-def _energy(result: Result) -> list[_Panel]:
+def _energy(result: Result) -> list[Panel]:
     energy = result.energy
     balance = Labelled(energy.values[:, :3], energy.names[:3], energy.units[:3])
     error = Labelled(energy.values[:, 3:], ("error",), ("J",))
     return [("energy [J]", balance, False), ("|energy error| [J]", error, True)]
 
 
-def _violations(result: Result) -> list[_Panel]:
+def _violations(result: Result) -> list[Panel]:
     return [("violation [m, m/s, m/s$^2$]", result.violations, True)]
 
 
 #: Panels by name.
-PANELS: dict[str, Callable[[Result], list[_Panel]]] = {
+PANELS: dict[str, Callable[[Result], list[Panel]]] = {
     "positions": _positions,
-    "velocities": lambda result: _by_unit(result.v, "velocity"),
-    "accelerations": lambda result: _by_unit(result.a, "acceleration"),
-    "reactions": lambda result: _by_unit(result.reactions, "reaction"),
+    "velocities": lambda result: by_unit(result.v, "velocity"),
+    "accelerations": lambda result: by_unit(result.a, "acceleration"),
+    "reactions": lambda result: by_unit(result.reactions, "reaction"),
     "energy": _energy,
     "violations": _violations,
 }

@@ -17,7 +17,7 @@ from symgen.vocabulary.measures import GROUND
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome
+    from symgen.runtime.outcome import Motion
 
 #: Singular values of D^T below this fraction of the largest one count as zero.
 CUTOFF = 1e-6
@@ -46,13 +46,13 @@ class Forces:
 
     Attributes
     ----------
-    outcome : Outcome
+    outcome : Motion
         States and raw multipliers at the outputs; its model gives D.
     seats : mapping
         Joint name -> where its reaction acts.
     """
 
-    outcome: Outcome
+    outcome: Motion
     seats: Mapping[str, Seat]
 
     @property
@@ -128,7 +128,7 @@ class Forces:
         return values
 
 
-def jacobian(outcome: Outcome, t: float, y: Array) -> Array:
+def jacobian(outcome: Motion, t: float, y: Array) -> Array:
     """Return D at one state, shape (m, nv)."""
     from symgen.runtime.probe import Ready
 
@@ -137,7 +137,7 @@ def jacobian(outcome: Outcome, t: float, y: Array) -> Array:
     return outcome.compiled.jacobian(w)
 
 
-def _minimum_norm(outcome: Outcome) -> Array:
+def _minimum_norm(outcome: Motion) -> Array:
     """Return the multipliers at all outputs, shape (k, m), of minimum norm where the rows of D are dependent."""
     m = outcome.compiled.info.m
     dependent = (outcome.status_columns[:, abi.RANK] < m) | (outcome.start.rank < m)
@@ -150,7 +150,7 @@ def _minimum_norm(outcome: Outcome) -> Array:
     return values
 
 
-def _weighed(outcome: Outcome, t: float, y: Array) -> tuple[Array, Array]:
+def _weighed(outcome: Motion, t: float, y: Array) -> tuple[Array, Array]:
     """Return G^1/2 D^T R, shape (nv, m), and the diagonal of R, shape (m,): all of its entries have one unit.
 
     R makes lengths of rows that are angles, by the mechanism's length; G makes lengths of angles, by those of bodies:

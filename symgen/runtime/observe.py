@@ -98,3 +98,30 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
         for i in range(length):
             observed.rows[k, i] = row[i]
     return 0
+
+
+@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
+def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
+    """Measure states, one after the other: the status and the angles that count turns.
+
+    Parameters
+    ----------
+    geometry, measure : emitted functions
+        See `symgen.runtime.abi`.
+    sizes, p, w
+        As for `observe_rates`; the scratch holds the angles before the first state.
+    outputs : Outputs
+        Holds states; receives their status.
+    y : Array, shape (ny,)
+        Working memory.
+    """
+    for k in range(outputs.times.shape[0]):
+        for i in range(sizes.ny):
+            y[i] = outputs.states[k, i]
+        geometry(outputs.times[k], y, p, w)
+        measure(outputs.times[k], y, p, w)
+        for i in range(_N_STATUS):
+            outputs.status[k, i] = w[i]
+        for i in range(outputs.status.shape[1] - _N_STATUS):
+            outputs.status[k, _N_STATUS + i] = w[_WINDING + i]
+    return 0

@@ -32,45 +32,22 @@ class RankEvent:
     smallest_pivot: float
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """What a run gave; arrays have one row an output.
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """A motion at some times, integrated or prescribed, and what is evaluated there when it is first asked for.
 
-    `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot and rank. What needs further
-    evaluations at the outputs is computed when it is first asked for. `held` are the parameters of earlier pieces, each
-    with the time of its last output; an output where an input jumps shows what held before.
-    A run that an event has ended has its last output there.
+    Arrays have one row a time. `status_columns` holds |Phi|, |D v - nu|, kinetic and potential energy, smallest pivot
+    and rank, then the angles that count turns. `held` are the parameters of earlier pieces, each with the last time
+    that it holds at; where an input jumps, what held before is shown.
     """
 
-    code: int
-    reason: str
-    end: float
     times: Array
     states: Array
     status_columns: Array
-    steps: int
-    rejected: int
-    evaluations: int
-    counters: dict[str, int]
-    position_violation_max: float
-    velocity_violation_max: float
-    energy_start: float
-    energy_drift_max: float
-    energy_scale: float
-    energy_jump: float
-    smallest_pivot: float
-    rank_events: tuple[RankEvent, ...]
-    rank_event_count: int
-    interrupted: bool
-    run_seconds: float
-    compile_seconds: float
     compiled: CompiledModel = field(repr=False)
     start: Start = field(repr=False)
     p: Array = field(repr=False)
     w: Array = field(repr=False)
-    simulation: Simulation = field(repr=False)
-    happened: tuple[Happening, ...] = ()
-    accumulation: float | None = None
     held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
 
     @property
@@ -159,6 +136,77 @@ class Outcome:
             here, seen = _rows_of(outputs, first, last), _rows_of(found, first, last)
             observe_rows(function, sizes, here, last - first, p, w, seen, room)
         return np.asarray(found.rows)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PrescribedMotion(Motion):
+    """A motion that is known with its accelerations; multipliers are worked out from it, or known as well.
+
+    Attributes
+    ----------
+    given : Array, shape (k, nv)
+        Accelerations.
+    found : Array, shape (k, m), optional
+        Multipliers.
+    """
+
+    given: Array = field(repr=False)
+    found: Array | None = field(default=None, repr=False)
+
+    @cached_property
+    def _rates(self) -> Observed:
+        given = np.ascontiguousarray(self.given)
+        if self.found is not None:
+            return self._seen[2]._replace(accelerations=given, multipliers=np.ascontiguousarray(self.found))
+        return super()._rates._replace(accelerations=given)
+
+    @cached_property
+    def responses(self) -> Observed:
+        """Accelerations and multipliers that the law gives in these states, whatever is known of the motion."""
+        return super()._rates
+
+    def measured(self) -> Array:
+        """Return the status of all states, as `status_columns` are, with angles that count turns followed through."""
+        from symgen.runtime.observe import observe_status
+
+        (sizes, outputs, _), w = self._seen, self.start.w.copy()
+        status = np.zeros((len(self.times), abi.N_STATUS + self.compiled.info.windings))
+        model = self.compiled.model
+        observe_status(
+            model.geometry, model.measure, sizes, outputs._replace(status=status), self.p, w, np.zeros(sizes.ny)
+        )
+        return status
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome(Motion):
+    """What a run gave: its motion at the outputs, and how the loop went.
+
+    A run that an event has ended has its last output there.
+    """
+
+    code: int
+    reason: str
+    end: float
+    steps: int
+    rejected: int
+    evaluations: int
+    counters: dict[str, int]
+    position_violation_max: float
+    velocity_violation_max: float
+    energy_start: float
+    energy_drift_max: float
+    energy_scale: float
+    energy_jump: float
+    smallest_pivot: float
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    interrupted: bool
+    run_seconds: float
+    compile_seconds: float
+    simulation: Simulation = field(repr=False)
+    happened: tuple[Happening, ...] = ()
+    accumulation: float | None = None
 
 
 def _rows_of(arrays: Any, first: int, last: int) -> Any:

@@ -43,6 +43,8 @@ WRITES_JSON = {
     "run, spatial": ("run", "spherical-double-pendulum", "--until", "0.01"),
     "compare": ("compare", "pendulum", *SHORT),
     "compare, several": ("compare", "pendulum", "four-bar", *SHORT),
+    "kinematics": ("kinematics", "driven-four-bar", "--times", "0,0.1", "--transmission", "C"),
+    "inverse": ("inverse", "driven-four-bar", "--times", "0,0.1"),
     "check": ("check", "four-bar"),
     "list": ("list",),
     "inspect": ("inspect", "four-bar", "--method", "direct-correction"),

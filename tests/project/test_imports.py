@@ -22,6 +22,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 #: Top-level folder or module of symgen -> libraries from outside the standard library that it may import.
 ALLOWED = {
     "__init__": set(),
+    "analyses": {"msgspec", "numpy", "scipy"},
     "api": {"numpy"},
     "arguments": set(),
     "auto": {"numpy"},

@@ -1,0 +1,281 @@
+"""Inverse dynamics: the efforts that a prescribed motion needs, of drivers, joints, forces or inputs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen import arguments
+from symgen.analyses.actuators import WHERE, actuated
+from symgen.analyses.balancing import balance, checked_weights
+from symgen.analyses.kinematics import Kinematics, kinematics
+from symgen.analyses.prescribed import drivers_of
+from symgen.errors import InputError
+from symgen.result.labelled import Labelled, labelled
+from symgen.result.reactions import Forces, seats
+from symgen.result.recorded import Recorded, read_recorded, recorded
+from symgen.result.tables import Tables
+from symgen.run_setup import give_inputs
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from symgen.describe.mechanism import Mechanism
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Inverse(Tables):
+    """The efforts of a motion; arrays have one row a time.
+
+    Attributes
+    ----------
+    mechanism : str
+        What moves.
+    t : Array, shape (k,)
+        Times [s].
+    efforts : Labelled
+        By the names of actuators; along their coordinates, on the second body of a joint, forward.
+    rates, power : Labelled
+        Rate of what each works along, and their product [W]; inputs have none.
+    missing : Array, shape (k,)
+        Largest acceleration that no effort gives [m/s^2], angles by the bodies' lengths.
+    forces : Forces
+        What reactions are worked out from.
+    q : Labelled
+        Coordinates.
+    parameters : mapping
+        Values of parameters.
+    ended : str
+        Why the motion ends before all times, empty where it does not.
+    notes : tuple of str
+        Sentences: what was settled, what is not unique.
+    """
+
+    mechanism: str
+    t: Array
+    efforts: Labelled
+    rates: Labelled
+    power: Labelled
+    missing: Array
+    forces: Forces
+    q: Labelled
+    parameters: Mapping[str, float]
+    ended: str = ""
+    notes: tuple[str, ...] = field(default=())
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the tables."""
+        return ("efforts", "power", "rates", "q", "lam", "reactions", "magnitudes")
+
+    @property
+    def title(self) -> str:
+        """What stands above a plot."""
+        return f"{self.mechanism}, inverse dynamics"
+
+    @property
+    def ok(self) -> bool:
+        """Whether the motion reaches all times."""
+        return not self.ended
+
+    @cached_property
+    def lam(self) -> Labelled:
+        """Multipliers of the joints; those of minimum norm where constraints are redundant."""
+        return self.forces.multipliers()
+
+    @cached_property
+    def reactions(self) -> Labelled:
+        """Reaction of each joint on its first body, as a run has it."""
+        return self.forces.reactions(self.lam)
+
+    @cached_property
+    def magnitudes(self) -> Labelled:
+        """Magnitudes of the reactions."""
+        return self.forces.magnitudes(self.reactions)
+
+    @cached_property
+    def non_unique_reactions(self) -> tuple[str, ...]:
+        """Joints whose reactions the motion does not determine, because constraints are redundant."""
+        return self.forces.non_unique
+
+    def summary(self) -> dict[str, dict[str, Any]]:
+        """Return for each effort what sizes a motor: unit, largest size and its time, root mean square, power, energy.
+
+        Root mean square and energy are integrals over the times by the trapezoidal rule.
+        """
+        found, t = dict[str, dict[str, Any]](), self.t
+        span = float(t[-1] - t[0]) if len(t) else 0.0
+        for i, (name, unit) in enumerate(zip(self.efforts.names, self.efforts.units, strict=True)):
+            values = self.efforts.values[:, i]
+            if not len(t):
+                continue
+            at = int(np.argmax(np.abs(values)))
+            square = float(np.trapezoid(values**2, t)) / span if span > 0.0 else float(values[0] ** 2)
+            entry = {"unit": unit, "max": float(abs(values[at])), "at": float(t[at]), "rms": square**0.5}
+            if name in self.power:
+                power = self.power[name]
+                entry |= {"peak_power": float(np.abs(power).max()), "energy": float(np.trapezoid(power, t))}
+            found[name] = entry
+        return found
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen inverse --json``; numbers that are not finite become None."""
+        from symgen.result.contract import finite
+
+        told = {
+            "mechanism": self.mechanism,
+            "t": self.t.tolist(),
+            "efforts": self.series("efforts"),
+            "units": dict(zip(self.efforts.names, self.efforts.units, strict=True)),
+            "power": self.series("power"),
+            "reactions": self.series("reactions"),
+            "summary": finite(self.summary()),
+            "missing": finite(self.missing.tolist()),
+            "not_unique": list(self.non_unique_reactions),
+            "ended": self.ended or None,
+            "parameters": dict(self.parameters),
+            "notes": list(self.notes),
+        }
+        return told
+
+    def __repr__(self) -> str:
+        return f"<Inverse dynamics of {self.mechanism} at {len(self.t)} times: {', '.join(self.efforts.names)}>"
+
+
+def inverse(
+    mechanism: Mechanism,
+    settings: Settings,
+    motion: Any = None,
+    times: ArrayLike | None = None,
+    actuators: Sequence[str] = (),
+    weights: Mapping[str, float] | None = None,
+) -> Inverse:
+    """Return the efforts that a motion needs.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+    motion : optional
+        A result of a run or of kinematics, or the path of a file that a result was saved to; what the drivers
+        prescribe unless given.
+    times : array, optional
+        Of a motion that drivers prescribe, see `symgen.analyses.kinematics.kinematics`.
+    actuators : sequence of str
+        See `symgen.analyses.actuators.actuated`; the drivers unless given.
+    weights : mapping of str to float, optional
+        Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the length
+        of the mechanism, unless given.
+
+    Raises
+    ------
+    InputError
+        If an argument is wrong; without a motion, if freedom is left that no driver drives.
+    """
+    names = arguments.words(WHERE, actuators)
+    drivers = drivers_of(mechanism)
+    if motion is None:
+        moved = kinematics(mechanism, settings, times)
+        if set(names or drivers) == set(drivers) and not weights:
+            return _of_drivers(moved, names or drivers)
+        found, settings = recorded(moved), _with_known(settings, mechanism, recorded(moved))
+        return replace(_of_record(mechanism, settings, found, names or drivers, weights), ended=moved.ended)
+    if times is not None:
+        raise InputError("inverse: times", "the times of the motion that is given", "others")
+    if isinstance(motion, str | Path):
+        found = read_recorded("inverse: motion", Path(motion))
+    else:
+        found = recorded(motion)
+    return _of_record(mechanism, _with_known(settings, mechanism, found), found, names or drivers, weights)
+
+
+def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded) -> Settings:
+    """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
+    known = {p.name for p in mechanism.parameters if not p.input}
+    parameters = {name: x for name, x in found.parameters.items() if name in known}
+    inputs = {name: x for name, x in found.inputs.items() if name in mechanism.inputs}
+    return replace(settings, parameters={**parameters, **settings.parameters}, inputs={**inputs, **settings.inputs})
+
+
+def _of_drivers(moved: Kinematics, names: Sequence[str]) -> Inverse:
+    """Return the efforts of drivers that hold all freedom: minus the multipliers of their rows."""
+    order = [moved.drivers.index(name) for name in names]
+    values, units = moved.efforts.values[:, order], tuple(moved.efforts.units[i] for i in order)
+    efforts = Labelled(values, tuple(names), units)
+    rates = np.column_stack([moved.elements[f"{name}.{_rate_of(moved, name)}"] for name in names])
+    speeds = tuple("rad/s" if unit == "N m" else "m/s" for unit in units)
+    return Inverse(
+        mechanism=moved.mechanism,
+        t=moved.t,
+        efforts=efforts,
+        rates=Labelled(rates, efforts.names, speeds),
+        power=Labelled(values * rates, efforts.names, ("W",) * len(names)),
+        missing=np.zeros(len(moved.t)),
+        forces=moved.forces,
+        q=moved.q,
+        parameters=moved.parameters,
+        ended=moved.ended,
+        notes=moved.notes,
+    )
+
+
+def _rate_of(moved: Kinematics, driver: str) -> str:
+    """Return what the rate of a driver's coordinate is called in the table of elements."""
+    names = [name.removeprefix(f"{driver}.") for name in moved.elements.names if name.startswith(f"{driver}.")]
+    return next(name for name in names if name.endswith("rate"))
+
+
+def _of_record(
+    mechanism: Mechanism,
+    settings: Settings,
+    found: Recorded,
+    names: Sequence[str],
+    weights: Mapping[str, float] | None,
+) -> Inverse:
+    """Return the efforts of actuators in a recorded motion."""
+    known = {name: x for name, x in settings.inputs.items() if name not in names}
+    if not len(found.t):
+        raise InputError(found.whence, "a motion", "no outputs")
+    end = float(found.t[-1]) if found.t[-1] > 0.0 else 1.0
+    asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None)
+    given = give_inputs(mechanism, replace(asked, start={}, coordinates="absolute", inputs=known))
+    if given.pieces:
+        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.told))
+    made = actuated(given.mechanism, names)
+    balanced = balance(made, given.settings, found, checked_weights(made, weights))
+    motion, info = balanced.motion, balanced.motion.compiled.info
+    values = {q.name: float(x) for q, x in zip(info.parameters, motion.p, strict=False)}
+    forces = Forces(motion, seats(made.mechanism, values))
+    works = [(i, a) for i, a in enumerate(made.actuators) if a.rate is not None]
+    columns, working = [i for i, _ in works], tuple(a.name for _, a in works)
+    power = balanced.efforts[:, columns] * balanced.rates
+    return Inverse(
+        mechanism=mechanism.name,
+        t=motion.times,
+        efforts=Labelled(balanced.efforts, *zip(*((a.name, a.unit) for a in made.actuators), strict=True)),
+        rates=Labelled(balanced.rates, working, tuple("rad/s" if a.turning else "m/s" for _, a in works)),
+        power=Labelled(power, working, ("W",) * len(works)),
+        missing=balanced.missing,
+        forces=forces,
+        q=labelled(motion.states[:, : info.nq], info.coordinates),
+        parameters={q.name: values[q.name] for q in info.parameters if q.name not in made.mechanism.inputs},
+        notes=(*motion.start.notes, *balanced.said(bool(weights)), *_unique(forces)),
+    )
+
+
+def _unique(forces: Forces) -> list[str]:
+    """Return which reactions are not unique, in a sentence."""
+    motion = forces.outcome
+    found = forces.non_unique if motion.start.redundant_rows or motion.compiled.info.dropped_rows else ()
+    return ["reactions are not unique at " + ", ".join(found)] if found else []

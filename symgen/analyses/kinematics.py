@@ -1,0 +1,329 @@
+"""Kinematics: the motion of mechanisms whose freedom is all driven, at any times, without integrating."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from symgen import arguments
+from symgen.analyses.passing import Passage
+from symgen.analyses.prescribed import drivers_of, make_driven
+from symgen.analyses.tracing import trace
+from symgen.analyses.transmission import transmission_angles
+from symgen.errors import InputError, nearest
+from symgen.memory import require
+from symgen.result.labelled import Labelled, labelled
+from symgen.result.measured import Measured
+from symgen.result.reactions import Forces, seats
+from symgen.result.result import accelerations_of
+from symgen.result.tables import Tables
+from symgen.runtime import abi
+from symgen.runtime.outcome import PrescribedMotion
+
+if TYPE_CHECKING:
+    from symgen.analyses.prescribed import Prescribed
+    from symgen.analyses.tracing import Traced
+    from symgen.describe.mechanism import Mechanism
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
+
+#: Equidistant times where neither the caller nor the file says which.
+DEFAULT_TIMES = 1001
+#: Times at most.
+MOST_TIMES = 100_000_000
+
+
+@dataclass(frozen=True, repr=False)
+class Kinematics(Tables):
+    """A prescribed motion; arrays have one row a time.
+
+    Attributes
+    ----------
+    mechanism : str
+        What moves.
+    t : Array, shape (k,)
+        Times [s]: those asked for, or as far as the motion goes.
+    q, v, a : Labelled
+        Coordinates, velocities and accelerations.
+    transmission : Labelled
+        Transmission angles of the joints asked for, see `symgen.analyses.transmission`.
+    passages : tuple of Passage
+        Singular positions on the way.
+    ended : str
+        Why the motion does not reach all times, empty where it does.
+    parameters, inputs : mapping
+        Values of parameters, and what inputs were.
+    notes : tuple of str
+        Sentences: what was settled on the way.
+    steps : int
+        Steps that were taken, at times asked for and between.
+    drivers : tuple of str
+        Names of the drivers.
+    motion : PrescribedMotion
+        What further tables are worked out from.
+    """
+
+    mechanism: str
+    t: Array
+    q: Labelled
+    v: Labelled
+    a: Labelled
+    transmission: Labelled
+    passages: tuple[Passage, ...]
+    ended: str
+    parameters: Mapping[str, float]
+    inputs: Mapping[str, str | float]
+    notes: tuple[str, ...]
+    steps: int
+    drivers: tuple[str, ...]
+    motion: PrescribedMotion
+    forces: Forces
+    measured: Measured = field(repr=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the tables."""
+        own = ("q", "v", "a", "joint_coordinates", "energy", "violations", "transmission")
+        return (*own, "lam", "reactions", "magnitudes", "efforts", "points", "elements", "outputs")
+
+    @property
+    def title(self) -> str:
+        """What stands above a plot."""
+        return f"{self.mechanism}, kinematics" + (f" ({self.ended})" if self.ended else "")
+
+    @property
+    def ok(self) -> bool:
+        """Whether the motion reaches all times."""
+        return not self.ended
+
+    @cached_property
+    def joint_coordinates(self) -> Labelled:
+        """What joints report, each followed by its rate."""
+        quantities = self.motion.compiled.info.joint_coordinates
+        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
+        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
+        return Labelled(self.motion.joint_coordinates, names, units)
+
+    @cached_property
+    def lam(self) -> Labelled:
+        """Multipliers; those of minimum norm where constraints are redundant."""
+        return self.forces.multipliers()
+
+    @cached_property
+    def reactions(self) -> Labelled:
+        """Reaction of each joint on its first body, as a run has it."""
+        return self.forces.reactions(self.lam)
+
+    @cached_property
+    def magnitudes(self) -> Labelled:
+        """Magnitudes of the reactions."""
+        return self.forces.magnitudes(self.reactions)
+
+    @cached_property
+    def efforts(self) -> Labelled:
+        """What each driver exerts along its coordinate [N m or N]: on the second body of its joint, forward."""
+        rows = {row.joint: i for i, row in enumerate(self.motion.compiled.info.rows)}
+        places = [rows[name] for name in self.drivers]
+        return Labelled(-self.lam.values[:, places], self.drivers, tuple(self.lam.units[i] for i in places))
+
+    @cached_property
+    def points(self) -> Labelled:
+        """Named points of bodies, coupler curves among them: ``leg.foot.x``, ``.vx``, ``.ax``, ..."""
+        return self.measured.table("points")
+
+    @cached_property
+    def elements(self) -> Labelled:
+        """Force elements and drivers: ``spring.force``, ``motor.effort``, ``motor.power``, ..."""
+        return self.measured.table("elements")
+
+    @cached_property
+    def outputs(self) -> Labelled:
+        """The formulas of the file's ``[outputs]``, integrals left out."""
+        return self.measured.table("outputs")
+
+    @property
+    def energy(self) -> Labelled:
+        """Kinetic and potential energy [J]."""
+        status = self.motion.status_columns
+        return Labelled(status[:, [abi.KINETIC, abi.POTENTIAL]], ("kinetic", "potential"), ("J", "J"))
+
+    @property
+    def violations(self) -> Labelled:
+        """Norms of Phi and ``D v - nu``: ``position``, ``velocity``."""
+        status = self.motion.status_columns
+        return Labelled(status[:, [abi.PHI, abi.DRIFT]], ("position", "velocity"), ("m", "m/s"))
+
+    @cached_property
+    def non_unique_reactions(self) -> tuple[str, ...]:
+        """Joints whose reactions the motion does not determine, because constraints are redundant."""
+        return self.forces.non_unique
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract of ``symgen kinematics --json``; numbers that are not finite become None."""
+        tables = ("q", "v", "a", "points", "joint_coordinates", "reactions", "efforts", "transmission", "outputs")
+        return {
+            "mechanism": self.mechanism,
+            "t": self.t.tolist(),
+            **{name: self.series(name) for name in tables},
+            "not_unique": list(self.non_unique_reactions),
+            "passages": [
+                {
+                    "t": p.t,
+                    "kind": p.kind,
+                    "coordinates": list(p.coordinates),
+                    "drivers": list(p.drivers),
+                    "words": p.words,
+                }
+                for p in self.passages
+            ],
+            "ended": self.ended or None,
+            "parameters": dict(self.parameters),
+            "inputs": dict(self.inputs),
+            "notes": list(self.notes),
+            "steps": self.steps,
+        }
+
+    def curve(self, point: str) -> Array:
+        """Return the places of a named point, shape (k, 2), in space (k, 3): a coupler curve.
+
+        Raises
+        ------
+        InputError
+            If no body has such a point.
+        """
+        table, names = self.points, [f"{arguments.text('point', point)}.{axis}" for axis in "xyz"]
+        found = [table[name] for name in names if name in table]
+        if not found:
+            known = sorted({name.rpartition(".")[0] for name in table.names})
+            raise InputError("point", "a named point", arguments.shown(point), nearest(point, known))
+        return np.column_stack(found)
+
+    def plot_curves(self, path: str | PathLike[str], points: Sequence[str] = ()) -> Path:
+        """Draw the paths of points of bodies, the first two coordinates, into a PNG, SVG or PDF file.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+        points : sequence of str, optional
+            Such as ``leg.foot``; all unless given.
+        """
+        from symgen.result.export import PLOTTED, check_path
+        from symgen.result.plots import paths, write_figure
+
+        where = arguments.path("plot", path)
+        check_path("plot", where, PLOTTED, "plot")
+        chosen = arguments.words("points", points) or dict.fromkeys(n.rpartition(".")[0] for n in self.points.names)
+        return write_figure(paths({name: self.curve(name) for name in chosen}, self.title), where)
+
+    def __repr__(self) -> str:
+        return f"<Kinematics of {self.mechanism} at {len(self.t)} times{': ' + self.ended if self.ended else ''}>"
+
+
+def kinematics(
+    mechanism: Mechanism, settings: Settings, times: ArrayLike | None = None, transmission: Sequence[str] = ()
+) -> Kinematics:
+    """Return the motion of a mechanism whose freedom is all driven.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+    times : array, optional
+        Increasing, of any sign [s]; the outputs of a run of the file unless given.
+    transmission : sequence of str
+        Joints whose transmission angles are wanted.
+
+    Raises
+    ------
+    InputError
+        If freedom is not driven, or driven twice, or an argument is wrong.
+    AssemblyError
+        If the mechanism cannot be closed.
+    """
+    asked = default_times(mechanism) if times is None else checked_times("kinematics: times", times)
+    angles = arguments.words("transmission", transmission)
+    found = make_driven(mechanism, settings, float(asked[-1]), "kinematics")
+    require("kinematics: times", f"{len(asked)} times", 16.0 * len(asked) * (found.compiled.info.ny + 16))
+    return _result(found, trace(found, asked), angles)
+
+
+def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) -> Kinematics:
+    info, start = found.compiled.info, found.start
+    motion = PrescribedMotion(
+        times=traced.times,
+        states=traced.states,
+        status_columns=traced.status,
+        compiled=found.compiled,
+        start=start,
+        p=found.p,
+        w=start.w,
+        held=found.held,
+        given=traced.accelerations,
+    )
+    forces = Forces(motion, seats(found.mechanism, {**found.parameters, **_numbers(found)}))
+    velocities = labelled(traced.states[:, info.nq : info.nq + info.nv], info.velocities)
+    result = Kinematics(
+        mechanism=found.mechanism.name,
+        t=traced.times,
+        q=labelled(traced.states[:, : info.nq], info.coordinates),
+        v=velocities,
+        a=Labelled(traced.accelerations, accelerations_of(velocities.names), tuple(f"{u}^2" for u in velocities.units)),
+        transmission=transmission_angles(found.mechanism, motion, found.parameters, transmission),
+        passages=traced.passages,
+        ended=traced.ended,
+        parameters=found.parameters,
+        inputs=found.told,
+        notes=found.notes,
+        steps=traced.steps,
+        drivers=drivers_of(found.mechanism),
+        motion=motion,
+        forces=forces,
+        measured=Measured(found.mechanism, motion, lambda: forces.multipliers().values),
+    )
+    said = [p.words for p in traced.passages if p.kind == "passed"]
+    if found.start.redundant_rows or info.dropped_rows:
+        unique = result.non_unique_reactions
+        said += ["reactions are not unique at " + ", ".join(unique)] if unique else []
+    object.__setattr__(result, "notes", (*found.notes, *said))
+    return result
+
+
+def _numbers(found: Prescribed) -> dict[str, float]:
+    return {q.name: float(x) for q, x in zip(found.compiled.info.parameters, found.start.p, strict=False)}
+
+
+def default_times(mechanism: Mechanism) -> Array:
+    """Return the times of the outputs of a run as the file has them."""
+    until, step = mechanism.defaults.until, mechanism.defaults.output_step
+    count = DEFAULT_TIMES if step is None else round(until / step) + 1
+    return np.linspace(0.0, until, count)
+
+
+def checked_times(where: str, given: Any) -> Array:
+    """Return increasing finite times.
+
+    Raises
+    ------
+    InputError
+        If they are anything else.
+    """
+    found = np.atleast_1d(
+        np.asarray(given if hasattr(given, "dtype") else arguments.numbers(where, given), dtype=float)
+    )
+    if found.ndim != 1 or not 1 <= len(found) <= MOST_TIMES or not np.all(np.isfinite(found)):
+        raise InputError(where, "a list of finite times", arguments.shown(given))
+    if not np.all(np.diff(found) > 0.0):
+        k = int(np.argmin(np.diff(found) > 0.0))
+        raise InputError(where, "times that increase", f"{found[k + 1]:g} behind {found[k]:g}")
+    return np.ascontiguousarray(found)

@@ -1,0 +1,101 @@
+"""Singular positions on the way of a prescribed motion, and the curve that carries the motion over them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import KroghInterpolator
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import ModelInfo
+
+Array = NDArray[np.float64]
+
+#: Times -> states, accelerations, and angles that count turns.
+Curve = Callable[[Array], tuple[Array, Array, Array]]
+
+
+@dataclass(frozen=True)
+class Passage:
+    """A singular position on the way.
+
+    Attributes
+    ----------
+    t : float
+        When it was met [s].
+    kind : str
+        ``"passed"``, or ``"dead centre"`` where no motion goes on.
+    coordinates : tuple of str
+        What could move there although all drivers hold still.
+    drivers : tuple of str
+        Drivers that hold nothing there.
+    """
+
+    t: float
+    kind: str
+    coordinates: tuple[str, ...]
+    drivers: tuple[str, ...]
+
+    @property
+    def words(self) -> str:
+        """One sentence."""
+        free = ", ".join(self.coordinates)
+        if self.kind == "passed":
+            how = "passed on the smooth branch, though another one leaves it"
+            return f"singular position at t = {self.t:.9g} s (drivers do not hold {free}): {how}"
+        who = " and ".join(f"'{name}'" for name in self.drivers)
+        return f"dead centre at t = {self.t:.9g} s: {who or 'the drivers'} can go no further; {free} would have to jump"
+
+
+def curve_through(info: ModelInfo, known: Sequence[tuple[Array, ...]]) -> Curve:
+    """Return the motion through known states, by polynomials that have their values and rates.
+
+    Parameters
+    ----------
+    info : ModelInfo
+        The model.
+    known : sequence of tuple of Array
+        Time, q, q', v, v', and angles that count turns.
+    """
+    times = np.repeat([float(node[0][0]) for node in known], 2)
+
+    def through(value: int, rate: int) -> KroghInterpolator:
+        return KroghInterpolator(times, np.array([x for node in known for x in (node[value], node[rate])]))
+
+    q, v = through(1, 2), through(3, 4)
+    turned = np.array([node[5] for node in known])
+
+    def at(t: Array) -> tuple[Array, Array, Array]:
+        y = np.zeros((len(t), info.ny))
+        y[:, : info.nq] = q(t)
+        for first, _ in info.spins:
+            y[:, first : first + 4] /= np.linalg.norm(y[:, first : first + 4], axis=1, keepdims=True)
+        y[:, info.nq : info.nq + info.nv] = v(t)
+        nearest = np.abs(t[:, np.newaxis] - times[::2]).argmin(axis=1)
+        return y, np.atleast_2d(v.derivative(t)), turned[nearest]
+
+    return at
+
+
+def rates_of(info: ModelInfo, q: Array, v: Array) -> Array:
+    """Return q' = N v: velocities, and of Euler parameters half their product with the angular velocity."""
+    spun = dict(info.spins)
+    found, i, j = np.zeros(info.nq), 0, 0
+    while i < info.nq:
+        if i not in spun:
+            found[i] = v[j]
+            i, j = i + 1, j + 1
+            continue
+        (a, b, c, d), (x, y, z) = q[i : i + 4], 0.5 * v[j : j + 3]
+        found[i : i + 4] = (
+            -(b * x + c * y + d * z),
+            a * x + c * z - d * y,
+            a * y + d * x - b * z,
+            a * z + b * y - c * x,
+        )
+        i, j = i + 4, j + 3
+    return found

@@ -1,0 +1,249 @@
+"""Mechanisms whose freedom is all driven: made ready to be followed, or refused in one sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
+from symgen.errors import AssemblyError, InputError
+from symgen.plan import make_plan
+from symgen.run_setup import give_inputs, ready
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.probe import Ready
+from symgen.vocabulary.expressions import readings
+from symgen.vocabulary.measures import GROUND, Integral
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.settings import Settings
+
+Array = NDArray[np.float64]
+
+#: Singular values below this part of the largest one count as zero, and parts of a direction below this one's largest.
+CUTOFF = 1e-9
+DRIVER = "driver"
+#: Coordinates of joints on the ground, where motors sit, are named rather than others.
+ON_GROUND = 10.0
+
+
+@dataclass(frozen=True)
+class Prescribed:
+    """A mechanism that is ready to be followed.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With its inputs put in place, without outputs that are integrals.
+    compiled, start : CompiledModel, Start
+        Its code, and its consistent start at t = 0.
+    parameters : mapping
+        Values of all parameters, as a run is given them.
+    held : tuple of (float, Array)
+        Parameters of earlier pieces, see `symgen.runtime.outcome.Motion`.
+    p : Array
+        Parameters of the last piece.
+    told : mapping
+        Inputs in words, or their numbers.
+    notes : tuple of str
+        What was settled on the way.
+    """
+
+    mechanism: Mechanism
+    compiled: CompiledModel
+    start: Start
+    parameters: dict[str, float]
+    held: tuple[tuple[float, Array], ...]
+    p: Array
+    told: dict[str, str | float]
+    notes: tuple[str, ...]
+
+
+def drivers_of(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the names of all drivers."""
+    return tuple(joint.name for joint in mechanism.joints if joint.kind == DRIVER)
+
+
+def without(mechanism: Mechanism, names: Sequence[str]) -> Mechanism:
+    """Return a mechanism without some of its joints."""
+    joints = tuple(joint for joint in mechanism.joints if joint.name not in names)
+    seats = tuple((name, marker) for name, marker in mechanism.seats if name not in names)
+    return msgspec.structs.replace(mechanism, joints=joints, seats=seats)
+
+
+def instantaneous(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism without what only a run can say of it: outputs that are integrals, events, and velocities."""
+    kept = tuple(o for o in mechanism.outputs if not any(isinstance(r.source, Integral) for r in readings(o.value)))
+    bodies = tuple(_still(body) for body in mechanism.bodies)
+    return msgspec.structs.replace(mechanism, bodies=bodies, outputs=kept, events=())
+
+
+def _still(body: AnyBody) -> AnyBody:
+    """Return a body whose velocities follow from the drivers, whatever the file says of them."""
+    if isinstance(body, SpatialBody):
+        return msgspec.structs.replace(body, velocity=(None, None, None), angular_velocity=(None, None, None))
+    return msgspec.structs.replace(body, velocity=(None, None), angular_velocity=None)
+
+
+def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescribed:
+    """Return the code and the start of a mechanism, and what holds of its inputs when.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+    until : float
+        Last time [s]: inputs are known up to it.
+
+    Raises
+    ------
+    InputError, AssemblyError
+        If settings are wrong, or the mechanism cannot be closed.
+    """
+    end = until if until > 0.0 else 1.0
+    asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end)
+    asked = replace(asked, output_step=None, coordinates="absolute")
+    given = give_inputs(mechanism, asked)
+    found = instantaneous(given.mechanism)
+    plan = make_plan(found, given.settings)
+    compiled, start = ready(found, plan, given.settings.parameters, settings.strict)
+    held, p = list[tuple[float, Array]](), start.p
+    numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
+    for piece in given.pieces[1:]:
+        held.append((piece.begin, p))
+        p = p.copy()
+        for name, value in piece.values.items():
+            p[numbers[name]] = value
+        for module in (compiled.model, compiled.law_module):
+            Ready(module.prepare, e.PREPARE)(p)
+    values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
+    parameters = {name: x for name, x in values.items() if name not in found.inputs}
+    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), start.notes)
+
+
+def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str) -> Prescribed:
+    """Return a mechanism whose freedom is all driven, ready to be followed; see `make_ready`.
+
+    Parameters
+    ----------
+    mechanism, settings, until
+        As for `make_ready`.
+    what : str
+        Who asks, for messages.
+
+    Raises
+    ------
+    InputError
+        If freedom is left, there are more drivers than freedom, a joint is a condition on velocities, or the start is
+        a singular position.
+    AssemblyError
+        If the mechanism cannot be closed.
+    """
+    drivers = drivers_of(mechanism)
+    try:
+        found = make_ready(mechanism, settings, until)
+    except AssemblyError:
+        _refuse_excess(mechanism, settings, until, what, drivers)
+        raise
+    info, start = found.compiled.info, found.start
+    for row in info.rows:
+        if not row.holonomic:
+            got = f"'{row.joint}', a condition on velocities, from which positions follow by integration alone"
+            raise InputError(what, "conditions on positions", got, "symgen run does that")
+    masked = len(start.redundant_rows)
+    freedom = info.nv - (info.m - masked)
+    # where the start is singular, rows may depend on others there alone
+    loose = _refuse_excess(mechanism, settings, until, what, drivers) if masked else None
+    if start.rank < info.m - masked or (freedom > 0 and loose == len(drivers)):
+        got = "a singular position, from which several motions go on"
+        raise InputError(
+            what, "a start that is none of several branches", got, "describe it, and begin its drivers, elsewhere"
+        )
+    if freedom > 0:
+        names = free_coordinates(found, freedom)
+        of = "1 degree of freedom that is" if freedom == 1 else f"{freedom} degrees of freedom that are"
+        hint = f"a driver drives {'it' if freedom == 1 else 'each'}, and symgen run needs none"
+        raise InputError(what, "a driver for every freedom", f"{of} not driven: {', '.join(names)}", hint)
+    return found
+
+
+def _refuse_excess(
+    mechanism: Mechanism, settings: Settings, until: float, what: str, drivers: tuple[str, ...]
+) -> int | None:
+    """Refuse more drivers than there are degrees of freedom without them; return how many there are, if that is known.
+
+    Raises
+    ------
+    InputError
+        With the drivers' names.
+    """
+    try:
+        loose = make_ready(without(instantaneous(mechanism), drivers), replace(settings, start={}), until)
+    except (InputError, AssemblyError):  # it is not what the drivers drive that is wrong
+        return None
+    info = loose.compiled.info
+    freedom = info.nv - (info.m - len(loose.start.redundant_rows))
+    if len(drivers) > freedom:
+        words = "1 driver for 1 degree" if freedom == 1 else f"{freedom} drivers for {freedom} degrees"
+        raise InputError(what, f"{words} of freedom", f"{len(drivers)}: {', '.join(drivers)}")
+    return freedom
+
+
+def jacobian_at(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
+    """Return D at a state, of numbers: angles count as the distance that they move a body's end; shape (m, nv)."""
+    w = w.copy()
+    Ready(compiled.model.geometry, abi.MEASURE)(t, y.copy(), p, w)
+    weights = np.array([w[abi.LENGTH] if row.unit == "rad" else 1.0 for row in compiled.info.rows])
+    found: Array = weights[:, np.newaxis] * compiled.jacobian(w) * np.sqrt(compiled.section(w, "gauge"))
+    return found
+
+
+def free_coordinates(found: Prescribed, count: int) -> list[str]:
+    """Return the names of as many coordinates as the freedom that is left, each of another part of it.
+
+    Joints' own coordinates are named where they tell it, else coordinates of bodies.
+    """
+    compiled, start, info = found.compiled, found.start, found.compiled.info
+    scale = np.sqrt(compiled.section(start.w, "gauge"))
+    _, _, right = np.linalg.svd(jacobian_at(compiled, start.t, start.y, start.p, start.w), full_matrices=True)
+    basis = (right[-count:] * scale).T  # directions of v, shape (nv, count)
+    names = [q.name for q in info.joint_coordinates] + [v.name for v in info.velocities]
+    rates = np.vstack([rates_of_joints(found, basis), basis])
+    chosen, rest, joints = list[str](), rates.copy(), len(info.joint_coordinates)
+    grounded = {joint.name for joint in found.mechanism.joints if GROUND in joint.bodies}
+    liked = np.array([ON_GROUND if name.partition(".")[0] in grounded else 1.0 for name in names])
+    liked[joints:] = CUTOFF  # these where no joint tells
+    for _ in range(count):
+        sizes = np.linalg.norm(rest, axis=1) * liked
+        k = int(np.argmax(sizes))
+        chosen.append(names[k])
+        if not np.any(rest[k]):
+            break
+        direction = rest[k] / np.linalg.norm(rest[k])
+        rest = rest - np.outer(rest @ direction, direction)
+    return chosen
+
+
+def rates_of_joints(found: Prescribed, basis: Array) -> Array:
+    """Return the rates of all joint coordinates along directions of the velocities, shape (n, directions)."""
+    compiled, start, info = found.compiled, found.start, found.compiled.info
+    observe = Ready(compiled.model.observe, abi.OBSERVE)
+
+    def rates(v: Array) -> Any:
+        y, out = start.y.copy(), np.zeros(info.m + 2 * len(info.joint_coordinates))
+        y[info.nq : info.nq + info.nv] = v
+        observe(start.t, y, start.p, start.w.copy(), np.zeros(info.ny), out)
+        return out[info.m + 1 :: 2]
+
+    still = rates(np.zeros(info.nv))
+    return np.column_stack([rates(v) - still for v in basis.T]).reshape(len(info.joint_coordinates), -1)

@@ -1,0 +1,353 @@
+"""A prescribed motion through any times: followed by compiled code, and carried over singular positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
+from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
+from symgen.runtime import abi, decisions
+from symgen.runtime import following as f
+from symgen.runtime.exact import compiled_form
+from symgen.runtime.manifold import stay
+from symgen.runtime.model_arrays import entries_of, velocity_of
+from symgen.runtime.probe import Ready
+from symgen.runtime.simulation import row_chooser
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Array = NDArray[np.float64]
+
+#: Beside a singular position states are known at so many times on either side, where the sine is a multiple of this.
+NODES, SPACING = 3, 0.05
+#: Sines below this are near a singular position; attempts to go over it, each with nearer times.
+NEAR, ATTEMPTS = 0.01, 4
+#: The state extrapolated over a singular position has to be corrected by less than this part of the sine.
+CONTINUED = 0.1
+#: Times that compiled code goes through at once.
+PIECE = 500_000
+#: The shortest step beside the time that a motion takes.
+LEAST = 1e-13
+#: Coordinates named of those that could move at a singular position, and the part of the largest from which one counts.
+MOST_NAMED, COUNTS = 3, 0.3
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A motion that was followed; arrays have one row a time, up to where it ended."""
+
+    times: Array
+    states: Array
+    accelerations: Array
+    status: Array
+    passages: tuple[Passage, ...]
+    ended: str
+    steps: int
+
+    def reversed(self) -> Traced:
+        """Return the same in the other order."""
+        arrays = self.times[::-1], self.states[::-1], self.accelerations[::-1], self.status[::-1]
+        return Traced(*arrays, self.passages[::-1], self.ended, self.steps)
+
+
+def trace(found: Prescribed, times: Array) -> Traced:
+    """Follow a motion through increasing times, those before 0 backwards.
+
+    Parameters
+    ----------
+    found : Prescribed
+        Ready, and all driven.
+    times : Array, shape (k,)
+        Increasing [s].
+    """
+    first = int(np.searchsorted(times, 0.0))
+    parts = list[Traced]()
+    if first:
+        parts.append(Tracer(found, times[:first][::-1]).run().reversed())
+    if first < len(times):
+        parts.append(Tracer(found, times[first:]).run())
+    if len(parts) == 1:
+        return parts[0]
+    before, behind = parts
+    return Traced(
+        np.concatenate([before.times, behind.times]),
+        np.concatenate([before.states, behind.states]),
+        np.concatenate([before.accelerations, behind.accelerations]),
+        np.concatenate([before.status, behind.status]),
+        before.passages + behind.passages,
+        "; ".join(part.ended for part in parts if part.ended),
+        before.steps + behind.steps,
+    )
+
+
+@dataclass
+class Tracer:
+    """The loop over times that all lie on one side of 0, with what it has found.
+
+    Parameters
+    ----------
+    found : Prescribed
+        Ready, and all driven.
+    times : Array, shape (k,)
+        In the order in which they are met [s].
+    """
+
+    found: Prescribed
+    times: Array
+    passages: list[Passage] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        compiled, start = self.found.compiled, self.found.start
+        info, model = compiled.info, compiled.model
+        self.info, self.p, self.w = info, start.p, start.w.copy()
+        self.span = max(float(np.abs(self.times).max()), 1e-9)
+        sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
+        length = float(self.w[abi.LENGTH])
+        numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
+        scale = np.array([1.0 if v.unit == "rad/s" else 1.0 / length for v in info.velocities])
+        tolerance = decisions.ROUNDING * length * max(info.m, 1)
+        self.course = f.Course._make((*numbers, tolerance, LEAST * self.span, *entries_of(info), scale))
+        move = model.move if info.nq != info.nv else compiled_form(stay)
+        self.functions = model.geometry, model.measure, move, model.spread, model.observe
+        self.control = np.zeros(abi.N_CONTROL, dtype=np.int64)
+        rows = info.m + 2 * len(info.joint_coordinates)
+        self.stand = f.Stand(
+            *(start.y.copy(), np.zeros(info.nv), np.zeros(info.nv), np.zeros(f.N_CLOCK)),
+            *(np.zeros(f.N_COUNTS, dtype=np.int64), np.zeros(info.ny), np.zeros(info.ny), np.zeros(rows)),
+            *(self.w[abi.WINDING : abi.WINDING + info.windings].copy(), np.zeros(info.nv**2)),
+        )
+        self.stand.clock[f.REACH] = self.span
+        self.sign = -1.0 if self.times[-1] < 0.0 else 1.0
+        self._choose: Callable[[Array], bool] | None = row_chooser(compiled) if start.redundant_rows else None
+
+    @property
+    def clock(self) -> Array:
+        """Time, sine and the like, see `symgen.runtime.following`."""
+        clock: Array = self.stand.clock
+        return clock
+
+    # -- the loop ------------------------------------------------------------------------------------------------------
+
+    def run(self) -> Traced:
+        """Follow the motion through all times, or as far as it goes."""
+        info, k = self.info, len(self.times)
+        seen = f.Followed(np.empty((k, info.ny)), np.empty((k, info.nv)), np.empty((k, abi.N_STATUS + info.windings)))
+        ended = ""
+        while True:
+            # in pieces, between which the process can be interrupted
+            done = min(int(self.stand.counts[f.AT]) + PIECE, k)
+            code = self.follow(self.times[:done], seen)
+            if code == f.DONE:
+                if done == k:
+                    break
+                continue
+            if self._choose is not None and self._chosen_anew():
+                continue
+            if code == f.CHOOSE:  # the same ones
+                self.clock[f.BEST] = self.clock[f.SINE]
+                continue
+            crossed = self._cross(code, seen) if code in (f.SINGULAR, f.PASSING) else False
+            if not crossed and not self._shortened(code):
+                ended = self._reason(code)
+                break
+        if not ended and self.clock[f.SINE] < NEAR and np.isfinite(self.clock[f.SLOPE]):
+            self._cross(f.DONE, seen)  # the last states are beside a singular position
+        n = int(self.stand.counts[f.AT])
+        taken = int(self.stand.counts[f.TAKEN])
+        return Traced(
+            self.times[:n], seen.states[:n], seen.accelerations[:n], seen.status[:n], (*self.passages,), ended, taken
+        )
+
+    def follow(self, times: Array, seen: Any) -> int:
+        """Enter the compiled loop."""
+        here = np.ascontiguousarray(times)
+        return int(f.follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
+
+    def _shortened(self, code: int) -> bool:
+        """Take shorter steps from here on; return whether they are long enough to be taken."""
+        if code in (f.REFUSED, f.UNDEFINED):
+            return False
+        self.clock[f.REACH] = 0.5 * abs(self.clock[f.TRIED] - self.clock[f.TIME])
+        return bool(self.clock[f.REACH] >= self.course.least)
+
+    def _chosen_anew(self) -> bool:
+        """Choose the rows that stand for all at the present position; return whether they are others."""
+        Ready(self.functions[0], abi.MEASURE)(self.clock[f.TIME], self.stand.y, self.p, self.w)
+        assert self._choose is not None, "rows are redundant"
+        if not self._choose(self.w):
+            return False
+        self.stand.counts[f.SETTLED], self.clock[f.REACH] = 0, self.span
+        return True
+
+    # -- states beside a singular position -----------------------------------------------------------------------------
+
+    def _taken(self) -> tuple[Array, ...]:
+        return tuple(array.copy() for array in self.stand)
+
+    def _back_to(self, taken: tuple[Array, ...]) -> None:
+        for array, before in zip(self.stand, taken, strict=True):
+            array[:] = before
+
+    def _at(self, t: float) -> bool:
+        """Go to a time beside the present one, forward or backward; return whether that went well."""
+        if t == self.clock[f.TIME]:
+            return True
+        nothing = f.Followed(np.empty((1, self.info.ny)), np.empty((1, self.info.nv)), self._status_row())
+        at, self.stand.counts[f.AT] = int(self.stand.counts[f.AT]), 0
+        self.clock[f.REACH] = self.span
+        while (code := self.follow(np.array([t]), nothing)) == f.CHOOSE:
+            self.clock[f.BEST] = self.clock[f.SINE]  # rows stay those that they are
+        self.stand.counts[f.AT] = at
+        return code == f.DONE
+
+    def _status_row(self) -> Array:
+        return np.empty((1, abi.N_STATUS + self.info.windings))
+
+    def _cross(self, code: int, seen: Any) -> bool:
+        """Go over a singular position ahead, on the branch that continues the motion; return whether there is one."""
+        kept, clock = self._taken(), self.clock.copy()
+        elapsed = abs(clock[f.TRIED] - clock[f.TIME])
+        if code == f.PASSING:
+            slope = (clock[f.SINE] + clock[f.TRIED_SINE]) / elapsed
+        else:
+            slope = clock[f.SINE] / elapsed if code == f.SINGULAR else clock[f.SLOPE]
+        if not (slope > 0.0 and np.isfinite(slope)):
+            return False
+        middle = clock[f.TIME] + self.sign * clock[f.SINE] / slope
+        for attempt in range(ATTEMPTS):
+            width = max(SPACING / slope / 2.0**attempt, abs(middle - clock[f.TIME]))
+            if self._over(middle, width, seen):
+                return True
+            self._back_to(kept)
+        return False
+
+    def _over(self, middle: float, width: float, seen: Any) -> bool:
+        """Go over a singular position near `middle` from states before it to states behind it, `width` apart [s]."""
+        known = list[tuple[Array, ...]]()
+        for k in range(1, NODES + 1):
+            if not self._at(middle - self.sign * k * width):
+                return False
+            known.append(self._node())
+        guess = curve_through(self.info, known)
+        t = middle + self.sign * width
+        y, a, _ = guess(np.array([t]))
+        self.stand.y[:], self.stand.a[:], self.stand.jerk[:] = y[0], a[0], 0.0
+        self.clock[f.TIME], self.stand.counts[f.SETTLED] = t, 0
+        nothing = f.Followed(np.empty((0, self.info.ny)), np.empty((0, self.info.nv)), self._status_row()[:0])
+        if self.follow(np.zeros(0), nothing) != f.DONE:
+            return False
+        if not self._distance(self.stand.y, y[0]) <= CONTINUED * self.clock[f.SINE]:
+            return False
+        behind = self._taken()
+        for k in range(1, NODES + 1):
+            if not self._at(middle + self.sign * k * width):
+                return False
+            known.append(self._node())
+        known.sort(key=lambda node: float(node[0][0]))
+        curve = curve_through(self.info, known)
+        self._back_to(behind)
+        t = self._place(curve, middle, width)
+        self.passages.append(self._passage(t, "passed", curve))
+        self._write(curve, middle - self.sign * width, middle + self.sign * width, seen)
+        self.clock[f.REACH] = self.span
+        return True
+
+    def _node(self) -> tuple[Array, ...]:
+        """Return time, q, q', v, v', angles that count turns, and the sine, where the loop stands."""
+        nq, nv, s = self.info.nq, self.info.nv, self.stand
+        q, v = s.y[:nq].copy(), s.y[nq : nq + nv].copy()
+        now = np.array([self.clock[f.TIME]]), q, rates_of(self.info, q, v), v, s.a.copy(), s.turned.copy()
+        return (*now, np.array([self.clock[f.SINE]]))
+
+    def _write(self, curve: Curve, first: float, last: float, seen: Any) -> None:
+        """Write the outputs between two times from a curve, and go on behind them."""
+        here = np.flatnonzero((self.sign * (self.times - first) > 0.0) & (self.sign * (self.times - last) < 0.0))
+        geometry, measure = (Ready(function, abi.MEASURE) for function in self.functions[:2])
+        if len(here):
+            states, rates, turned = curve(self.times[here])
+            seen.states[here], seen.accelerations[here] = states, rates
+            w, count = self.w.copy(), self.info.windings
+            for k, y, turns in zip(here, states, turned, strict=True):
+                w[abi.WINDING : abi.WINDING + count] = turns
+                geometry(float(self.times[k]), y, self.p, w)
+                measure(float(self.times[k]), y, self.p, w)
+                seen.status[k] = np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + count])
+        self.stand.counts[f.AT] = int(np.count_nonzero(self.sign * (self.times - last) < 0.0))
+
+    def _distance(self, y: Array, other: Array) -> float:
+        """Return how far the positions of two states are apart, as a number."""
+        info, scale, length = self.info, self.course.scale, float(self.w[abi.LENGTH])
+        spun = {i for first, _ in info.spins for i in range(first, first + 4)}
+        sizes = [
+            abs(y[i] - other[i]) * (1.0 / length if i in spun else scale[velocity_of(i, info)]) for i in range(info.nq)
+        ]
+        return float(max(sizes))
+
+    def _place(self, curve: Curve, middle: float, width: float) -> float:
+        """Return where the determinant of D changes its sign, near `middle`."""
+
+        def sign(t: float) -> float:
+            y, _, _ = curve(np.array([t]))
+            d = jacobian_at(self.found.compiled, t, y[0], self.p, self.w)
+            kept = self.found.compiled.section(self.w, "mask") == 0.0
+            return float(np.linalg.slogdet(d[kept])[0])
+
+        low, high = middle - width, middle + width
+        before = sign(low)
+        if before == sign(high):
+            return middle
+        for _ in range(60):
+            t = 0.5 * (low + high)
+            if not low < t < high:
+                break
+            low, high = (t, high) if sign(t) == before else (low, t)
+        return 0.5 * (low + high)
+
+    # -- words ---------------------------------------------------------------------------------------------------------
+
+    def _passage(self, t: float, kind: str, curve: Curve | None) -> Passage:
+        """Return what is known of a singular position: of the curve there, or of where the loop stands."""
+        y = self.stand.y if curve is None else curve(np.array([t]))[0][0]
+        info = self.info
+        d = jacobian_at(self.found.compiled, t, y, self.p, self.w)
+        left, _, right = np.linalg.svd(d[self.found.compiled.section(self.w, "mask") == 0.0])
+        moving, holding = np.abs(right[-1]), np.abs(left[:, -1])
+        order = [j for j in np.argsort(-moving) if moving[j] > COUNTS * moving.max()]
+        kept = np.flatnonzero(self.found.compiled.section(self.w, "mask") == 0.0)
+        kinds = {joint.name: joint.kind for joint in self.found.mechanism.joints}
+        involved = [info.rows[kept[i]].joint for i in range(len(kept)) if holding[i] > CUTOFF**0.5 * holding.max()]
+        positions = {velocity_of(i, info): c.name for i, c in enumerate(info.coordinates) if not self._spun(i)}
+        names = [positions.get(int(j), info.velocities[j].name) for j in order[:MOST_NAMED]]
+        drivers = dict.fromkeys(name for name in involved if kinds[name] == DRIVER)
+        return Passage(float(t), kind, tuple(names), tuple(drivers))
+
+    def _spun(self, coordinate: int) -> bool:
+        return any(first <= coordinate < first + 4 for first, _ in self.info.spins)
+
+    def _reason(self, code: int) -> str:
+        """Return why the motion does not go on, in a sentence."""
+        t, sine, slope = self.clock[f.TIME], self.clock[f.SINE], self.clock[f.SLOPE]
+        if code == f.UNDEFINED:
+            return f"a formula is not finite behind t = {t:.9g} s"
+        if sine < SPACING:
+            rest = 0.5 * sine / slope if slope > 0.0 and np.isfinite(slope) else 0.0  # its square falls to 0
+            passage = self._passage(t + self.sign * rest, "dead centre", None)
+            self.passages.append(passage)
+            return passage.words
+        rows = [i for i, row in enumerate(self.info.rows) if self._jumps(i)]
+        if rows:
+            who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in rows))
+            return f"the value of {who} jumps at t = {t:.9g} s"
+        return f"no position near the last one closes the mechanism behind t = {t:.9g} s"
+
+    def _jumps(self, row: int) -> bool:
+        """Whether a row is open a moment later although nothing has moved."""
+        w = self.w.copy()
+        later = float(self.clock[f.TIME]) + self.sign * self.course.least
+        Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
+        return bool(abs(self.found.compiled.section(w, "residual")[row]) > 1e-6)

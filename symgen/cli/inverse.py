@@ -1,0 +1,88 @@
+"""``symgen inverse MODEL``: the efforts that a motion needs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import click
+
+from symgen.cli import FAILURE, OK, complain, write_files, write_json
+from symgen.cli._options import assignments, json_option, output_file, setting_options, time_list, words
+from symgen.settings import Settings
+
+
+@click.command("inverse", short_help="Find the efforts that a motion needs.")
+@click.argument("model")
+@click.option(
+    "--from",
+    "whence",
+    metavar="FILE",
+    help="A recorded motion: .nc, .parquet or .csv that a result was saved to.  [default: what the drivers prescribe]",
+)
+@click.option(
+    "--times",
+    metavar="TIMES",
+    help="When, of drivers' motion [s]: lin(0, 1, 101) or 0,0.25,0.5.  [default: outputs of a run of MODEL]",
+)
+@click.option(
+    "--actuators",
+    metavar="NAME,...",
+    help="What exerts the motion: drivers, joints, forces, inputs.  [default: all drivers]",
+)
+@click.option(
+    "--weight",
+    "weights",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Weight of an actuator where efforts are not unique: the sum of (weight effort)^2 is smallest.",
+)
+@setting_options("parameters", "inputs", "strict", "shape")
+@click.option(
+    *("--quantity", "quantities"),
+    multiple=True,
+    metavar="NAME",
+    help="What to save and plot beside efforts: a column, a joint or a table, such as power or reactions.",
+)
+@click.option("--save", metavar="FILE", help="Write tables to FILE: .csv, with units, or .parquet.")
+@click.option("--plot", metavar="FILE", help="Draw efforts and power over time into FILE: .png, .svg or .pdf.")
+@json_option
+def command(
+    model: str,
+    whence: str | None,
+    times: str | None,
+    actuators: str | None,
+    weights: tuple[str, ...],
+    quantities: tuple[str, ...],
+    save: str | None,
+    plot: str | None,
+    as_json: bool,
+    **asked: Any,
+) -> int:
+    """Find the efforts that a motion of MODEL needs: motor torques, forces of actuators.
+
+    For example: symgen inverse driven-four-bar --times "lin(0, 1, 361)" --plot torque.svg, or of a recorded run:
+    symgen inverse andrews --from run.nc --actuators drive
+    """
+    settings = Settings(**asked)
+    chosen = None if times is None else time_list("--times", times)
+    named, weighed = words("--actuators", actuators), assignments("--weight", weights)
+    save_path, plot_path = output_file("--save", save, "data"), output_file("--plot", plot, "plot")
+
+    from symgen.api import load
+
+    result = load(model).inverse(whence, settings, chosen, named, weighed)
+    for sentence in result.notes:
+        click.echo(f"symgen: {sentence}", err=True)
+    if as_json:
+        write_json(result.to_json())
+    else:
+        from symgen.cli._tables import show_summary
+
+        click.echo(f"{result.mechanism}: efforts at {len(result.t)} times")
+        show_summary(result.summary())
+    code = complain(result.ended, FAILURE) if result.ended else OK
+    files: dict[Any, Any] = {
+        save_path: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),
+        plot_path: lambda path: result.plot(path, ("efforts", "power", *quantities)),
+    }
+    return write_files(code, files, None if as_json else lambda path: click.echo(f"written: {path}"))

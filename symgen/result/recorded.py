@@ -1,0 +1,145 @@
+"""A recorded motion: coordinates, velocities and accelerations of a run, or of a file that a result was saved to."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import ACCELERATIONS
+from symgen.errors import InputError, quoted
+from symgen.result.export import SAVED, need
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A recorded motion.
+
+    Attributes
+    ----------
+    whence : str
+        Where it is from, for messages.
+    t : Array, shape (k,)
+        Times [s].
+    columns : mapping of str to Array
+        Coordinates, velocities and accelerations by name, each of shape (k,).
+    parameters : mapping of str to float
+        Values that are known to have held.
+    inputs : mapping of str to float or str
+        The same of inputs, in words where they were no numbers.
+    """
+
+    whence: str
+    t: Array
+    columns: Mapping[str, Array]
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    inputs: Mapping[str, float | str] = field(default_factory=dict)
+
+    def table(self, names: Sequence[str]) -> Array:
+        """Return columns in an order, shape (k, n).
+
+        Raises
+        ------
+        InputError
+            If one is missing, or holds numbers that are not finite.
+        """
+        for name in names:
+            if name not in self.columns:
+                raise InputError(self.whence, "the motion of this mechanism", f"no column {quoted(name)}")
+        found = np.zeros((len(self.t), len(names)))
+        for i, name in enumerate(names):
+            found[:, i] = self.columns[name]
+        if not np.all(np.isfinite(found)):
+            raise InputError(self.whence, "finite numbers", "others")
+        return found
+
+
+def recorded(motion: Any) -> Recorded:
+    """Return the motion of a result, or of whatever has the tables ``q``, ``v`` and ``a`` over ``t``.
+
+    Raises
+    ------
+    InputError
+        If it has not.
+    """
+    if isinstance(motion, Recorded):
+        return motion
+    if not all(hasattr(motion, name) for name in ("t", "q", "v", "a")):
+        raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
+    tables = motion.q, motion.v, motion.a
+    columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
+    parameters, inputs = getattr(motion, "parameters", {}), getattr(motion, "inputs", {})
+    return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, dict(parameters), dict(inputs))
+
+
+def read_recorded(option: str, path: Path) -> Recorded:
+    """Return the motion that a file of a result holds.
+
+    Parameters
+    ----------
+    option : str
+        Who asks, for messages.
+    path : Path
+        A ``.nc``, ``.parquet`` or ``.csv`` file with all columns of coordinates, velocities and accelerations.
+
+    Raises
+    ------
+    InputError
+        If there is no such file, or it is none of a result.
+    """
+    ending = path.suffix.lower()
+    if ending not in SAVED:
+        raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
+    need(option, *SAVED[ending])
+    if not path.is_file():
+        raise InputError(option, "a file of a result", f"'{path}', which is none")
+    try:
+        return _of_dataset(option, path) if ending == ".nc" else _of_columns(option, path)
+    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration) as error:
+        why = " ".join(str(error).split())[:80]
+        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
+
+
+def _of_dataset(option: str, path: Path) -> Recorded:
+    import xarray as xr
+
+    dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
+    for table, labels in (("q", "coordinate"), ("v", "velocity"), ("a", "acceleration")):
+        values = np.asarray(dataset[table].values, dtype=np.float64)
+        columns |= {str(name): values[:, i] for i, name in enumerate(dataset[labels].values)}
+    run = json.loads(dataset.attrs["run"])
+    t = np.asarray(dataset["time"].values, dtype=np.float64)
+    return Recorded(f"{option} '{path.name}'", t, columns, run["parameters"], run["inputs"])
+
+
+def _of_columns(option: str, path: Path) -> Recorded:
+    if path.suffix.lower() == ".csv":
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = csv.reader(file)
+            names = [name.partition(" [")[0] for name in next(rows)]
+            values = np.array([[float(x) for x in row] for row in rows])
+        columns = {name: values[:, i] for i, name in enumerate(names)}
+    else:
+        import pandas as pd
+
+        frame = pd.read_parquet(path, engine="pyarrow")
+        columns = {str(name): np.asarray(frame[name], dtype=np.float64) for name in frame.columns}
+        columns["t"] = np.asarray(frame.index, dtype=np.float64)
+    return Recorded(f"{option} '{path.name}'", columns.pop("t"), columns)
+
+
+def accelerations(velocities: Sequence[str]) -> list[str]:
+    """Return the names of accelerations by those of velocities."""
+    parts = (name.rpartition(".") for name in velocities)
+    return [f"{body}.{ACCELERATIONS[speed]}" for body, _, speed in parts]

@@ -1,0 +1,410 @@
+"""Motions that are prescribed: positions, velocities and accelerations of mechanisms whose freedom is all driven.
+
+Nothing is integrated: at every time Newton's iteration closes the positions, and two linear solutions give what follows
+from them, from the emitted functions that starts and corrections use. The iteration begins where the state before
+leads, and a step that would need a far correction is taken in shorter ones, so that the branch is kept.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from numba import types
+
+from symgen.runtime import abi
+from symgen.runtime.bare import bare
+from symgen.runtime.redundancy import FALLEN
+from symgen.store.jit import jit
+
+#: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
+#: all and beside the sine by which the rows are apart: two branches are nearer to each other where that is small.
+STEPS, FARTHEST, BESIDE_SINE = 8, 0.1, 0.1
+#: A linear solution is refined while the last change was above this, times the smallest pivot: what rounding left of it
+#: is the change times the rounding over the pivot.
+REFINED = 1e-2
+#: Energies are measured again where velocities have changed by more than this part.
+MEASURED = 1e-13
+#: Rounds of refinement.
+ROUNDS = 4
+#: A step moves nothing by more than this [rad, or the length of the mechanism].
+LONGEST = 0.5
+#: Behind steps that move something by more than this, and below this sine, the sign of the determinant is looked at;
+#: else where 0 may have been passed.
+LONG, LOOKED_AT = 0.1, 0.05
+
+#: How a step, and the loop, ended.
+DONE, REFUSED, UNDEFINED, SINGULAR, PASSING, CHOOSE = range(6)
+
+#: What a clock holds: the time, the longest step to try, the sine, how fast it changes, the sign of the determinant,
+#: time, sine and predicted motion of the last attempt, and the largest sine since rows were chosen that stand for all.
+TIME, REACH, SINE, SLOPE, SIGN, TRIED, TRIED_SINE, FAR, BEST = range(9)
+N_CLOCK = 9
+#: What is counted: times that are done, steps, and whether a state was settled.
+AT, TAKEN, SETTLED = range(3)
+N_COUNTS = 3
+
+_PHI_MEASURE, _PIVOT, _RANK, _WINDING, _N_STATUS = abi.PHI_MEASURE, abi.PIVOT, abi.RANK, abi.WINDING, abi.N_STATUS
+_A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
+
+
+class Course(NamedTuple):
+    """What the loop has to know of a model.
+
+    Attributes
+    ----------
+    nq, nv, m, ny, windings : int
+        Coordinates, velocities, constraint rows, length of the state, angles whose turns are counted.
+    residual, change, mask, jacobian : int
+        Where these sections of ``w`` begin.
+    masked, rank : int
+        Rows that depend on others for ever, and the rank of D where the position is not singular: as many as there are
+        velocities.
+    tolerance, least : float
+        Of the violation of positions [m], and the shortest step [s].
+    entries, constants : Array
+        D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
+    scale : Array, shape (nv,)
+        What makes numbers of changes: 1 for angles, one over the length of the mechanism for lengths.
+    """
+
+    nq: int
+    nv: int
+    m: int
+    ny: int
+    windings: int
+    residual: int
+    change: int
+    mask: int
+    jacobian: int
+    masked: int
+    rank: int
+    tolerance: float
+    least: float
+    entries: Any
+    constants: Any
+    scale: Any
+
+
+class Stand(NamedTuple):
+    """Where the loop stands, and room for what it tries.
+
+    Attributes
+    ----------
+    y, a, jerk : Array, shapes (ny,), (nv,), (nv,)
+        State, accelerations, and how these changed in the last step over its length.
+    clock, counts : Array
+        See the constants of this module.
+    trial, rates : Array, shape (ny,)
+        The state that is tried, and its rates.
+    rows : Array
+        What ``observe`` writes.
+    turned : Array, shape (windings,)
+        Angles whose turns are counted, as they are in the accepted state.
+    dense : Array
+        A square D.
+    """
+
+    y: Any
+    a: Any
+    jerk: Any
+    clock: Any
+    counts: Any
+    trial: Any
+    rates: Any
+    rows: Any
+    turned: Any
+    dense: Any
+
+
+class Followed(NamedTuple):
+    """What the loop writes: states, accelerations and status, one row a time.
+
+    The status is that of `symgen.runtime.outcome.Motion`.
+    """
+
+    states: Any
+    accelerations: Any
+    status: Any
+
+
+COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
+STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
+FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
+
+
+@jit()
+def size_of(course: Any, values: Any, first: int) -> float:
+    """Return the largest component of velocities, or of a change of them, as a number."""
+    largest = 0.0
+    for j in range(course.nv):
+        size = abs(values[first + j]) * course.scale[j]
+        largest = size if size > largest else largest
+    return largest
+
+
+@jit()
+def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, w: Any, z: Any) -> float:
+    """Close the positions of a state near them; return how far they moved, or -1 if there are none in reach.
+
+    D and its factorisation are those of the closed positions then. A violation that is not finite leaves nan.
+    """
+    moved, before = 0.0, math.inf
+    for k in range(STEPS):
+        geometry(t, z, p, w)
+        size = w[_PHI_MEASURE]
+        if not math.isfinite(size):
+            return math.nan
+        closed = size <= course.tolerance
+        if not closed and size > 0.5 * before and k > 1:
+            if size > 1e3 * course.tolerance:
+                return -1.0
+            closed = True  # all that rounding allows
+        if closed and size <= 0.02 * course.tolerance:
+            return moved
+        spread(p, w)
+        step = size_of(course, w, course.change)
+        moved += step
+        if not moved <= FARTHEST:
+            return -1.0
+        if course.nq == course.nv:
+            for j in range(course.nv):
+                z[j] += w[course.change + j]
+        else:
+            move(z, w)
+        if closed:  # by less than the rounding of D
+            return moved
+        before = size
+    return -1.0
+
+
+@jit()
+def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) -> float:
+    """Take D^+ times the section of the residual out of some velocities; return how much that was beside them."""
+    spread(p, w)
+    step = size_of(course, w, course.change)
+    for j in range(course.nv):
+        values[first + j] += w[course.change + j]
+    size = size_of(course, values, first)
+    return step / size if size > 0.0 else 0.0
+
+
+@jit()
+def attempt(
+    geometry: Any,
+    measure: Any,
+    move: Any,
+    spread: Any,
+    observe: Any,
+    course: Any,
+    h: float,
+    p: Any,
+    w: Any,
+    stand: Any,
+) -> int:
+    """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
+    nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
+    t = stand.clock[TIME] + h
+    for i in range(nq):
+        z[i] = y[i]
+    far = 0.0
+    for j in range(nv):
+        change = h * (y[nq + j] + h * (0.5 * a[j] + h * jerk[j] / 6.0))
+        far = max(far, abs(change) * course.scale[j])
+        if nq == nv:
+            z[j] += change
+        else:
+            w[course.change + j] = change
+        z[nq + j] = y[nq + j] + h * (a[j] + 0.5 * h * jerk[j])
+        rates[nq + j] = a[j] + h * jerk[j]
+    stand.clock[FAR] = far
+    if far > LONGEST:
+        return REFUSED
+    if nq != nv:
+        move(z, w)
+    for i in range(course.windings):
+        w[_WINDING + i] = stand.turned[i]
+    moved = close(geometry, move, spread, course, t, p, w, z)
+    if math.isnan(moved):
+        return UNDEFINED
+    if moved < 0.0:
+        return REFUSED
+    if w[_RANK] < course.rank:
+        return SINGULAR
+    sine = math.sqrt(w[_PIVOT])
+    if moved > BESIDE_SINE * sine and stand.counts[SETTLED] != 0:
+        return REFUSED
+    part_of, enough = 1.0, REFINED * w[_PIVOT]
+    for _ in range(ROUNDS):
+        measure(t, z, p, w)
+        part_of = refine(course, spread, p, w, z, nq)
+        if part_of <= enough:
+            break
+    if part_of > MEASURED:
+        measure(t, z, p, w)
+    for _ in range(ROUNDS):
+        observe(t, z, p, w, rates, stand.rows)
+        for i in range(course.m):
+            w[course.residual + i] = stand.rows[i]
+        if refine(course, spread, p, w, rates, nq) <= enough:
+            break
+    for j in range(nv):
+        if not math.isfinite(z[nq + j] + rates[nq + j]):
+            return UNDEFINED
+    return DONE
+
+
+@jit()
+def take(course: Any, h: float, w: Any, stand: Any) -> bool:
+    """Make the state that was tried the present one, unless a singular position lies between; return whether it is."""
+    clock, nq = stand.clock, course.nq
+    sine, before, slope, sign = math.sqrt(w[_PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
+    fresh = abs(sine - before) / abs(h) if h != 0.0 else math.inf
+    steepest = slope if slope > fresh else fresh
+    clock[TRIED_SINE] = sine
+    # a sine falls to 0 and rises again in a straight line
+    if h == 0.0 or clock[FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
+        sign = sign_of(course, w, stand.dense)
+        if h != 0.0 and sign * clock[SIGN] < 0.0:
+            return False
+    clock[SINE], clock[SLOPE], clock[SIGN] = sine, fresh, sign
+    clock[BEST] = sine if h == 0.0 or sine > clock[BEST] else clock[BEST]
+    for i in range(course.ny):
+        stand.y[i] = stand.trial[i]
+    for j in range(course.nv):
+        stand.jerk[j] = (stand.rates[nq + j] - stand.a[j]) / h if h != 0.0 else 0.0
+        stand.a[j] = stand.rates[nq + j]
+    for i in range(course.windings):
+        stand.turned[i] = w[_WINDING + i]
+    return True
+
+
+@jit()
+def sign_of(course: Any, w: Any, dense: Any) -> float:
+    """Return the sign of the determinant of D, rows that depend on others left out; 0 where it is not square."""
+    n, m, row = course.nv, course.m, 0
+    for i in range(n * n):
+        dense[i] = 0.0
+    kept = 0
+    for i in range(m):
+        kept += 1 if w[course.mask + i] == 0.0 else 0
+    if kept != n:
+        return 0.0
+    place, last = -1, -1
+    for k in range(course.constants.shape[0]):
+        row, column, slot = course.entries[3 * k], course.entries[3 * k + 1], course.entries[3 * k + 2]
+        if w[course.mask + row] != 0.0:
+            continue
+        if row != last:
+            place, last = place + 1, row
+        dense[place * n + column] = course.constants[k] if slot < 0 else w[course.jacobian + slot]
+    sign = 1.0
+    for c in range(n):
+        best = c
+        for r in range(c + 1, n):
+            if abs(dense[r * n + c]) > abs(dense[best * n + c]):
+                best = r
+        pivot = dense[best * n + c]
+        if pivot == 0.0:
+            return 0.0
+        if best != c:
+            sign = -sign
+            for j in range(c, n):
+                dense[c * n + j], dense[best * n + j] = dense[best * n + j], dense[c * n + j]
+        sign = -sign if pivot < 0.0 else sign
+        for r in range(c + 1, n):
+            factor = dense[r * n + c] / pivot
+            if factor != 0.0:
+                for j in range(c, n):
+                    dense[r * n + j] -= factor * dense[c * n + j]
+    return sign
+
+
+@jit(
+    _I8(
+        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE),
+        *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K),
+    )
+)
+def follow(
+    geometry: Any,
+    measure: Any,
+    move: Any,
+    spread: Any,
+    observe: Any,
+    course: Any,
+    times: Any,
+    p: Any,
+    w: Any,
+    stand: Any,
+    followed: Any,
+    control: Any,
+) -> int:
+    """Follow a motion through times that all lie behind, or all before, the time at which the loop stands.
+
+    Parameters
+    ----------
+    geometry, measure, move, spread, observe : emitted functions
+        See `symgen.runtime.abi`.
+    course : Course
+        Of the model.
+    times : Array, shape (k,)
+        In the order in which they are met [s].
+    p, w : Array
+        As emitted functions take them.
+    stand : Stand
+        Where the loop stands; it is left where it got to.
+    followed : Followed
+        Written, from the time ``stand.counts[AT]`` on.
+    control : Array of int
+        What the watching thread shares.
+
+    Returns
+    -------
+    int
+        `DONE`, or why the next step failed: `REFUSED` (no closed position in reach), `UNDEFINED` (a number that is
+        not finite) however short it is, `SINGULAR` (at a singular position) or `PASSING` (one lies between);
+        `CHOOSE` where other rows may have to stand for all.
+    """
+    course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
+    clock, counts = stand.clock, stand.counts
+    if counts[SETTLED] == 0:
+        code = attempt(geometry, measure, move, spread, observe, course, 0.0, p, w, stand)
+        if code != DONE:
+            return int(code)
+        take(course, 0.0, w, stand)
+        counts[SETTLED] = 1
+    for k in range(counts[AT], times.shape[0]):
+        if control[abi.STOP] != 0:
+            break
+        target = times[k]
+        while clock[TIME] != target:
+            if course.masked != 0 and clock[SINE] * clock[SINE] < FALLEN * clock[BEST] * clock[BEST]:
+                return CHOOSE
+            h = target - clock[TIME]
+            whole = abs(h) <= clock[REACH]
+            h = h if whole else math.copysign(clock[REACH], h)
+            clock[TRIED] = target if whole else clock[TIME] + h
+            code = attempt(geometry, measure, move, spread, observe, course, h, p, w, stand)
+            if code == SINGULAR:
+                return SINGULAR
+            if code != DONE:
+                clock[REACH] = 0.5 * abs(h)
+                if clock[REACH] < course.least:
+                    return int(code)
+                continue
+            if not take(course, h, w, stand):
+                return PASSING
+            clock[TIME] = clock[TRIED]
+            clock[REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[REACH] else clock[REACH]
+            counts[TAKEN] += 1
+        for i in range(course.ny):
+            seen.states[k, i] = stand.y[i]
+        for j in range(course.nv):
+            seen.accelerations[k, j] = stand.a[j]
+        for i in range(_N_STATUS):
+            seen.status[k, i] = w[i]
+        for i in range(course.windings):
+            seen.status[k, _N_STATUS + i] = stand.turned[i]
+        counts[AT] = k + 1
+    return DONE

@@ -1,0 +1,239 @@
+"""Efforts of prescribed and recorded motions against reference values, energy, virtual power, and forward runs."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.cli import main
+from symgen.describe.validate import validate
+from symgen.errors import InputError
+from tests.analyses.linkages import four_bar
+
+CRANK = "start + 2*pi*t"
+
+
+def model(raw):
+    return symgen.load(validate(raw, "test"))
+
+
+@pytest.fixture(scope="module")
+def linkage():
+    """The four-bar of the reference: rods of 1, 3, 3 m and kg between pins 4 m apart, C above."""
+    return model(four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0)))
+
+
+@pytest.fixture(scope="module")
+def pendulum():
+    """A cart on a rail that an input pushes, with a rod on it that a damped spring holds."""
+    return model(
+        {
+            "mechanism": {"name": "cart", "gravity": [0.0, -9.81]},
+            "inputs": {"push": {"default": 0.0, "unit": "N"}},
+            "bodies": {
+                "cart": {"mass": 2.0, "inertia": 0.1},
+                "rod": {
+                    "mass": 1.0,
+                    "inertia": 1.0 / 12.0,
+                    "points": {"top": [0.0, 0.5]},
+                    "position": [0.0, -0.5],
+                },
+            },
+            "joints": {
+                "rail": {
+                    "type": "prismatic",
+                    "between": ["ground", "cart"],
+                    "at": [[0.0, 0.0], "centre"],
+                    "axis": [1.0, 0.0],
+                },
+                "pin": {"type": "revolute", "between": ["cart", "rod"], "at": ["centre", "top"]},
+            },
+            "forces": {
+                "pushed": {"type": "force", "body": "cart", "force": ["3*push - 0.2*cart.vx", 0.0]},
+                "held": {"type": "torque", "body": "rod", "reaction": "cart", "torque": "-2*angle - 0.3*rate"},
+            },
+        }
+    )
+
+
+# -- drivers -----------------------------------------------------------------------------------------------------------
+
+
+def test_torques_of_the_reference_four_bar(linkage):
+    """Minimal coordinates in 30 digits, computed twice independently; the motor turns the crank from the ground."""
+    found = linkage.inverse(times=[0.0, 0.25, 0.5])
+    exact = np.array([59.97606377405662, -78.51449364663133, 5.415190647650141])
+    assert np.abs(found.efforts["motor"] / exact - 1.0).max() < 1e-12
+    assert found.efforts.units == ("N m",) and found.ok
+
+
+def test_power_is_the_change_of_energy(linkage):
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    end = 0.4
+    times = np.concatenate([[0.0], 0.5 * end * (nodes + 1.0), [end]])
+    found = linkage.inverse(times=times)
+    energy = linkage.kinematics(times).energy.values.sum(axis=1)
+    done = 0.5 * end * weights @ found.power["motor"][1:-1]
+    assert abs(done - (energy[-1] - energy[0])) < 1e-12 * np.abs(energy).max()
+    assert np.abs(found.rates["motor"] - 2.0 * math.pi).max() < 1e-13
+
+
+def test_another_joint_exerts_the_same_power(linkage):
+    times = np.linspace(0.0, 1.0, 21)
+    motor = linkage.inverse(times=times)
+    other = linkage.inverse(times=times, actuators=["D"])
+    rocker = linkage.kinematics(times)["rocker.omega"]
+    assert np.abs(other.rates["D"] - rocker).max() < 1e-12
+    scale = np.abs(motor.power["motor"]).max()
+    assert np.abs(other.efforts["D"] * rocker - motor.power["motor"]).max() < 1e-11 * scale
+    assert other.missing.max() < 1e-9 and not other.notes
+
+
+@pytest.mark.parametrize("weights", [{}, {"A": 1.0, "D": 3.0}])
+def test_efforts_that_are_not_unique_are_the_smallest(linkage, weights):
+    """Virtual power: A.effort omega_A + D.effort omega_D is what one motor needs, and sum (w effort)^2 is least."""
+    times = np.linspace(0.0, 1.0, 21)
+    needed = linkage.inverse(times=times).power["motor"]
+    found = linkage.inverse(times=times, actuators=["A", "D"], weights=weights)
+    a, d = (found.rates[name] / weights.get(name, 1.0) ** 2 for name in ("A", "D"))
+    total = found.rates["A"] * a + found.rates["D"] * d
+    for name, direction in (("A", a), ("D", d)):
+        exact = needed * direction / total
+        assert np.abs(found.efforts[name] - exact).max() < 1e-11 * np.abs(needed).max()
+    how = "weighted as asked" if weights else "torques over the mechanism's length"
+    assert found.notes == (f"2 actuators move 1 degree of freedom: efforts are those of minimum norm, {how}",)
+
+
+def test_reactions_with_another_actuator_balance_the_rods(linkage):
+    """Newton for each rod: reactions and weight give its mass times the acceleration of its centre."""
+    times = np.linspace(0.0, 0.9, 7)
+    for actuators in ([], ["D"], ["A", "C"]):
+        found = linkage.inverse(times=times, actuators=actuators)
+        moved = linkage.kinematics(times)
+        # reactions on the first bodies: ground, crank, coupler, ground
+        on = {
+            "crank": (("A", -1.0), ("B", 1.0)),
+            "coupler": (("B", -1.0), ("C", 1.0)),
+            "rocker": (("C", -1.0), ("D", -1.0)),
+        }
+        for (body, joints), mass in zip(on.items(), (1.0, 3.0, 3.0), strict=True):
+            for axis, weight in (("x", 0.0), ("y", -9.81 * mass)):
+                total = sum(sign * found.reactions[f"{joint}.F{axis}"] for joint, sign in joints) + weight
+                assert np.abs(total - mass * moved[f"{body}.a{axis}"]).max() < 1e-9
+
+
+def test_doubled_pins_are_marked(linkage):
+    raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))
+    raw["joints"]["twin"] = {
+        "type": "distance",
+        "between": ["ground", "rocker"],
+        "at": [[4.0, 0.0], "far"],
+        "length": 3.0,
+    }
+    found = model(raw).inverse(times=[0.0, 0.25, 0.5])
+    assert "twin" in found.non_unique_reactions and "D" in found.non_unique_reactions
+    assert np.abs(found.efforts["motor"] - linkage.inverse(times=[0.0, 0.25, 0.5]).efforts["motor"]).max() < 1e-10
+
+
+# -- recorded runs -----------------------------------------------------------------------------------------------------
+
+
+def test_andrews_gives_its_torque_back():
+    andrews = symgen.load("andrews")
+    run = andrews.simulate(until=0.03, output_step=1e-3)
+    found = andrews.inverse(run, actuators=["drive"])
+    assert np.abs(found.efforts["drive"] / 0.033 - 1.0).max() < 1e-10
+    assert np.abs(found.rates["drive"] - run["K1.omega"]).max() < 1e-10 * np.abs(run["K1.omega"]).max()
+    for name in ("F.Fx", "A5.Fy"):
+        assert np.abs(found.reactions[name] - run.reactions[name]).max() < 1e-10 * np.abs(run.reactions.values).max()
+
+
+def test_the_platform_gives_the_efforts_of_its_legs_back():
+    platform = symgen.load("stewart-platform")
+    run = platform.simulate(until=0.3, step=1e-3, output_step=0.05, shape="looped")
+    found = platform.inverse(run, shape="looped")
+    followed = platform.inverse(times=run.t, shape="looped")
+    for i in range(1, 7):
+        efforts = run[f"drive{i}.effort"]
+        for other in (found, followed):
+            assert np.abs(other.efforts[f"drive{i}"] - efforts).max() < 1e-10 * np.abs(efforts).max()
+
+
+def test_inputs_forces_and_joints_of_a_recorded_run(pendulum, tmp_path):
+    pushed = "4*sin(3*t)"
+    run = pendulum.simulate(until=1.0, step=1e-3, output_step=0.05, inputs={"push": pushed})
+    exact = 4.0 * np.sin(3.0 * run.t)
+    held = -2.0 * run["pin.angle"] - 0.3 * run["pin.angle.rate"]
+    found = pendulum.inverse(run, actuators=["push", "held"])
+    assert np.abs(found.efforts["push"] - exact).max() < 1e-11
+    assert np.abs(found.efforts["held"] - held).max() < 1e-11
+    assert found.efforts.units == ("N", "N m") and found.power.names == ("held",)
+    # what joints exert then, with the forces there beside it
+    found = pendulum.inverse(run, actuators=["rail", "pin"], inputs={"push": 0.0})
+    assert np.abs(found.efforts["rail"] - 3.0 * exact).max() < 1e-11
+    assert np.abs(found.efforts["pin"]).max() < 1e-11
+    # from files
+    for name in ("run.nc", "run.csv"):
+        run.save(tmp_path / name)
+        again = pendulum.inverse(tmp_path / name, actuators=["push", "held"])
+        assert np.abs(again.efforts["push"] - exact).max() < 1e-11
+
+
+def test_a_motion_that_the_actuators_cannot_give_is_said(pendulum):
+    run = pendulum.simulate(until=0.5, step=1e-3, output_step=0.1, inputs={"push": "4*sin(3*t)"})
+    found = pendulum.inverse(run, actuators=["held"], inputs={"push": 0.0})
+    assert len(found.notes) == 1 and found.notes[0].startswith(
+        "these actuators alone do not give the motion: at t = 0.5 s"
+    )
+    assert found.missing.max() > 0.1
+
+
+def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
+    """A double pendulum whose first rod is driven: the motor's torque is what the run reports."""
+    raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))
+    raw["joints"].pop("D")
+    open_chain = model(raw)
+    with pytest.raises(InputError, match="2 degrees of freedom that are not driven"):
+        open_chain.inverse(times=[0.0])
+    run = open_chain.simulate(until=0.2, step=1e-4, output_step=0.02)
+    found = open_chain.inverse(run)
+    assert np.abs(found.efforts["motor"] - run["motor.effort"]).max() < 1e-10 * np.abs(run["motor.effort"]).max()
+
+
+# -- words -------------------------------------------------------------------------------------------------------------
+
+
+def test_bad_arguments_are_refused(linkage, pendulum):
+    run = pendulum.simulate(until=0.01, step=1e-3)
+    cases = [
+        (lambda: pendulum.inverse(run), "names of what exerts the motion, got none"),
+        (lambda: pendulum.inverse(run, actuators=["pins"]), "did you mean 'pin'"),
+        (lambda: pendulum.inverse(run, actuators=["pin", "pin"]), "each name once"),
+        (lambda: pendulum.inverse(run, actuators=["pin.x"]), "a coordinate of pin"),
+        (lambda: pendulum.inverse(run, actuators=["pin"], weights={"rail": 1.0}), "weights"),
+        (lambda: pendulum.inverse(run, actuators=["pin"], times=[0.0]), "times of the motion"),
+        (lambda: linkage.inverse(run), "no column 'crank.x'"),
+        (lambda: linkage.inverse(3), "a result of a run"),
+        (lambda: linkage.inverse("nowhere.nc"), "which is none"),
+    ]
+    for call, match in cases:
+        with pytest.raises(InputError, match=match):
+            call()
+
+
+def test_the_command(tmp_path, capsys):
+    words = ["inverse", "driven-four-bar", "--times", "lin(0,1,5)", "--json"]
+    assert main([*words, "--save", str(tmp_path / "i.csv"), "--plot", str(tmp_path / "i.svg")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["t"] == [0.0, 0.25, 0.5, 0.75, 1.0] and set(found["efforts"]) == {"motor"}
+    assert found["units"] == {"motor": "N m"} and found["not_unique"] == [] and found["notes"] == []
+    assert set(found["summary"]["motor"]) == {"unit", "max", "at", "rms", "peak_power", "energy"}
+    assert found["summary"]["motor"]["max"] == max(map(abs, found["efforts"]["motor"]))
+    header = (tmp_path / "i.csv").read_text().splitlines()[0]
+    assert header.startswith("t [s],effort.motor [N m],power.motor [W],rate.motor [rad/s]")
+    assert main(["inverse", "driven-four-bar", "--actuators", "A,D", "--weight", "D=2"]) == 0
+    assert "minimum norm, weighted as asked" in capsys.readouterr().err
+    assert main(["inverse", "four-bar"]) == 2
+    assert "not driven" in capsys.readouterr().err
