@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,7 @@ from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
+    from symgen.reading.equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
     from symgen.runtime.held import Held
@@ -81,6 +83,30 @@ class Model:
             If a name is not a parameter or a value is not finite.
         """
         return parameter_values(self.mechanism, changed)
+
+    @cached_property
+    def equations(self) -> SymbolicEquations:
+        """The derived equations in coordinates of bodies as SymPy matrices and symbols: exactly what is compiled."""
+        return self.equations_in("absolute")
+
+    def equations_in(self, coordinates: str) -> SymbolicEquations:
+        """Return the derived equations in some coordinates as SymPy matrices and symbols.
+
+        Parameters
+        ----------
+        coordinates : {"absolute", "joint"}
+            Those of bodies, or of the joints of a tree.
+
+        Raises
+        ------
+        InputError
+            If there are no such coordinates.
+        """
+        from symgen.compiling.choose_tree import on_tree
+        from symgen.reading.equations import SymbolicEquations
+
+        asked = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
+        return SymbolicEquations(on_tree(self.mechanism) if asked == "joint" else self.mechanism)
 
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"

@@ -43,6 +43,7 @@ ALLOWED = {
     "methods": set(),
     "native": {"llvmlite", "msgspec", "numba"},
     "plan": {"numpy"},
+    "reading": {"numpy", "sympy"},
     "registry": set(),
     "report": {"jinja2", "matplotlib", "numpy"},
     "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},
