@@ -9,6 +9,7 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import setting_options
+from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -21,6 +22,11 @@ if TYPE_CHECKING:
 @click.argument("model")
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
+@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it is.")
+@click.option(
+    "--select", metavar="NAME,NAME", help="Of a document: its sections (Phi, D, gamma, M, f, law, ...), and joints."
+)
+@click.option("--symbols", is_flag=True, help="Of a document: symbols for lengths that are numbers in the file.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
 @setting_options(
     *("options", "shape", "coordinates", "parameters"),
@@ -30,6 +36,9 @@ def command(
     model: str,
     form: str,
     as_json: bool,
+    document: bool,
+    select: str | None,
+    symbols: bool,
     method: str | None,
     options: dict[str, str],
     shape: str,
@@ -43,6 +52,11 @@ def command(
     """
     given = {key.rpartition(".")[2]: value for key, value in options.items()}
     form = "json" if as_json else form
+    if document or select is not None or symbols:
+        _refuse(document and form == "latex", shape)
+        found = write_document(model, method, given, parameters, coordinates, select, symbols)
+        click.echo(found, nl=False)
+        return OK
     facts = describe(model, method, given, parameters, form == "latex", shape, coordinates)
     if form == "json":
         write_json(facts)
@@ -51,6 +65,42 @@ def command(
 
         click.echo(as_latex(facts) if form == "latex" else as_text(facts), nl=False)
     return OK
+
+
+def _refuse(wanted: bool, shape: str) -> None:
+    """Refuse options that mean nothing together."""
+    if not wanted:
+        expected = "--format latex --document, with which alone --select and --symbols mean something"
+        raise InputError("inspect", expected, "other options")
+    if shape == "looped":
+        raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
+
+
+def write_document(
+    name: str,
+    method: str | None,
+    options: dict[str, str],
+    parameters: dict[str, float],
+    coordinates: str,
+    select: str | None,
+    symbols: bool,
+) -> str:
+    """Return the equations as a LaTeX document."""
+    from symgen.api import Model
+    from symgen.compiling.choose_coordinates import choose_coordinates
+    from symgen.describe.load import read_raw
+    from symgen.describe.validate import validate
+    from symgen.reading.document import document
+    from symgen.reading.law import law
+    from symgen.reading.lengths import with_symbols
+
+    raw, source = read_raw(name)
+    model = Model(validate(with_symbols(raw) if symbols else raw, source))
+    values = model.parameters(parameters)
+    found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
+    wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
+    steps = law(method or "direct-correction", options)
+    return document(found.mechanism, found.derived, steps, values, wanted)
 
 
 def describe(

@@ -20,6 +20,8 @@ _SPECIAL = {
     **{"\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}"},
     **{c: "\\" + c for c in "_&%$#"},
 }
+#: Fractions with these denominators read better with a point.
+_DECIMAL = (2, 4, 5, 8, 10, 16, 20, 25, 40, 50, 80)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,10 +71,10 @@ def number(value: float) -> Box:
     """Return a literal: whole, a small fraction, or rounded to six digits."""
     if value == int(value) and abs(value) < 1e9:
         return _plain("number", str(int(value)))
-    for denominator in range(2, 100):
-        ratio = Fraction(round(value * denominator), denominator)
-        if float(ratio) == value and abs(ratio.numerator) < 1000 and denominator not in (2, 4, 5, 8, 10, 20, 25, 50):
-            return over(number(float(ratio.numerator)), number(float(ratio.denominator)))
+    near = Fraction(value).limit_denominator(99)
+    exact = abs(float(near) - value) <= 4e-16 * abs(value)
+    if exact and abs(near.numerator) < 1000 and near.denominator not in _DECIMAL:
+        return over(number(float(near.numerator)), number(float(near.denominator)))
     return _plain("number", f"{value:.6g}")
 
 
@@ -80,6 +82,16 @@ def _plain(kind: str, text: str) -> Box:
     mantissa, exponent, power = text.partition("e")
     wide = _DIGIT * len(mantissa) + (2.0 + _SMALL * len(power) if exponent else 0.0)
     return Box(kind, text=text, width=wide)
+
+
+def is_number(box: Box) -> bool:
+    """Whether a box is a literal."""
+    return box.kind == "number" or (box.kind == "over" and all(p.kind == "number" for p in box.parts))
+
+
+def atoms(box: Box) -> int:
+    """Return how many names and literals a box has."""
+    return sum(map(atoms, box.parts)) if box.parts else 1
 
 
 def sign(text: str) -> Box:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
+from symgen import arguments
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
 from symgen.formulate.display import Display, latex_name
@@ -172,9 +173,7 @@ class SymbolicEquations:
         InputError
             If there is none of that name.
         """
-        if name not in QUANTITIES:
-            raise InputError("quantity", "one of " + ", ".join(QUANTITIES), f"'{name}'", nearest(name, QUANTITIES))
-        return getattr(self, name)
+        return getattr(self, arguments.one_of("quantity", name, tuple(QUANTITIES)))
 
     # -- shared terms ----------------------------------------------------------------------------------------------
 

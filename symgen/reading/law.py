@@ -37,6 +37,8 @@ _PLACES = {
     "change": name("delta"),
     "v": dot(name("v")),
     "q": name("Q"),
+    "law_": name("S"),
+    "dense": name("D"),
 }
 
 

@@ -385,6 +385,13 @@ def rows():
             lambda x, v=value: x.sim.every(0.1, v),
             f"controller: expected a function, got {shown}",
         )
+    for shown, value in {"'joints'": "joints", "3": 3}.items():
+        yield (
+            f"equations_in {shown}",
+            lambda x, v=value: x.model.equations_in(v),
+            f"coordinates: expected one of absolute, joint, got {shown}",
+        )
+    yield "equations 3", lambda x: x.model.equations.quantity(3), "quantity: expected one of Phi, D, nu"
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
 
@@ -421,6 +428,7 @@ def test_no_function_with_arguments_is_left_out():
         *(
             "Model.parameters",
             "Model.compile",
+            "Model.equations_in",
             "Model.assemble",
             "Model.simulate",
             "Mechanism.body",
