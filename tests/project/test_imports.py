@@ -29,6 +29,7 @@ ALLOWED = {
     "compiling": {"msgspec", "numpy"},
     "cli": {"click", "msgspec", "numpy", "rich"},
     "describe": {"msgspec"},
+    "drawing": {"matplotlib", "numpy"},
     "emit": {"jinja2"},
     "ensemble": {"distributed", "filelock", "numba", "numpy", "xarray"},
     "errors": set(),
