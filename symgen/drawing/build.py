@@ -15,6 +15,7 @@ from symgen.drawing.markers import Numbers, Place, parts
 from symgen.drawing.outline import outline
 from symgen.drawing.pen import RIGID, Pen
 from symgen.drawing.scene import COLOURS, Array, Item, Look, Mark, Point, Scene, is_spatial, upwards
+from symgen.drawing.shape_marks import shape_marks
 from symgen.drawing.symbols import gap_item, joint_item
 from symgen.errors import InputError
 from symgen.vocabulary.measures import Marker
@@ -102,9 +103,14 @@ def _unit(numbers: Numbers, points: Mapping[str, list[Point]]) -> float:
     grounded = [m for element in everyone for m in numbers.markers(element) if m.body < 0]
     places += [numbers.now.out(-1, [m.at]) for m in grounded]
     places.append(numbers.now.centres[:-1])
+    for name, shape in numbers.mechanism.shapes:
+        corners = [numbers.place(Marker(name, point)).at for point in shape.points]
+        places.append(numbers.now.out(numbers.index[name], np.array(corners).reshape(-1, 3)))
     everything = np.concatenate(places)
     whole = float(np.linalg.norm(np.ptp(everything, axis=0)))
     spans = [float(np.linalg.norm(np.ptp(np.array(own), axis=0))) for own in points.values() if len(own) > 1]
+    sizes = [numbers.number(e) for _, shape in numbers.mechanism.shapes for e in shape.sizes]
+    whole = max([whole, *sizes])
     spans = [s for s in spans if s > 0.0]
     usual = float(np.median(spans)) if spans else whole
     return min(SHARE * max(whole, usual), OF_BODY * usual) or 0.1
@@ -116,13 +122,17 @@ def _body_item(pen: Pen, body: AnyBody, points: list[Point], guided: set[str]) -
     i = numbers.index[body.name]
     colour = COLOURS[i % len(COLOURS)]
     centre = Place(i, (0.0, 0.0, 0.0))
+    shapes = [shape for name, shape in numbers.mechanism.shapes if name == body.name]
     marks: list[Mark]
-    if body.is_point:
+    if body.is_point and not shapes:
         marks = [pen.dot(centre, 0.75, Look("#20262e", colour, 1.0))]
+    elif shapes:
+        marks = [mark for shape in shapes for mark in shape_marks(pen, body, shape, colour)]
     else:
         marks = outline(pen, i, points, _gyration(numbers, body), Look(colour, colour, 1.6, 0.16), body.name in guided)
+    if not body.is_point:
         held = any(body.name in joint.bodies for joint in numbers.mechanism.joints)
-        if numbers.spatial and not held and points:
+        if numbers.spatial and not held and points and not shapes:
             marks += outline(pen, i, [], _gyration(numbers, body), Look(colour, colour, 1.0, 0.3), False)
         marks.append(pen.dot(centre, 0.34, replace(RIGID, width=0.8), mass=True))
     own = [p for p in points if any(p)]

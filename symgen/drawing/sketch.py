@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
-from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.mechanism import Mechanism
-from symgen.describe.start import described_start
-from symgen.drawing.build import build_scene
-from symgen.drawing.paper import View, on_paper
+from symgen.drawing.drawing import Drawing
+from symgen.drawing.paper import View
 from symgen.drawing.scene import Array
-from symgen.drawing.svg import svg
 
 
 def sketch(
@@ -52,7 +47,4 @@ def sketch(
     InputError
         If `q` has not as many numbers as the mechanism has coordinates.
     """
-    if q is None:
-        q = described_start(mechanism, scalars(parameter_values(mechanism, values)))[0]
-    scene = build_scene(mechanism, q, values, open_joints)
-    return svg(scene, on_paper(scene, np.asarray(q, dtype=np.float64), view), labels, caption)
+    return Drawing.of(mechanism, q, values, open_joints=open_joints, view=view, labels=labels, caption=caption).svg

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from html import escape
 
 import numpy as np
@@ -18,7 +18,9 @@ THIN = 1.25
 NAMED = 14
 
 
-def svg(scene: Scene, drawn: Sequence[Drawn], labels: bool | None = None, caption: str = "") -> str:
+def svg(
+    scene: Scene, drawn: Sequence[Drawn], behind: Sequence[Drawn] = (), labels: bool | None = None, caption: str = ""
+) -> str:
     """Return a picture as the text of an SVG file.
 
     Every body, joint, force and fault is a group ``<g id="joint-NAME" class="joint" data-name="NAME">`` whose title
@@ -30,12 +32,14 @@ def svg(scene: Scene, drawn: Sequence[Drawn], labels: bool | None = None, captio
         What is drawn.
     drawn : sequence of Drawn
         It on paper, from `symgen.drawing.paper.on_paper`.
+    behind : sequence of Drawn
+        What stands faintly behind it.
     labels : bool, optional
         Whether bodies have their names beside them; where they are few unless given.
     caption : str
         A sentence below the picture.
     """
-    low, scale, width, height = fitted(drawn)
+    low, scale, width, height = fitted([*drawn, *behind])
     named = sum(d.item.role == "body" for d in drawn) <= NAMED if labels is None else labels
 
     def place(points: Array) -> Array:
@@ -52,6 +56,9 @@ def svg(scene: Scene, drawn: Sequence[Drawn], labels: bool | None = None, captio
         f"<title>{title}</title>",
         f'<rect width="{_short(width)}" height="{_short(height + below)}" fill="#ffffff"/>',
     ]
+    if behind:
+        parts = (part for each in behind for part in each.parts)
+        lines += ['<g class="ghost" opacity="0.3">', *(_part(part, place, scale) for part in parts), "</g>"]
     for each in drawn:
         item = each.item
         name = escape(item.name, quote=True)
@@ -123,7 +130,7 @@ def _paint(look: Look, closed: bool) -> str:
     return words + (' stroke-dasharray="5 3"' if look.dashed else "")
 
 
-def _part(part: Path | Circle, place, scale: float) -> str:  # type: ignore[no-untyped-def]
+def _part(part: Path | Circle, place: Callable[[Array], Array], scale: float) -> str:
     if isinstance(part, Circle):
         (x, y), r = place(np.array([[part.x, part.y]]))[0], part.radius * scale
         return f'<circle cx="{_short(x)}" cy="{_short(y)}" r="{_short(r)}" {_paint(part.look, True)}/>'
