@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 from symgen.drawing.paper import Circle, Drawn, Path
-from symgen.drawing.scene import Look
+from symgen.drawing.scene import Array, Look
 from symgen.drawing.svg import MARGIN, NAMED, THIN, fitted
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 #: Pixels an inch that sizes are counted in, and that are written.
 LAID_OUT, WRITTEN = 96.0, 192.0
@@ -36,10 +39,35 @@ def write_pixels(
     """
     from matplotlib.figure import Figure
 
-    low, scale, width, height = fitted([*drawn, *behind])
+    figure = Figure()
+    paint(figure, fitted([*drawn, *behind]), drawn, behind, labels, caption)
+    metadata = {"png": {"Software": None}, "pdf": {"CreationDate": None}}[kind]
+    figure.savefig(stream, format=kind, dpi=WRITTEN, metadata=metadata)
+
+
+def paint(
+    figure: Figure,
+    frame: tuple[Array, float, float, float],
+    drawn: Sequence[Drawn],
+    behind: Sequence[Drawn] = (),
+    labels: bool | None = None,
+    caption: str = "",
+) -> None:
+    """Draw a scene on paper into an empty figure, which gets its size.
+
+    Parameters
+    ----------
+    figure : Figure
+        Of matplotlib.
+    frame : tuple
+        What `symgen.drawing.svg.fitted` says of what shall fit.
+    drawn, behind, labels, caption
+        As for `write_pixels`.
+    """
+    low, scale, width, height = frame
     lines = textwrap.wrap(caption, max(20, int(width / 7.6)))
     below = 22.0 * len(lines)
-    figure = Figure(figsize=(width / LAID_OUT, (height + below) / LAID_OUT))
+    figure.set_size_inches(width / LAID_OUT, (height + below) / LAID_OUT)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     ax.set_axis_off()
     ax.set_xlim(-MARGIN, width - MARGIN)
@@ -54,8 +82,6 @@ def write_pixels(
             ax.text(x, y + 9.0, each.item.name, fontsize=9.0, color="#20262e", ha="center", parse_math=False, zorder=9)
     for k, text in enumerate(lines):
         ax.text(0.0, -MARGIN - 14.0 - 22.0 * k, text, fontsize=10.5, color="#a00000", parse_math=False)
-    metadata = {"png": {"Software": None}, "pdf": {"CreationDate": None}}[kind]
-    figure.savefig(stream, format=kind, dpi=WRITTEN, metadata=metadata)
 
 
 def _add(ax: Any, part: Path | Circle, low: Any, scale: float, strength: float) -> None:

@@ -44,6 +44,7 @@ ALLOWED = {
     "methods": set(),
     "native": {"llvmlite", "msgspec", "numba"},
     "plan": {"numpy"},
+    "player": {"numpy"},
     "registry": set(),
     "report": {"jinja2", "matplotlib", "numpy"},
     "result": {"matplotlib", "numpy", "pandas", "pyarrow", "xarray"},

@@ -243,6 +243,8 @@ def rows():
                 lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
                 (f"{name}: expected a finite number above 0, got "),
             )
+    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
+    yield "view live", lambda x: x.result.view(live="no"), "live: expected "
     yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
     yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
     yield "draw start", lambda x: x.model.draw(start={"nothing": 1.0}), "start 'nothing'"
@@ -437,7 +439,7 @@ def test_no_function_with_arguments_is_left_out():
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
-        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select"),
+        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),
     }
     # what only the package makes or calls
     inner = {
