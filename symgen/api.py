@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,7 @@ from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.errors import InputError, nearest
+from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, ready, start_of, watching
 from symgen.runtime.compiled import CompiledModel
@@ -27,6 +27,7 @@ from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
+    from symgen.drawing import Drawing, View
     from symgen.reading.equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
@@ -192,6 +193,71 @@ class Model:
     ) -> tuple[CompiledModel, Start]:
         """Return the compiled model and the consistent start of a plan; see `symgen.run_setup.ready`."""
         return ready(self.mechanism, plan, parameters, strict)
+
+    def draw(
+        self,
+        parameters: Mapping[str, float] | None = None,
+        start: Mapping[str, float] | None = None,
+        *,
+        at: str = "start",
+        q: Sequence[float] | Array | None = None,
+        view: View | None = None,
+    ) -> Drawing:
+        """Return a picture of the mechanism, which notebooks show and ``.save("x.svg")`` writes.
+
+        Where the mechanism cannot be assembled the picture shows where that stopped, with the joints that stay open
+        marked and the reason below it.
+
+        Parameters
+        ----------
+        parameters : mapping, optional
+            Values of parameters that differ from the described ones.
+        start : mapping, optional
+            Values of coordinates that the start keeps, as for `simulate`.
+        at : {"start", "described"}
+            The assembled start, or the one that the description has, which may be open.
+        q : array, shape (nq,), optional
+            Coordinates of all bodies, in place of a start.
+        view : View, optional
+            From where a mechanism in space is seen.
+        """
+        from symgen.drawing.drawing import Drawing, gaps
+        from symgen.drawing.paper import View
+
+        if view is not None:
+            arguments.of_kind("view", view, View, "a symgen.drawing.View")
+        values = self.parameters(parameters)
+        described = self.initial_state(values)[0]
+        if q is None and arguments.one_of("at", at, ("start", "described")) == "described":
+            q = described
+        if q is not None:
+            q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
+            return Drawing.of(self.mechanism, q, values, view=view)
+        try:
+            found = self.assemble(self.compile(), parameters, held=start)
+        except AssemblyError as error:
+            q = error.q or described
+            scene = Drawing.of(self.mechanism, q, values).scene
+            limit = 1e-3 * scene.unit
+            wide = [item.name for item, gap in gaps(scene, q) if gap > limit]
+            return Drawing.of(
+                *(self.mechanism, q, values),
+                open_joints=tuple(dict.fromkeys((*error.joints, *wide))),
+                view=view,
+                caption=str(error),
+            )
+        closed = found.y[: len(described)]
+        if found.warnings:
+            return Drawing.of(
+                *(self.mechanism, closed, values),
+                view=view,
+                ghost=described.tolist(),
+                caption="; ".join(found.warnings),
+            )
+        return Drawing.of(self.mechanism, closed, values, view=view)
+
+    def _repr_svg_(self) -> str:
+        return self.draw().svg
 
     def simulate(
         self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object
