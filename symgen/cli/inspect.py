@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
     "--select", metavar="NAME,NAME", help="Of a document: its sections (Phi, D, gamma, M, f, law, ...), and joints."
 )
 @click.option("--symbols", is_flag=True, help="Of a document: symbols for lengths that are numbers in the file.")
+@click.option("-o", "--output", metavar="FILE.html", help="Write a page that needs nothing else, with all of it.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
 @setting_options(
     *("options", "shape", "coordinates", "parameters"),
@@ -39,6 +39,7 @@ def command(
     document: bool,
     select: str | None,
     symbols: bool,
+    output: str | None,
     method: str | None,
     options: dict[str, str],
     shape: str,
@@ -50,10 +51,17 @@ def command(
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
+    from symgen.cli._reading import refuse, write_document, write_page
+
     given = {key.rpartition(".")[2]: value for key, value in options.items()}
     form = "json" if as_json else form
+    if output is not None:
+        if as_json or document or select is not None or symbols or form != "text":
+            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
+        write_page(model, method, given, parameters, shape, coordinates, output)
+        return OK
     if document or select is not None or symbols:
-        _refuse(document and form == "latex", shape)
+        refuse(document and form == "latex", shape)
         found = write_document(model, method, given, parameters, coordinates, select, symbols)
         click.echo(found, nl=False)
         return OK
@@ -67,42 +75,6 @@ def command(
     return OK
 
 
-def _refuse(wanted: bool, shape: str) -> None:
-    """Refuse options that mean nothing together."""
-    if not wanted:
-        expected = "--format latex --document, with which alone --select and --symbols mean something"
-        raise InputError("inspect", expected, "other options")
-    if shape == "looped":
-        raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
-
-
-def write_document(
-    name: str,
-    method: str | None,
-    options: dict[str, str],
-    parameters: dict[str, float],
-    coordinates: str,
-    select: str | None,
-    symbols: bool,
-) -> str:
-    """Return the equations as a LaTeX document."""
-    from symgen.api import Model
-    from symgen.compiling.choose_coordinates import choose_coordinates
-    from symgen.describe.load import read_raw
-    from symgen.describe.validate import validate
-    from symgen.reading.document import document
-    from symgen.reading.law import law
-    from symgen.reading.lengths import with_symbols
-
-    raw, source = read_raw(name)
-    model = Model(validate(with_symbols(raw) if symbols else raw, source))
-    values = model.parameters(parameters)
-    found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
-    wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
-    steps = law(method or "direct-correction", options)
-    return document(found.mechanism, found.derived, steps, values, wanted)
-
-
 def describe(
     name: str,
     method: str | None,
@@ -114,28 +86,17 @@ def describe(
 ) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
-    from symgen.compiling.pipeline import choose_method, compile_model
+    from symgen.cli._reading import Started
     from symgen.formulate.display import Display
     from symgen.formulate.formulate import formulate
-    from symgen.plan import make_plan
-    from symgen.settings import Settings
-    from symgen.tree_run import tree_run
 
-    choice = choose_method(method or "direct-correction", options)
     model = load(name)
-    given = {f"method.{k}": v for k, v in options.items()}
-    asked = Settings(choice.method.name, options=given, shape=shape, coordinates=coordinates, parameters=parameters)
-    plan = make_plan(model.mechanism, asked)
-    choice = replace(choice, shape=plan.choice.shape)
+    started = Started.of(model, method, options, parameters, shape, coordinates)
+    plan, choice, start = started.plan, started.choice, started.start
+    mechanism, compiled = started.mechanism, started.compiled
     of_tree: dict[str, Any] = {}
-    if plan.coordinates == "joint":
-        choice = replace(choice, options=plan.choice.options)
-        run = tree_run(model.mechanism, plan, asked.parameters)
-        mechanism, compiled, start = run.mechanism, run.compiled, run.start
-        of_tree = {"topology": _topology(run.topology, mechanism), "tree": _links(run.topology)}
-    else:
-        mechanism, compiled = model.mechanism, compile_model(model.mechanism, choice)
-        start = model.assemble(compiled, parameters)
+    if mechanism.topology is not None:
+        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": _links(mechanism.topology)}
     equations = formulate(mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text

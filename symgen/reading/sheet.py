@@ -57,7 +57,7 @@ class Sheet:
         ends = [n for r in self.rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         ends += [n for block in equations.mass for line in block.entries for n in line]
         ends += [*equations.forces, equations.kinetic, equations.potential, equations.power]
-        ends += [n for n in equations.q_rates if g.nodes[n].op != "input"]
+        ends += [*(n for n in equations.q_rates if g.nodes[n].op != "input"), g.zero]
         taken = {quantity.name for quantity in equations.parameters}
         self.writer = Typesetter(equations, ends, self._names(), taken)
 
@@ -126,6 +126,20 @@ class Sheet:
                 for pair in zip(boxes, nodes, strict=True)
             ]
         return Block(left, tuple(map(tuple, boxes)), key)
+
+    def whole(self) -> list[Block]:
+        """Return M, and D where it has rows, as matrices; for small mechanisms."""
+        e, zero = self.equations, self.equations.graph.zero
+        masses = {
+            (i, j): b.entries[r][c] for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns)
+        }
+        everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
+        everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
+        return [
+            Block(name(k), tuple(tuple(as_box(self.writer.sum(n)) for n in line) for line in nodes))
+            for k, nodes in everything.items()
+            if nodes
+        ]
 
     # -- motion ----------------------------------------------------------------------------------------------------
 
