@@ -190,7 +190,8 @@ class _Printer:
             return f"{self.value(first, 8)} {'&' if name == 'and' else '|'} {self.value(e.arguments[1], 8)}", 7
         if name in _SIGNS:
             sign, own = _SIGNS[name]
-            return f"{self.value(first, own)} {sign} {self.value(e.arguments[1], own + 1)}", own
+            room = "" if sign in "*/" else " "  # a sign may stand behind + and -
+            return f"{self.value(first, own)}{room}{sign}{room}{self.value(e.arguments[1], own + 1)}", own
         if name == "neg":
             return f"-{self.value(first, 15)}", 14
         if name == "not":

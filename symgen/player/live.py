@@ -24,8 +24,11 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
 
 #: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
-MOST = {False: 80_000, True: 270_000}
+MOST = {False: 76_000, True: 270_000}
 A_OPERATION = 24
+
+#: Sections of the scratch that a start finds and evaluations do not.
+_KEPT = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
 
 _T: Kind = ("float", False)
 _A: Kind = ("float", True)
@@ -146,6 +149,7 @@ def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: flo
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
+    kept = [i for name in _KEPT for i in range(info.sections[name][0], sum(info.sections[name]))]
     return {
         "nq": info.nq,
         "nv": info.nv,
@@ -159,8 +163,8 @@ def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: flo
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
         "p0": [float(x) for x in start.p],
-        "w0": [[int(i), float(start.w[i])] for i in np.flatnonzero(start.w) if np.isfinite(start.w[i])],
-        "masked": [int(i) for i in np.flatnonzero(~np.isfinite(start.w))],
+        "w0": [[i, float(start.w[i])] for i in kept if start.w[i] != 0.0 and np.isfinite(start.w[i])],
+        "masked": [i for i in kept if np.isinf(start.w[i])],
         "lengths": [int(x) for x in lengths_of(info)],
         "angular": [int(x.unit != "m/s") for x in info.velocities],
         "rows": [int(row.unit == "m") for row in info.rows],

@@ -32,7 +32,13 @@ SCRIPTS = ("draw.js", "plots.js", "player.js")
 
 @lru_cache(maxsize=8)
 def _web(name: str) -> str:
-    return (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
+    """Return a part of the page."""
+    text = (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
+    if not name.endswith(".js"):
+        return text
+    # comments and what lines begin with are for those who read the sources
+    lines = (line.strip() for line in text.splitlines())
+    return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
 
 
 def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> str:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
 #: Fewest and most frames of a page.
-FEWEST, MOST = 120, 1500
+FEWEST, MOST = 60, 1500
 
 
 @dataclass(frozen=True)

@@ -93,7 +93,9 @@ function makePlot(canvas, key) {
       context.stroke();
     });
     context.setLineDash([]);
-    picture = context.getImageData(0, 0, canvas.width, canvas.height);
+    picture = document.createElement("canvas");
+    Object.assign(picture, { width: canvas.width, height: canvas.height });
+    picture.getContext("2d").drawImage(canvas, 0, 0);
     frame = { context, x, top, bottom, height, left, right, width, begin: t[0], end };
     key.textContent = "";
     group.names.forEach((name, i) => {
@@ -107,8 +109,8 @@ function makePlot(canvas, key) {
 
   function cursor(time, values, log) {
     if (!frame) return;
-    const { context, x, top, bottom, height } = frame;
-    context.putImageData(picture, 0, 0);
+    const { context, x, top, bottom, height, width } = frame;
+    context.drawImage(picture, 0, 0, width, height);
     context.strokeStyle = "#20262e";
     context.lineWidth = 1;
     context.beginPath();
