@@ -16,7 +16,7 @@ INSTALLED := $(VENV)/.installed
 DOCS_INSTALLED := $(VENV)/.installed-docs
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test slow lint format generated docs gallery bench clean
+.PHONY: help demo test slow browser lint format generated docs gallery bench clean
 
 help:  ## say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/\1|\2/p' $(MAKEFILE_LIST) | awk -F'|' '{ printf "make %-10s %s\n", $$1, $$2 }'
@@ -52,6 +52,11 @@ test: $(INSTALLED)  ## run the tests, except slow ones
 
 slow: $(INSTALLED)  ## run the slow tests
 	@"$(BIN)/python" -m pytest -n $(WORKERS) -m slow
+
+browser: $(INSTALLED)  ## run the tests of pages in Chromium, which is installed where it is missing and apt-get can
+	@command -v chromium chromium-browser google-chrome chrome >/dev/null || test -n "$$SYMGEN_BROWSER" \
+	  || { echo "installing Chromium"; apt-get update -qq && apt-get install -qq --yes chromium >/dev/null; }
+	@"$(BIN)/python" -m pytest -m browser tests/browser
 
 lint: $(INSTALLED)  ## check format, style, types and the direction of imports
 	@"$(BIN)/ruff" format --check .

@@ -28,7 +28,15 @@ NAVIGATION = {
     "Start": ("docs/tutorial", "docs/tutorial-space", "docs/tutorials/README", "docs/gallery/README", "docs/findings"),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
-    "Reference": ("docs/file-format", "docs/command-line", "docs/options", "docs/python", "docs/api"),
+    "Reference": (
+        "docs/file-format",
+        "docs/drawing",
+        "docs/player",
+        "docs/command-line",
+        "docs/options",
+        "docs/python",
+        "docs/api",
+    ),
     "Development": (
         "docs/architecture",
         "docs/extending",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,7 @@ from symgen.describe.holds import holds_of
 from symgen.describe.load import load as load_mechanism
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.errors import InputError, nearest
+from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, ready, start_of, watching
 from symgen.runtime.compiled import CompiledModel
@@ -27,15 +28,17 @@ from symgen.tree_run import tree_run
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import ArrayLike
+
     from symgen.analyses.equilibrium import Equilibrium
+    from symgen.analyses.inverse import Inverse
+    from symgen.analyses.kinematics import Kinematics
     from symgen.analyses.linearise import LinearSystem
     from symgen.analyses.locus import Locus
     from symgen.analyses.modes import Modes
-    from numpy.typing import ArrayLike
-
-    from symgen.analyses.inverse import Inverse
-    from symgen.analyses.kinematics import Kinematics
     from symgen.compiling.pipeline import MethodChoice
+    from symgen.drawing import Drawing, View
+    from symgen.reading.equations import SymbolicEquations
     from symgen.result.result import Result
     from symgen.runtime.assembly import Start
     from symgen.runtime.held import Held
@@ -91,6 +94,30 @@ class Model:
             If a name is not a parameter or a value is not finite.
         """
         return parameter_values(self.mechanism, changed)
+
+    @cached_property
+    def equations(self) -> SymbolicEquations:
+        """The derived equations in coordinates of bodies as SymPy matrices and symbols: exactly what is compiled."""
+        return self.equations_in("absolute")
+
+    def equations_in(self, coordinates: str) -> SymbolicEquations:
+        """Return the derived equations in some coordinates as SymPy matrices and symbols.
+
+        Parameters
+        ----------
+        coordinates : {"absolute", "joint"}
+            Those of bodies, or of the joints of a tree.
+
+        Raises
+        ------
+        InputError
+            If there are no such coordinates.
+        """
+        from symgen.compiling.choose_tree import on_tree
+        from symgen.reading.equations import SymbolicEquations
+
+        asked = arguments.one_of("coordinates", coordinates, ("absolute", "joint"))
+        return SymbolicEquations(on_tree(self.mechanism) if asked == "joint" else self.mechanism)
 
     def compile(
         self, method: str = "direct-correction", options: Mapping[str, str] | None = None, shape: str = "straight"
@@ -176,6 +203,71 @@ class Model:
     ) -> tuple[CompiledModel, Start]:
         """Return the compiled model and the consistent start of a plan; see `symgen.run_setup.ready`."""
         return ready(self.mechanism, plan, parameters, strict)
+
+    def draw(
+        self,
+        parameters: Mapping[str, float] | None = None,
+        start: Mapping[str, float] | None = None,
+        *,
+        at: str = "start",
+        q: Sequence[float] | Array | None = None,
+        view: View | None = None,
+    ) -> Drawing:
+        """Return a picture of the mechanism, which notebooks show and ``.save("x.svg")`` writes.
+
+        Where the mechanism cannot be assembled the picture shows where that stopped, with the joints that stay open
+        marked and the reason below it.
+
+        Parameters
+        ----------
+        parameters : mapping, optional
+            Values of parameters that differ from the described ones.
+        start : mapping, optional
+            Values of coordinates that the start keeps, as for `simulate`.
+        at : {"start", "described"}
+            The assembled start, or the one that the description has, which may be open.
+        q : array, shape (nq,), optional
+            Coordinates of all bodies, in place of a start.
+        view : View, optional
+            From where a mechanism in space is seen.
+        """
+        from symgen.drawing.drawing import Drawing, gaps
+        from symgen.drawing.paper import View
+
+        if view is not None:
+            arguments.of_kind("view", view, View, "a symgen.drawing.View")
+        values = self.parameters(parameters)
+        described = self.initial_state(values)[0]
+        if q is None and arguments.one_of("at", at, ("start", "described")) == "described":
+            q = described
+        if q is not None:
+            q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
+            return Drawing.of(self.mechanism, q, values, view=view)
+        try:
+            found = self.assemble(self.compile(), parameters, held=start)
+        except AssemblyError as error:
+            q = error.q or described
+            scene = Drawing.of(self.mechanism, q, values).scene
+            limit = 1e-3 * scene.unit
+            wide = [item.name for item, gap in gaps(scene, q) if gap > limit]
+            return Drawing.of(
+                *(self.mechanism, q, values),
+                open_joints=tuple(dict.fromkeys((*error.joints, *wide))),
+                view=view,
+                caption=str(error),
+            )
+        closed = found.y[: len(described)]
+        if found.warnings:
+            return Drawing.of(
+                *(self.mechanism, closed, values),
+                view=view,
+                ghost=described.tolist(),
+                caption="; ".join(found.warnings),
+            )
+        return Drawing.of(self.mechanism, closed, values, view=view)
+
+    def _repr_svg_(self) -> str:
+        return self.draw().svg
 
     def simulate(
         self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object

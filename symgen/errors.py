@@ -53,9 +53,30 @@ class InputError(SymgenError):
 
 
 class AssemblyError(SymgenError):
-    """The mechanism cannot be closed from the given start; says which joint stays open and by how much."""
+    """The mechanism cannot be closed from the given start; says which joint stays open and by how much.
+
+    Parameters
+    ----------
+    message : str
+        The sentence.
+    joints : tuple of str
+        Joints that stay open, none where that is not why.
+    q : tuple of float
+        Coordinates of all bodies where closing stopped, for a picture; empty where nobody knows.
+    """
 
     exit_code = 2
+
+    def __init__(self, message: str, joints: tuple[str, ...] = (), q: tuple[float, ...] = ()) -> None:
+        self.joints, self.q = joints, q
+        super().__init__(message)
+
+    def __reduce__(self) -> tuple[type, tuple[str, tuple[str, ...], tuple[float, ...]]]:
+        return type(self), (str(self), self.joints, self.q)
+
+    def stopped_at(self, q: Iterable[float]) -> AssemblyError:
+        """Return the same error with the coordinates where closing stopped."""
+        return type(self)(str(self), self.joints, tuple(q))
 
 
 class SimulationError(SymgenError):

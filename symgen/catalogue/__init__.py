@@ -84,6 +84,11 @@ def known() -> tuple[str, ...]:
     return tuple(sorted((*names(STUDIED), *names(MACHINES))))
 
 
+def file_of(name: str) -> Path | None:
+    """Return the file of the entry `name`; None for sized ones, which are built."""
+    return (_files(STUDIED) | _files(MACHINES)).get(name)
+
+
 def raw(name: str, size: int | None = None) -> dict[str, Any]:
     """Return the description of the entry `name`, not yet validated.
 

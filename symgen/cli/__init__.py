@@ -27,6 +27,8 @@ COMMANDS = {
     "list": ("symgen.cli.list", "Show the mechanisms that come with symgen."),
     "new": ("symgen.cli.new", "Write a commented mechanism file to start from."),
     "check": ("symgen.cli.check", "Validate and assemble a mechanism; say its degrees of freedom."),
+    "draw": ("symgen.cli.draw", "Draw a mechanism."),
+    "view": ("symgen.cli.view", "Make a page that plays a motion, or a GIF."),
     "inspect": ("symgen.cli.inspect", "Show the equations of a mechanism, and what was left out."),
     "generate": ("symgen.cli.generate", "Write the emitted code of a mechanism."),
     "run": ("symgen.cli.run", "Simulate a mechanism."),

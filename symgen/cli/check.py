@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import click
@@ -13,9 +14,28 @@ from symgen.cli._options import json_option, setting_options
 @click.command("check", short_help="Validate and assemble a mechanism; say its degrees of freedom.")
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
+@click.option("--draw", "picture", metavar="FILE", help="Draw it into FILE as well: .svg, .png or .pdf.")
 @json_option
-def command(model: str, parameters: dict[str, float], start: dict[str, float], strict: bool, as_json: bool) -> int:
-    """Validate MODEL, assemble it, and say its degrees of freedom, rank and redundant rows."""
+def command(
+    model: str,
+    parameters: dict[str, float],
+    start: dict[str, float],
+    strict: bool,
+    picture: str | None,
+    as_json: bool,
+) -> int:
+    """Validate MODEL, assemble it, and say its degrees of freedom, rank and redundant rows.
+
+    With --draw there is a picture also where it does not close: it shows where that stopped and which joints stay open.
+    """
+    if picture is not None:
+        from symgen.api import load
+        from symgen.drawing.drawing import check_picture
+
+        file = check_picture("--draw", Path(picture))
+        load(model).draw(parameters, start).save(file)
+        if not as_json:
+            click.echo(f"written: {file}", err=True)
     facts = examine(model, parameters, start, strict)
     if as_json:
         write_json(facts)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import setting_options
+from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -21,6 +21,12 @@ if TYPE_CHECKING:
 @click.argument("model")
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
+@click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it is.")
+@click.option(
+    "--select", metavar="NAME,NAME", help="Of a document: its sections (Phi, D, gamma, M, f, law, ...), and joints."
+)
+@click.option("--symbols", is_flag=True, help="Of a document: symbols for lengths that are numbers in the file.")
+@click.option("-o", "--output", metavar="FILE.html", help="Write a page that needs nothing else, with all of it.")
 @click.option("--method", help="Show the operation counts of this method's functions too.")
 @setting_options(
     *("options", "shape", "coordinates", "parameters"),
@@ -30,6 +36,10 @@ def command(
     model: str,
     form: str,
     as_json: bool,
+    document: bool,
+    select: str | None,
+    symbols: bool,
+    output: str | None,
     method: str | None,
     options: dict[str, str],
     shape: str,
@@ -41,8 +51,20 @@ def command(
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
+    from symgen.cli._reading import refuse, write_document, write_page
+
     given = {key.rpartition(".")[2]: value for key, value in options.items()}
     form = "json" if as_json else form
+    if output is not None:
+        if as_json or document or select is not None or symbols or form != "text":
+            raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
+        write_page(model, method, given, parameters, shape, coordinates, output)
+        return OK
+    if document or select is not None or symbols:
+        refuse(document and form == "latex", shape)
+        found = write_document(model, method, given, parameters, coordinates, select, symbols)
+        click.echo(found, nl=False)
+        return OK
     facts = describe(model, method, given, parameters, form == "latex", shape, coordinates)
     if form == "json":
         write_json(facts)
@@ -64,28 +86,17 @@ def describe(
 ) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
-    from symgen.compiling.pipeline import choose_method, compile_model
+    from symgen.cli._reading import Started
     from symgen.formulate.display import Display
     from symgen.formulate.formulate import formulate
-    from symgen.plan import make_plan
-    from symgen.settings import Settings
-    from symgen.tree_run import tree_run
 
-    choice = choose_method(method or "direct-correction", options)
     model = load(name)
-    given = {f"method.{k}": v for k, v in options.items()}
-    asked = Settings(choice.method.name, options=given, shape=shape, coordinates=coordinates, parameters=parameters)
-    plan = make_plan(model.mechanism, asked)
-    choice = replace(choice, shape=plan.choice.shape)
+    started = Started.of(model, method, options, parameters, shape, coordinates)
+    plan, choice, start = started.plan, started.choice, started.start
+    mechanism, compiled = started.mechanism, started.compiled
     of_tree: dict[str, Any] = {}
-    if plan.coordinates == "joint":
-        choice = replace(choice, options=plan.choice.options)
-        run = tree_run(model.mechanism, plan, asked.parameters)
-        mechanism, compiled, start = run.mechanism, run.compiled, run.start
-        of_tree = {"topology": _topology(run.topology, mechanism), "tree": _links(run.topology)}
-    else:
-        mechanism, compiled = model.mechanism, compile_model(model.mechanism, choice)
-        start = model.assemble(compiled, parameters)
+    if mechanism.topology is not None:
+        of_tree = {"topology": _topology(mechanism.topology, mechanism), "tree": _links(mechanism.topology)}
     equations = formulate(mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from symgen.describe.fields import found, read
@@ -22,7 +23,7 @@ Tensor = tuple[Expr, Expr, Expr, Expr, Expr, Expr]
 
 def planar_body(scope: Scope, raw: object) -> Body:
     """Return the planar body that a table describes."""
-    section = read(BodySection, raw, scope.where(""))
+    section = read(BodySection, _without_shape(raw), scope.where(""))
     _check_type(scope, section, ("inertia", "angle", "angular_velocity", "points", "centre_of_mass"))
     position, centre, velocity, points = _common(scope, section)
     return Body(
@@ -42,7 +43,7 @@ def planar_body(scope: Scope, raw: object) -> Body:
 
 def spatial_body(scope: Scope, raw: object) -> SpatialBody:
     """Return the spatial body that a table describes."""
-    section = read(SpatialBodySection, raw, scope.where(""))
+    section = read(SpatialBodySection, _without_shape(raw), scope.where(""))
     keys = ("inertia", "inertia_at", "inertia_axes", "orientation", "angular_velocity", "points", "centre_of_mass")
     _check_type(scope, section, keys)
     position, centre, velocity, points = _common(scope, section)
@@ -58,6 +59,11 @@ def spatial_body(scope: Scope, raw: object) -> SpatialBody:
         velocity=velocity,
         angular_velocity=_optional(scope, "angular_velocity", section.angular_velocity),
     )
+
+
+def _without_shape(raw: object) -> object:
+    """Return the table of a body without what it looks like, which `symgen.describe.shapes` reads."""
+    return {key: value for key, value in raw.items() if key != "shape"} if isinstance(raw, Mapping) else raw
 
 
 def _check_type(scope: Scope, section: BodySection | SpatialBodySection, keys: tuple[str, ...]) -> None:

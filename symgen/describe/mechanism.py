@@ -161,6 +161,22 @@ class SpatialBody(msgspec.Struct, frozen=True):
 AnyBody = Body | SpatialBody
 
 
+class Shape(msgspec.Struct, frozen=True):
+    """What a body looks like in pictures, in its own frame.
+
+    `kind` is ``polyline``, ``box``, ``cylinder`` or ``sphere``; `sizes` holds the edges of a box, the radius of a
+    sphere, radius and length of a cylinder [m].
+    """
+
+    kind: str
+    points: tuple[Vec, ...] = ()
+    closed: bool = False
+    at: Vec = ()
+    sizes: tuple[Expr, ...] = ()
+    axis: Vec = ()
+    colour: str = ""
+
+
 class Articulation(msgspec.Struct, frozen=True):
     """How the bodies of a joint move against each other: what a joint is that can stand in a tree.
 
@@ -333,6 +349,7 @@ class Mechanism(msgspec.Struct, frozen=True):
     holds: tuple[Hold, ...] = ()
     events: tuple[Event, ...] = ()
     cuts: tuple[str, ...] = ()  # joints that carry nothing where the state is that of a tree
+    shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
 
     @property

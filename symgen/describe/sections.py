@@ -128,6 +128,42 @@ class OutputSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     unit: Text = ""
 
 
+class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """What a body looks like in pictures, in its own frame; nothing else depends on it.
+
+    Parameters
+    ----------
+    type : str
+        ``"polyline"``, ``"box"``, ``"cylinder"`` or ``"sphere"``.
+    points : list of vectors
+        Of a polyline [m].
+    closed : bool
+        Whether a polyline is an area.
+    at : point
+        Middle of a box, cylinder or sphere; the centre of mass unless given.
+    size : vector
+        Edges of a box along the body's axes [m].
+    radius : scalar
+        Of a cylinder or sphere [m].
+    length : scalar
+        Of a cylinder in space [m]; in the plane it is seen from its end.
+    axis : vector
+        Direction of a cylinder in space; z unless given.
+    colour : str
+        ``"#rrggbb"``; one of its own for each body unless given.
+    """
+
+    type: Literal["polyline", "box", "cylinder", "sphere"]
+    points: tuple[Vector, ...] | None = None
+    closed: Flag = False
+    at: Point = "centre"
+    size: Vector | None = None
+    radius: Scalar | None = None
+    length: Scalar | None = None
+    axis: Vector | None = None
+    colour: Text = ""
+
+
 class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A planar rigid body or point mass.
 
@@ -154,6 +190,8 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     hold : bool, str or list of str
         Which of the described ``"position"`` (of the centre of mass), ``"angle"`` and ``"velocity"`` (both of them)
         assembly keeps while it moves everything else; all that are given where it is true.
+    shape : table, or list of tables
+        What the body looks like in pictures; bars and plates through its points unless given.
     """
 
     type: Literal["rigid", "point"] = "rigid"
@@ -166,6 +204,7 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     velocity: Vector | None = None
     angular_velocity: Scalar | None = None
     hold: Held = False
+    shape: ShapeSection | tuple[ShapeSection, ...] | None = None
 
 
 class OrientationSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -228,6 +267,8 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     hold : bool, str or list of str
         Which of the described ``"position"`` (of the centre of mass), ``"angle"`` (the orientation) and ``"velocity"``
         (both of them) assembly keeps while it moves everything else; all that are given where it is true.
+    shape : table, or list of tables
+        What the body looks like in pictures; bars and plates through its points unless given.
     """
 
     type: Literal["rigid", "point"] = "rigid"
@@ -242,6 +283,7 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     velocity: Vector | None = None
     angular_velocity: Vector | None = None
     hold: Held = False
+    shape: ShapeSection | tuple[ShapeSection, ...] | None = None
 
 
 #: Sections whose entries are named tables -> what one entry is called.

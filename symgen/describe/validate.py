@@ -29,6 +29,7 @@ from symgen.describe.sections import (
     RunSection,
     TableSection,
 )
+from symgen.describe.shapes import shapes_of
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import names
@@ -121,6 +122,13 @@ class _Validator:
             cuts=tuple(self._cuts),
             holds=tuple(
                 hold for part in (*kept, *(self._starts.get(joint.name, ()) for joint in joints)) for hold in part
+            ),
+            shapes=tuple(
+                (body.name, shape)
+                for body in bodies
+                for shape in shapes_of(
+                    Scope(self.model, f"bodies.{body.name}", body.name), self.raw["bodies"][body.name]
+                )
             ),
             events=tuple(read_event(Scope(self.model, f"events.{n}", n), n, e) for n, e in self.entries("events")),
         )

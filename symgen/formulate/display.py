@@ -1,17 +1,19 @@
 """Nodes of the graph back to SymPy, for people to read: what is shown is exactly what is compiled.
 
-Nothing is evaluated or simplified on the way but brackets and signs, so each shown operation is one of the graph.
+Nothing is evaluated or simplified on the way but brackets and signs, so each shown operation is one of the graph. Where
+people go on to compute with the expressions, SymPy's automatic evaluation puts them into its own normal form.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
 
 from symgen.formulate.equations import Equations
+from symgen.formulate.translate import table_function
 from symgen.vocabulary.functions import ELEMENTARY
 
 #: Expressions with more operations, written out without sharing, are named by that number instead.
@@ -26,6 +28,17 @@ _FUNCTIONS: dict[str, Any] = {
     "min": sp.Min,
     "max": sp.Max,
 }
+#: Operations that SymPy's own arithmetic does well; minima, and conditions, are left as they are.
+_EVALUATED: dict[str, Any] = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "div": lambda a, b: a / b,
+    "neg": lambda a: -a,
+    "pow": lambda a, b: a**b,
+    "abs": sp.Abs,
+    **{name: getattr(sp, name) for name in ELEMENTARY},
+}
 
 
 class Display:
@@ -35,10 +48,15 @@ class Display:
     ----------
     equations : Equations
         What was derived.
+    evaluated : bool
+        Whether sums and products are put into SymPy's normal form.
+    named : mapping of int to str, optional
+        Nodes that stand under a name of their own where they are used.
     """
 
-    def __init__(self, equations: Equations) -> None:
-        self.equations = equations
+    def __init__(self, equations: Equations, evaluated: bool = False, named: Mapping[int, str] | None = None) -> None:
+        self.equations, self.evaluated = equations, evaluated
+        self.named = {node: sp.Symbol(name, real=True) for node, name in (named or {}).items()}
         self.graph = equations.graph
         names: dict[tuple[str, int], str] = {("t", 0): "t"}
         for space, quantities in (
@@ -54,10 +72,29 @@ class Display:
 
     def expression(self, node: int) -> Any:
         """Return the SymPy expression of a node."""
-        for n in self.graph.needed([node]):
+        for n in self.below([node]):
             if n not in self._memo:
-                self._memo[n] = self._build(n)
+                self._memo[n] = self.named.get(n) or self._build(n)
         return self._memo[node]
+
+    def definition(self, node: int) -> Any:
+        """Return the SymPy expression of a node that has a name."""
+        for n in self.below(self.graph.nodes[node].args):
+            if n not in self._memo:
+                self._memo[n] = self.named.get(n) or self._build(n)
+        return self._build(node)
+
+    def below(self, nodes: Iterable[int]) -> list[int]:
+        """Return what `nodes` are written with, in evaluation order: as far as the next nodes with names."""
+        seen: set[int] = set()
+        waiting = list(nodes)
+        while waiting:
+            node = waiting.pop()
+            if node not in seen:
+                seen.add(node)
+                if node not in self.named:
+                    waiting.extend(self.graph.nodes[node].args)
+        return sorted(seen)
 
     def text(self, node: int) -> str:
         """Return a node as text that Python and SymPy read."""
@@ -86,11 +123,13 @@ class Display:
             return self.symbols[payload]  # type: ignore[index]  # an input's payload is its key
         values = [self._memo[a] for a in args]
         if op == "table":
-            return sp.Function(str(payload))(*values)
+            return (table_function if self.evaluated else sp.Function)(str(payload))(*values)
         if op == "where":
             return sp.Piecewise((values[1], self._condition(args[0])), (values[2], True), evaluate=False)
-        if op in _RELATIONS or op in ("and", "or", "not", "step"):
+        if op in _RELATIONS or op in ("and", "or", "not", "step", "defined"):
             return sp.Piecewise((sp.Integer(1), self._condition(node)), (sp.Integer(0), True), evaluate=False)
+        if self.evaluated and op in _EVALUATED:
+            return _EVALUATED[op](*values)
         return _arithmetic(op, values)
 
     def _condition(self, node: int) -> Any:
@@ -102,6 +141,8 @@ class Display:
             return sp.StrictGreaterThan(*(self._memo[a] for a in args), evaluate=False)
         if op in ("and", "or"):
             return {"and": sp.And, "or": sp.Or}[op](*(self._condition(a) for a in args), evaluate=False)
+        if op == "defined":  # what is no number differs from itself
+            return sp.Eq(self._memo[args[0]], self._memo[args[0]], evaluate=False)
         if op == "not":
             return sp.Not(self._condition(args[0]), evaluate=False)
         return sp.Ne(self._memo[node], 0, evaluate=False)

@@ -112,12 +112,12 @@ class Translator:
 
 
 class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
-    """An interpolated table or a derivative of it as a SymPy function; subclasses made by `_table` know which."""
+    """An interpolated table or a derivative of it as a SymPy function; subclasses know which."""
 
     payload = ""
 
 
-def _table(payload: str) -> Any:
+def table_function(payload: str) -> Any:
     """Return the function with the payload of a table's operation on the graph.
 
     The slope of straight lines is constant between their points: its own derivative is zero.
@@ -126,7 +126,7 @@ def _table(payload: str) -> Any:
     last = not payload.startswith(SMOOTH) and what == "slope"
 
     def fdiff(self: Any, argindex: int = 1) -> Any:
-        return sp.S.Zero if last else _table(payload + "'")(self.args[0])
+        return sp.S.Zero if last else table_function(payload + "'")(self.args[0])
 
     return type(f"{what.replace('value', 'table')}_{name}", (_Table,), {"payload": payload, "fdiff": fdiff})
 
@@ -168,7 +168,7 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     assert isinstance(expression, Call), "the tree has four node kinds"
     arguments = [to_sympy(a, symbols) for a in expression.arguments]
     if expression.function.startswith("table:"):
-        return _table(expression.function.removeprefix("table:"))(*arguments)
+        return table_function(expression.function.removeprefix("table:"))(*arguments)
     return _TO_SYMPY[expression.function](*arguments)
 
 

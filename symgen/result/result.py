@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.arguments import one_of, shown, words
+from symgen.arguments import of_kind, one_of, shown, switch, words
 from symgen.arguments import path as argument_path
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from symgen.player.page import Page
     from symgen.result.measured import Measured
     from symgen.result.parts import Rank, Seconds
     from symgen.result.reactions import Forces
@@ -353,6 +354,30 @@ class Result:
         from symgen.result.select import select
 
         return select(self, names)
+
+    def view(self, beside: Result | None = None, *, live: bool = True) -> Page:
+        """Return a page that plays the motion, which notebooks show and ``.save("x.html")`` writes.
+
+        The page is one file that works offline. Where the equations are not too large it holds them as well, so that
+        sliders of parameters change the motion.
+
+        Parameters
+        ----------
+        beside : Result, optional
+            Another motion of the same mechanism, drawn faintly behind.
+        live : bool
+            Whether the page shall hold the equations.
+
+        Raises
+        ------
+        InputError
+            If there are no outputs, or `beside` is of another mechanism.
+        """
+        from symgen.result.viewed import view
+
+        if beside is not None:
+            of_kind("beside", beside, Result, "a Result")
+        return view(self, beside, switch("live", live))
 
     def save(self, path: str | PathLike[str], quantities: Sequence[str] = ()) -> Path:
         """Write all tables to ``.nc`` (NetCDF), ``.parquet`` or ``.csv``; the file appears whole or not at all.

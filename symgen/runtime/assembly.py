@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.errors import AssemblyError
 from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
@@ -25,7 +26,6 @@ from symgen.runtime.start_records import Asked, Instant
 from symgen.runtime.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
 
 if TYPE_CHECKING:
-    from symgen.errors import AssemblyError
     from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
@@ -153,7 +153,11 @@ def assemble(
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
     if summary[_START] != e.ASSEMBLED:
-        raise without_derivative(compiled, q, p) or start.contradiction(q, given, p, summary) or refusal(summary, info)
+        error = (
+            without_derivative(compiled, q, p) or start.contradiction(q, given, p, summary) or refusal(summary, info)
+        )
+        reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
+        raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
     given[list(fixed.velocities)] = list(fixed.velocities.values())
     changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
     return Start(

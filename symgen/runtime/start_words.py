@@ -147,7 +147,8 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
         joint = joints_of(info)[where]
         return AssemblyError(
             f"{info.name}: the mechanism cannot be assembled from this start: joint '{joint}' stays open by "
-            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins"
+            f"{size:.3g} m or rad; check its points and the positions of the bodies it joins",
+            (joint,),
         )
     if code == e.CONTRADICTION:
         return AssemblyError(
@@ -178,6 +179,7 @@ def without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyE
         return AssemblyError(
             f"{info.name}: joint '{info.rows[row].joint}' cannot be closed from this start: its row "
             f"{info.rows[row].name} has no derivative there, as where points meet that it keeps apart or a disc lies "
-            "flat on its plane; describe another start"
+            "flat on its plane; describe another start",
+            (info.rows[row].joint,),
         )
     return None

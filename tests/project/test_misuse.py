@@ -243,6 +243,14 @@ def rows():
                 lambda x, n=name, v=value: symgen.compare(x.model, **{n: v}),
                 (f"{name}: expected a finite number above 0, got "),
             )
+    yield "view beside", lambda x: x.result.view("a.nc"), "beside: expected a Result, got"
+    yield "view live", lambda x: x.result.view(live="no"), "live: expected "
+    yield "draw at", lambda x: x.model.draw(at="end"), "at: expected one of"
+    yield "draw parameters", lambda x: x.model.draw({"nothing": 1.0}), "parameter 'nothing': expected a parameter"
+    yield "draw start", lambda x: x.model.draw(start={"nothing": 1.0}), "start 'nothing'"
+    for value in ("q", [1.0], np.zeros((2, 2)), [None], 3):
+        yield f"draw q {value!r:.20}", lambda x, v=value: x.model.draw(q=v), "q: expected"
+    yield "draw view", lambda x: x.model.draw(view=(1, 2)), "view: expected a symgen.drawing.View, got"
     for value in (0, 1.5, "3", None):
         yield (
             f"compare repeat {value}",
@@ -385,6 +393,13 @@ def rows():
             lambda x, v=value: x.sim.every(0.1, v),
             f"controller: expected a function, got {shown}",
         )
+    for shown, value in {"'joints'": "joints", "3": 3}.items():
+        yield (
+            f"equations_in {shown}",
+            lambda x, v=value: x.model.equations_in(v),
+            f"coordinates: expected one of absolute, joint, got {shown}",
+        )
+    yield "equations 3", lambda x: x.model.equations.quantity(3), "quantity: expected one of Phi, D, nu"
     yield "toml", lambda x: symgen.MechanismBuilder("a").body("b", mass=Thing()).to_toml(), "a Thing"
 
 
@@ -421,6 +436,8 @@ def test_no_function_with_arguments_is_left_out():
         *(
             "Model.parameters",
             "Model.compile",
+            "Model.equations_in",
+            "Model.draw",
             "Model.assemble",
             "Model.simulate",
             "Mechanism.body",
@@ -430,7 +447,7 @@ def test_no_function_with_arguments_is_left_out():
         *("Sweep.save", "Sweep.reasons", "Model.start"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
-        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select"),
+        *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),
     }
     # what only the package makes or calls
     inner = {

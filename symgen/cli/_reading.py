@@ -1,0 +1,174 @@
+"""What ``symgen inspect`` writes whole: a LaTeX document, and a page."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from symgen.errors import InputError
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.compiling.pipeline import MethodChoice
+    from symgen.describe.mechanism import Mechanism
+    from symgen.plan import Plan
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+
+
+@dataclass(frozen=True)
+class Started:
+    """A model at its start, as a run of a method would have it.
+
+    Attributes
+    ----------
+    plan, choice : Plan, MethodChoice
+        What was decided, and the method as it is compiled.
+    mechanism : Mechanism
+        With its tree where coordinates are those of joints.
+    compiled : CompiledModel
+        The emitted functions.
+    start : Start
+        The consistent start.
+    bodies : tuple of float
+        Coordinates of bodies there.
+    """
+
+    plan: Plan
+    choice: MethodChoice
+    mechanism: Mechanism
+    compiled: CompiledModel
+    start: Start
+    bodies: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls,
+        model: Model,
+        method: str | None,
+        options: Mapping[str, str],
+        parameters: dict[str, float],
+        shape: str,
+        coordinates: str,
+    ) -> Started:
+        """Return a model at its start.
+
+        Raises
+        ------
+        InputError
+            If a setting is wrong.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.compiling.pipeline import choose_method, compile_model
+        from symgen.plan import make_plan
+        from symgen.settings import Settings
+        from symgen.tree_run import tree_run
+
+        choice = choose_method(method or "direct-correction", options)
+        given = {f"method.{k}": v for k, v in options.items()}
+        asked = Settings(choice.method.name, options=given, shape=shape, coordinates=coordinates, parameters=parameters)
+        plan = make_plan(model.mechanism, asked)
+        choice = replace(choice, shape=plan.choice.shape)
+        if plan.coordinates == "joint":
+            choice = replace(choice, options=plan.choice.options)
+            run = tree_run(model.mechanism, plan, asked.parameters)
+            bodies = run.body_start.y[: run.bodies.info.nq]
+            return cls(plan, choice, run.mechanism, run.compiled, run.start, tuple(map(float, bodies)))
+        compiled = compile_model(model.mechanism, choice)
+        start = model.assemble(compiled, parameters)
+        bodies = start.y[: compiled.info.nq]
+        return cls(plan, choice, model.mechanism, compiled, start, tuple(map(float, bodies)))
+
+
+def refuse(wanted: bool, shape: str) -> None:
+    """Refuse options that mean nothing together."""
+    if not wanted:
+        expected = "--format latex --document, with which alone --select and --symbols mean something"
+        raise InputError("inspect", expected, "other options")
+    if shape == "looped":
+        raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
+
+
+def write_document(
+    name: str,
+    method: str | None,
+    options: dict[str, str],
+    parameters: dict[str, float],
+    coordinates: str,
+    select: str | None,
+    symbols: bool,
+) -> str:
+    """Return the equations as a LaTeX document."""
+    from symgen.api import Model
+    from symgen.compiling.choose_coordinates import choose_coordinates
+    from symgen.describe.load import read_raw
+    from symgen.describe.validate import validate
+    from symgen.reading.document import document
+    from symgen.reading.law import law
+    from symgen.reading.lengths import with_symbols
+
+    raw, source = read_raw(name)
+    model = Model(validate(with_symbols(raw) if symbols else raw, source))
+    values = model.parameters(parameters)
+    found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
+    wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
+    steps = law(method or "direct-correction", options)
+    return document(found.mechanism, found.derived, steps, values, wanted)
+
+
+def write_page(
+    name: str,
+    method: str | None,
+    options: dict[str, str],
+    parameters: dict[str, float],
+    shape: str,
+    coordinates: str,
+    output: str,
+) -> None:
+    """Write the page of a mechanism."""
+    from symgen.api import load
+    from symgen.compiling.pipeline import choose_method
+    from symgen.errors import AssemblyError
+    from symgen.files import check_writable, write_whole
+    from symgen.formulate.formulate import formulate
+    from symgen.reading.law import law
+    from symgen.reading.page import Subject, check_size, page
+    from symgen.reading.source import text_of
+
+    path = Path(output)
+    if path.suffix.lower() not in (".html", ".htm"):
+        raise InputError("inspect: -o", "a name that ends in .html", f"'{path.name}'")
+    check_writable("inspect: -o", path)
+    model = load(name)
+    check_size(model.mechanism)
+    mechanism, choice, q = model.mechanism, choose_method(method or "direct-correction", options), None
+    try:
+        started = Started.of(model, method, options, parameters, shape, coordinates)
+        mechanism, choice, start, q = started.mechanism, started.choice, started.start, started.bodies
+        free = len(start.y) - 1 - started.compiled.info.nq - start.rank
+        degrees = f"{free} degree{'' if free == 1 else 's'} of freedom"
+        facts = [f"At the start D has rank {start.rank}: {degrees}.", *start.notes]
+        if start.redundant_rows:
+            facts.append(f"Redundant at the start: {', '.join(start.redundant_rows)}.")
+        if coordinates == "auto":
+            facts.append(f"Coordinates: {started.plan.coordinates_reason}.")
+    except AssemblyError as error:
+        facts = [f"It does not close, and is drawn as described: {error}"]
+    subject = Subject(
+        whole=model.mechanism,
+        mechanism=mechanism,
+        equations=formulate(mechanism),
+        choice=choice,
+        law=law(choice.method.name, choice.options),
+        values=model.parameters(parameters),
+        q=q,
+        facts=facts,
+        text=text_of(name),
+    )
+    written = write_whole(path, page(subject))
+    click.echo(f"{written}  {written.stat().st_size} bytes")

@@ -1,0 +1,97 @@
+"""``symgen draw MODEL``: a picture of a mechanism."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from symgen.cli import BAD_INPUT, OK, complain, write_json
+from symgen.cli._options import json_option, setting_options
+from symgen.errors import InputError, quoted
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.drawing import Drawing, View
+
+
+@click.command("draw", short_help="Draw a mechanism.")
+@click.argument("model")
+@click.option("-o", "--output", metavar="FILE", help="The picture: .svg, or with matplotlib .png or .pdf.  [MODEL.svg]")
+@click.option(
+    "--at", default="start", show_default=True, metavar="WHEN", help="start, described, or a time in seconds."
+)
+@click.option("--view", "angles", metavar="TURN,TILT", help="In space: degrees about the vertical, and from above.")
+@setting_options("parameters", "start")
+@json_option
+def command(
+    model: str,
+    output: str | None,
+    at: str,
+    angles: str | None,
+    parameters: dict[str, float],
+    start: dict[str, float],
+    as_json: bool,
+) -> int:
+    """Draw MODEL: bodies from their points or shapes, joints and forces by their symbols.
+
+    A mechanism that cannot be assembled is drawn where that stopped, with the joints that stay open marked; the exit
+    code is 2 then.
+
+    \b
+    Examples:
+      symgen draw four-bar -o four-bar.svg
+      symgen draw crane.toml --at described --set length=2 -o crane.png
+    """  # noqa: D301  # the escape is Click's
+    from symgen.api import load
+    from symgen.drawing.drawing import check_picture
+
+    view = _view(angles)
+    loaded = load(model)
+    file = check_picture("--output", Path(output or f"{loaded.name}.svg"))
+    drawing = _drawing(loaded, at, parameters, start, view)
+    drawing.save(file)
+    marked = [item.name for item in drawing.scene.items if item.role == "fault"]
+    if as_json:
+        write_json({"file": str(file), "at": at, "open": marked, "note": drawing.caption})
+    else:
+        click.echo(f"written: {file}")
+    if marked or (drawing.caption and not drawing.ghost):
+        return complain(drawing.caption, BAD_INPUT)
+    if drawing.caption:
+        return complain(f"warning: {drawing.caption}", OK)
+    return OK
+
+
+def _drawing(
+    model: Model, at: str, parameters: dict[str, float], start: dict[str, float], view: View | None
+) -> Drawing:
+    if at in ("start", "described"):
+        return model.draw(parameters, start, at=at, view=view)
+    try:
+        time = float(at)
+    except ValueError:
+        time = math.nan
+    if not 0.0 <= time < math.inf:
+        raise InputError("--at", "start, described or a time in seconds", quoted(at))
+    if time == 0.0:
+        return model.draw(parameters, start, view=view)
+    changes: dict[str, Any] = {"parameters": parameters, "start": start, "until": time, "times": (0.0, time)}
+    result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time))
+    return model.draw(parameters, q=result.q.values[-1], view=view)
+
+
+def _view(angles: str | None) -> View | None:
+    from symgen.drawing import View
+
+    if angles is None:
+        return None
+    try:
+        turn, tilt = (math.radians(float(word)) for word in angles.split(","))
+    except ValueError:
+        raise InputError("--view", "two angles in degrees, such as 30,20", quoted(angles)) from None
+    if not (math.isfinite(turn) and math.isfinite(tilt)):
+        raise InputError("--view", "two finite angles in degrees", quoted(angles))
+    return View(turn, tilt)

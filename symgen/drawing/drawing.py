@@ -1,0 +1,150 @@
+"""A picture as a value: shown by notebooks, saved as SVG, PDF or PNG."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from importlib.util import find_spec
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symgen.arguments import path as argument_path
+from symgen.describe.evaluate import parameter_values, scalars
+from symgen.describe.start import described_start
+from symgen.drawing.build import build_scene
+from symgen.drawing.paper import Drawn, View, on_paper
+from symgen.drawing.scene import Array, Item, Poses, Scene
+from symgen.drawing.svg import svg
+from symgen.errors import InputError, nearest
+from symgen.files import check_writable, write_whole
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+
+#: Endings of pictures.
+ENDINGS = (".svg", ".png", ".pdf")
+#: Joints whose two points are one point.
+PINS = frozenset(("revolute", "spherical", "universal", "constant-velocity", "rigid"))
+
+#: From where scenes in space are seen.
+ABOVE = View()
+
+
+def check_picture(where: str, path: Path) -> Path:
+    """Refuse a picture that could not be written, before anything is computed for it.
+
+    Raises
+    ------
+    InputError
+        If the ending is not known, matplotlib is missing for pixels, or the file cannot be written.
+    """
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        got = f"'{path.suffix}'" if path.suffix else "no ending"
+        raise InputError(where, f"a file that ends in {', '.join(ENDINGS)}", got, nearest(ending, ENDINGS))
+    if ending != ".svg" and find_spec("matplotlib") is None:
+        raise InputError(where, "the library matplotlib", "none", "pip install 'symgen[plot]' installs it")
+    check_writable(where, path)
+    return path
+
+
+@dataclass(frozen=True, repr=False)
+class Drawing:
+    """A mechanism on paper.
+
+    Attributes
+    ----------
+    scene : Scene
+        What is drawn.
+    q : tuple of float
+        Where it is.
+    view : View
+        From where it is seen, where it is spatial.
+    ghost : tuple of float
+        Other positions that are drawn faintly behind, none unless given.
+    labels : bool or None
+        Whether bodies have their names beside them; where they are few unless given.
+    caption : str
+        A sentence below the picture.
+    """
+
+    scene: Scene
+    q: tuple[float, ...]
+    view: View = ABOVE
+    ghost: tuple[float, ...] = ()
+    labels: bool | None = None
+    caption: str = ""
+
+    @classmethod
+    def of(
+        cls,
+        mechanism: Mechanism,
+        q: Sequence[float] | Array | None = None,
+        values: Mapping[str, float] | None = None,
+        *,
+        open_joints: Sequence[str] = (),
+        view: View | None = None,
+        ghost: Sequence[float] = (),
+        labels: bool | None = None,
+        caption: str = "",
+    ) -> Drawing:
+        """Return the picture of a mechanism; see `symgen.drawing.sketch`."""
+        if q is None:
+            q = described_start(mechanism, scalars(parameter_values(mechanism, values)))[0]
+        scene = build_scene(mechanism, q, values, open_joints)
+        where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
+        return cls(scene, where, view or ABOVE, tuple(map(float, ghost)), labels, caption)
+
+    @cached_property
+    def svg(self) -> str:
+        """The picture as SVG text, the same for the same scene."""
+        return svg(self.scene, self._drawn(), self._behind(), self.labels, self.caption)
+
+    def _drawn(self) -> list[Drawn]:
+        return on_paper(self.scene, np.array(self.q), self.view)
+
+    def _behind(self) -> list[Drawn]:
+        if not self.ghost:
+            return []
+        found = on_paper(self.scene, np.array(self.ghost), self.view)
+        return [each for each in found if each.item.role == "body"]
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the picture to ``.svg``, or with matplotlib to ``.png`` or ``.pdf``; whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is not known, matplotlib is missing for pixels, or the file cannot be written.
+        """
+        file = check_picture("draw", argument_path("path", path))
+        if file.suffix.lower() == ".svg":
+            return write_whole(file, self.svg)
+        from symgen.drawing.pixels import write_pixels
+
+        kind = file.suffix.lower().removeprefix(".")
+        drawn, behind = self._drawn(), self._behind()
+        return write_whole(file, lambda stream: write_pixels(stream, kind, drawn, behind, self.labels, self.caption))
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def __repr__(self) -> str:
+        items = ", ".join(f"{sum(i.role == role for i in self.scene.items)} {word}" for role, word in _COUNTED)
+        return f"<Drawing of {self.scene.name}: {items}>"
+
+
+_COUNTED = (("body", "bodies"), ("joint", "joints"), ("force", "forces"))
+
+
+def gaps(scene: Scene, q: Sequence[float] | Array) -> Iterator[tuple[Item, float]]:
+    """Yield the joints that hold two points together, with how far these are apart [m]."""
+    poses = Poses(scene.frames, q, scene.spatial)
+    for item in scene.items:
+        if item.role == "joint" and item.kind in PINS and len(item.ends) == 2:
+            a, b = (poses.out(body, [at])[0] for body, at in item.ends)
+            yield item, float(np.linalg.norm(b - a))

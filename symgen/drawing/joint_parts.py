@@ -1,0 +1,88 @@
+"""What symbols of joints are made of: their points and axes, stands, wheels."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from symgen.describe.mechanism import Joint
+from symgen.describe.topology import articulation_of
+from symgen.drawing.markers import Numbers, Place, parts
+from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
+from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
+from symgen.vocabulary.measures import Bearing, Component, Turn
+
+DRIVE = Look("#a0522d", "", 1.6)
+PITCH = Look(GREY, "", 1.0, dashed=True)
+GLASS = Look(GREY, "#9aa7b5", 0.8, 0.25)
+Z = np.array([0.0, 0.0, 1.0])
+
+
+def plain(pen: Pen, joint: Joint) -> list[Mark]:
+    """Return the points that a joint ties, for kinds without a symbol."""
+    return [pen.dot(place, 0.35, PLAIN) for place in pen.numbers.markers(joint)]
+
+
+def ends_of(numbers: Numbers, joint: Joint) -> tuple[Place, Place]:
+    """Return the points of both bodies of a joint; those of its first rows, in the order of its bodies."""
+    found = articulation_of(joint)
+    if found is not None:
+        return numbers.place(found.a), numbers.place(found.b)
+    places = numbers.markers(joint.rows)
+    return places[0], places[1] if len(places) > 1 else places[0]
+
+
+def along_of(numbers: Numbers, joint: Joint) -> Array:
+    """Return the direction that a joint's displacement counts along."""
+    found = [m for _, m in joint.coordinates if isinstance(m, Component)]
+    return numbers.direction(found[0].along) if found else np.array([1.0, 0.0, 0.0])
+
+
+def axis_of(numbers: Numbers, joint: Joint) -> Array:
+    """Return the axis of a joint."""
+    if not numbers.spatial:
+        return Z
+    found = articulation_of(joint)
+    if found is not None and found.of_a:
+        return numbers.direction(found.of_a[2])
+    turns = [m for m in parts(joint) if isinstance(m, Turn | Bearing)]
+    if turns:
+        return np.cross(numbers.direction(turns[0].zero), numbers.direction(turns[0].quarter))
+    directions = numbers.directions(joint.rows)
+    return numbers.direction(directions[-1]) if directions else Z
+
+
+def grounded(pen: Pen, places: tuple[Place, Place], swivel: bool = True) -> list[Mark]:
+    """Return the stand of a point of the ground, where a joint has one."""
+    for place in places:
+        if place.body == GROUNDED:
+            at, up = pen.numbers.out(place), pen.up
+            if pen.numbers.spatial:
+                return _stand(pen, at)
+            along = np.array([up[1], -up[0], 0.0])
+            foot = at - 1.5 * pen.unit * up
+            sides = [at, foot + 0.9 * pen.unit * along, foot - 0.9 * pen.unit * along]
+            triangle = [pen.line(GROUNDED, sides, FILLED, closed=True)] if swivel else []
+            return [*triangle, *pen.earth(foot if swivel else at, along, -up)]
+    return []
+
+
+def _stand(pen: Pen, at: Array) -> list[Mark]:
+    u, (first, second) = pen.unit, across(pen.up)
+    foot = at - 1.8 * u * pen.up
+    plate = [foot + u * 1.1 * (i * first + j * second) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    marks: list[Mark] = [pen.line(GROUNDED, plate, Look(GREY, "#c9cfd6", 0.8), closed=True)]
+    for k in (-0.6, 0.0, 0.6):
+        ends = [foot + u * (k * first - 1.1 * second), foot + u * ((k - 0.5) * first + 1.1 * second)]
+        marks.append(pen.line(GROUNDED, ends, replace(EARTH, width=0.6)))
+    return [*marks, pen.tube(GROUNDED, foot, at, 0.22, Look(GREY, "#c9cfd6", 0.8))]
+
+
+def wheel_marks(pen: Pen, centre: Place, axis: Array, radius: float, body: str, look: Look | None = None) -> list[Mark]:
+    """Return a circle with a spoke, in the colour of its body."""
+    colour = COLOURS[pen.numbers.index[body] % len(COLOURS)] if body in pen.numbers.index else GREY
+    at = pen.numbers.out(centre)
+    ring = pen.ring(centre.body, at, axis, radius, look or Look(colour, colour, 1.6, 0.13))
+    rim = pen.numbers.now.out(ring.body, ring.points)
+    return [ring, pen.line(centre.body, [at, rim[0]], Look(colour, "", 1.0)), pen.dot(centre, 0.2)]

@@ -1,0 +1,104 @@
+"""Outlines of bodies that say nothing of their shape: bars and plates through their points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from symgen.drawing.pen import Pen
+from symgen.drawing.scene import Array, Line, Look, Mark, Point, Tube
+
+#: Half the width of a bar, in units.
+HALF = 0.38
+
+
+def outline(pen: Pen, body: int, points: Sequence[Point], gyration: Array, look: Look, shown: bool) -> list[Mark]:
+    """Return a body as bars or a plate through its points; one without is a disc or box of its inertia.
+
+    Parameters
+    ----------
+    pen : Pen
+        What draws.
+    body : int
+        Its index.
+    points : sequence of Point
+        Its points from its centre of mass.
+    gyration : Array, shape (3,)
+        Half the edges of a box of its mass and inertia, in the plane a radius [m].
+    look : Look
+        Of the outline.
+    shown : bool
+        Whether symbols of joints show the body already where it has no points.
+    """
+    away = np.array([p for p in points]).reshape(-1, 3)
+    if not len(away) or not np.any(np.ptp(np.vstack([away, np.zeros(3)]), axis=0) > 0.0):
+        return [] if shown else _of_inertia(pen, body, gyration, look)
+    if len(away) == 1:
+        away = np.vstack([away, np.zeros(3)])
+    middle = away.mean(axis=0)
+    _, spread, axes = np.linalg.svd(away - middle, full_matrices=False)
+    length = spread[0]
+    if len(spread) < 2 or spread[1] <= 1e-6 * length:  # in a line
+        order = np.argsort((away - middle) @ axes[0])
+        return [_bar(pen, body, away[order[0]], away[order[-1]], look)]
+    if len(spread) < 3 or spread[2] <= 1e-6 * length:
+        corners = hull((away - middle) @ axes[:2].T)
+        plate = Line(body, _points(away[corners]), look, closed=True)
+        inner = [p for k, p in enumerate(away) if k not in set(corners)]
+        if not pen.numbers.spatial or len(corners) < 3:
+            return [plate]
+        ends = np.vstack([away[corners], away[corners[:1]]])
+        bars = [_bar(pen, body, a, b, look) for a, b in pairwise(ends)]
+        return [plate, *bars, *(_bar(pen, body, middle, p, look) for p in inner)]
+    if len(away) == 4:
+        pairs = [(i, j) for i in range(4) for j in range(i)]
+        return [_bar(pen, body, away[i], away[j], look) for i, j in pairs]
+    return [_bar(pen, body, middle, p, look) for p in away]
+
+
+def _of_inertia(pen: Pen, body: int, gyration: Array, look: Look) -> list[Mark]:
+    at, turned = pen.numbers.now.centres[body], pen.numbers.now.turns[body]
+    if pen.numbers.spatial:
+        return [pen.box(body, at, turned.T, 2.0 * np.maximum(gyration, 0.02 * float(gyration.max())), look)]
+    radius = float(gyration[0])
+    ring = pen.ring(body, at, np.array([0.0, 0.0, 1.0]), radius, replace(look, dashed=True))
+    return [ring, Line(body, ((0.0, 0.0, 0.0), (radius, 0.0, 0.0)), replace(look, fill=""))]
+
+
+def _points(points: Array) -> tuple[Point, ...]:
+    return tuple((float(x), float(y), float(z)) for x, y, z in points)
+
+
+def _bar(pen: Pen, body: int, a: Array, b: Array, look: Look) -> Mark:
+    """Return a bar with round ends, in space a tube."""
+    ends = _points(np.array([a, b]))
+    half = HALF * pen.unit
+    if pen.numbers.spatial:
+        return Tube(body, ends[0], ends[1], 0.6 * half, replace(look, opacity=0.45, width=1.0))
+    way = np.arctan2(b[1] - a[1], b[0] - a[0])
+    turn = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 9)
+    first = [b + half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
+    second = [a - half * np.array([np.cos(way + t), np.sin(way + t), 0.0]) for t in turn]
+    return Line(body, _points(np.array(first + second)), look, closed=True)
+
+
+def hull(points: Array) -> list[int]:
+    """Return the corners of the convex hull of points in a plane, counter-clockwise."""
+    order = [int(i) for i in np.lexsort((points[:, 1], points[:, 0]))]
+
+    def chain(indices: Sequence[int]) -> list[int]:
+        found: list[int] = []
+        for i in indices:
+            while len(found) > 1 and _turn(points[found[-2]], points[found[-1]], points[i]) <= 0.0:
+                found.pop()
+            found.append(i)
+        return found[:-1]
+
+    return chain(order) + chain(order[::-1])
+
+
+def _turn(a: Array, b: Array, c: Array) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))

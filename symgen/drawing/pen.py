@@ -1,0 +1,119 @@
+"""Marks laid out in the ground frame and fixed to the bodies they belong to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from symgen.drawing.markers import Numbers, Place
+from symgen.drawing.scene import GREY, GROUNDED, INK, PAPER, Array, Dot, Line, Look, Mark, Point, Solid, Stretch, Tube
+
+#: How joints and the ground are drawn.
+PLAIN, FILLED, EARTH = Look(INK, "", 1.2), Look(INK, PAPER, 1.2), Look(GREY, "", 1.0)
+RIGID = Look(INK, INK, 1.0)
+
+
+class Pen:
+    """Draws at sizes of one unit.
+
+    Parameters
+    ----------
+    numbers : Numbers
+        The mechanism in its positions.
+    unit : float
+        Size of a joint's symbol [m].
+    up : Point
+        Against gravity.
+    """
+
+    def __init__(self, numbers: Numbers, unit: float, up: Point) -> None:
+        self.numbers, self.unit, self.up = numbers, unit, np.array(up)
+
+    def points(self, body: int, points: Sequence[Array] | Array) -> tuple[Point, ...]:
+        """Return points of the ground frame as points of a body."""
+        found = self.numbers.now.inside(body, np.asarray(points, dtype=np.float64))
+        return tuple((float(x), float(y), float(z)) for x, y, z in found)
+
+    def line(self, body: int, points: Sequence[Array] | Array, look: Look = PLAIN, closed: bool = False) -> Line:
+        """Return a polyline of a body."""
+        return Line(body, self.points(body, points), look, closed)
+
+    def dot(self, place: Place, radius: float, look: Look = FILLED, mass: bool = False) -> Dot:
+        """Return a circle; its radius is in units."""
+        return Dot(place.body, place.at, radius * self.unit, look, mass)
+
+    def tube(self, body: int, a: Array, b: Array, radius: float, look: Look = FILLED) -> Tube:
+        """Return a round bar; its radius is in units."""
+        ends = self.points(body, [a, b])
+        return Tube(body, ends[0], ends[1], radius * self.unit, look)
+
+    def stretch(self, kind: str, a: Place, b: Place, look: Look) -> Stretch:
+        """Return what reaches from one point to another."""
+        return Stretch(kind, a.body, a.at, b.body, b.at, self.unit, look)
+
+    def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN, share: float = 1.0) -> Line:
+        """Return a circle about an axis, or a share of it; its radius is in metres."""
+        first, second = across(axis)
+        turn = np.linspace(0.0, 2.0 * np.pi * share, 40 if share == 1.0 else 20, endpoint=share != 1.0)[:, None]
+        points = at + radius * (np.cos(turn) * first + np.sin(turn) * second)
+        return self.line(body, points, look, closed=share == 1.0)
+
+    def arrow(self, body: int, points: Array, look: Look) -> list[Mark]:
+        """Return a line with a head at its end."""
+        end, way = points[-1], points[-1] - points[-2]
+        way = way / (float(np.linalg.norm(way)) or 1.0)
+        side = np.array([-way[1], way[0], 0.0]) if not self.numbers.spatial else across(way)[0]
+        head = np.array([end, end - self.unit * (0.9 * way - 0.35 * side), end - self.unit * (0.9 * way + 0.35 * side)])
+        return [self.line(body, points, look), self.line(body, head, Look(look.ink, look.ink, 0.5), closed=True)]
+
+    def turning(self, body: int, at: Array, axis: Array, radius: float, look: Look) -> list[Mark]:
+        """Return an arrow that turns about an axis; its radius is in units."""
+        ring = self.ring(body, at, axis, radius * self.unit, look, share=0.72)
+        points = self.numbers.now.out(body, ring.points)
+        return self.arrow(body, points, look)
+
+    def box(self, body: int, at: Array, frame: Array, size: Array, look: Look) -> Mark:
+        """Return a box about a point, its axes the rows of `frame` and its edges in metres."""
+        half = 0.5 * size[:, None] * frame
+        if not self.numbers.spatial:
+            corners = [at + i * half[0] + j * half[1] for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+            return self.line(body, corners, look, closed=True)
+        faces = []
+        for k in range(3):
+            i, j = (k + 1) % 3, (k + 2) % 3
+            for sign in (1.0, -1.0):
+                turn = ((-1, -1), (1, -1), (1, 1), (-1, 1))[:: int(sign)]
+                faces.append(self.points(body, [at + sign * half[k] + s * half[i] + t * half[j] for s, t in turn]))
+        return Solid(body, tuple(faces), look)
+
+    def earth(self, at: Array, along: Array, depth: Array) -> list[Mark]:
+        """Return a line of the ground with hatches on its far side, three units long."""
+        u = self.unit
+        marks: list[Mark] = [self.line(GROUNDED, [at - 1.5 * u * along, at + 1.5 * u * along], Look(INK, "", 1.2))]
+        for k in range(5):
+            foot = at + (-1.2 + 0.6 * k) * u * along
+            marks.append(self.line(GROUNDED, [foot, foot + 0.55 * u * (depth - 0.8 * along)], EARTH))
+        return marks
+
+    def rail(self, body: int, at: Array, along: Array, span: tuple[float, float], side: Array) -> list[Mark]:
+        """Return a guide along a direction: hatched where it is the ground's, else a plain line."""
+        u = self.unit
+        start, end = span[0] - 2.2 * u, span[1] + 2.2 * u
+        marks: list[Mark] = [self.line(body, [at + start * along, at + end * along])]
+        if body == GROUNDED:
+            count = min(60, max(3, round((end - start) / u)))
+            for k in range(count):
+                foot = at + (start + (end - start) * (k + 0.5) / count) * along
+                marks.append(self.line(body, [foot, foot + 0.5 * u * (side - 0.8 * along)], EARTH))
+        return marks
+
+
+def across(axis: Array) -> tuple[Array, Array]:
+    """Return two directions across an axis and each other, so that the three make a right-handed frame."""
+    axis = axis / (float(np.linalg.norm(axis)) or 1.0)
+    first = np.cross(np.eye(3)[int(np.argmin(np.abs(axis)))], axis)
+    first = first / (float(np.linalg.norm(first)) or 1.0)
+    if abs(axis[2]) > 0.999:  # in the plane angles count from x
+        first = np.array([1.0, 0.0, 0.0])
+    return first, np.cross(axis, first)

@@ -1,0 +1,229 @@
+"""The scene: what is drawn of a mechanism, fixed to its bodies, so that any positions can be drawn by it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.describe.mechanism import Mechanism, SpatialBody
+from symgen.describe.orientation import matrix
+
+Array = NDArray[np.float64]
+#: Components of a point of a body, from its centre of mass along its axes, of the ground in its frame [m].
+Point = tuple[float, float, float]
+#: Index of the body that does not move.
+GROUNDED = -1
+
+INK, GREY, PAPER, RED = "#20262e", "#6b7480", "#ffffff", "#d00000"
+#: Okabe and Ito's colours that stand out on white, told apart with every kind of colour vision.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
+
+
+@dataclass(frozen=True)
+class Look:
+    """Colours and width of a mark; an empty colour is none.
+
+    Attributes
+    ----------
+    ink, fill : str
+        ``#rrggbb`` of lines and areas.
+    width : float
+        Of lines, 1 being thin.
+    opacity : float
+        Of the area.
+    dashed : bool
+        Whether lines are.
+    """
+
+    ink: str = INK
+    fill: str = ""
+    width: float = 1.0
+    opacity: float = 1.0
+    dashed: bool = False
+
+
+@dataclass(frozen=True)
+class Line:
+    """A polyline or polygon of a body."""
+
+    body: int
+    points: tuple[Point, ...]
+    look: Look
+    closed: bool = False
+
+
+@dataclass(frozen=True)
+class Dot:
+    """A circle that faces whoever looks: a pin, a ball; `mass` quarters it as centres of mass are drawn."""
+
+    body: int
+    at: Point
+    radius: float
+    look: Look
+    mass: bool = False
+
+
+@dataclass(frozen=True)
+class Tube:
+    """A round bar of a body from one point to another."""
+
+    body: int
+    a: Point
+    b: Point
+    radius: float
+    look: Look
+
+
+@dataclass(frozen=True)
+class Solid:
+    """A convex solid of a body by its faces, each seen counter-clockwise from outside."""
+
+    body: int
+    faces: tuple[tuple[Point, ...], ...]
+    look: Look
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """What reaches from a point of one body to a point of another and changes its length.
+
+    `kind` is one of ``spring``, ``damper``, ``spring-damper``, ``actuator``, ``rod`` and ``gap``.
+    """
+
+    kind: str
+    body: int
+    at: Point
+    other: int
+    to: Point
+    size: float
+    look: Look
+
+
+Mark = Line | Dot | Tube | Solid | Stretch
+
+
+@dataclass(frozen=True)
+class Item:
+    """Everything that is drawn of one body, joint or force.
+
+    Attributes
+    ----------
+    role : {"ground", "body", "joint", "force", "fault"}
+        What it is.
+    name, kind : str
+        Of the file.
+    marks : tuple of Mark
+        In the order in which they are drawn.
+    ends : tuple of (int, Point)
+        Of a joint: the points of its bodies that it holds together, none where it does not hold points.
+    label : Point, optional
+        Where the name of a body stands, as a point of it.
+    """
+
+    role: str
+    name: str
+    kind: str
+    marks: tuple[Mark, ...]
+    ends: tuple[tuple[int, Point], ...] = ()
+    label: tuple[int, Point] | None = None
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where the coordinates of a body stand in q: `first`, and how many, 2 or 3 in the plane, 3 or 7 in space."""
+
+    name: str
+    first: int
+    size: int
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What is drawn of a mechanism.
+
+    Attributes
+    ----------
+    name, title : str
+        Of the mechanism.
+    spatial : bool
+        Whether it is seen from aside.
+    up : Point
+        The direction against gravity, the y axis in the plane and the z axis in space where there is none.
+    unit : float
+        Size of a joint's symbol [m].
+    frames : tuple of Frame
+        Of the bodies.
+    items : tuple of Item
+        Ground, bodies, joints, forces.
+    """
+
+    name: str
+    title: str
+    spatial: bool
+    up: Point
+    unit: float
+    frames: tuple[Frame, ...]
+    items: tuple[Item, ...]
+
+
+class Poses:
+    """Where bodies are: rotations and centres of mass, those of the ground last.
+
+    Parameters
+    ----------
+    frames : sequence of Frame
+        Of the bodies.
+    q : Array, shape (nq,)
+        Coordinates.
+    spatial : bool
+        Whether the mechanism is.
+    """
+
+    def __init__(self, frames: Sequence[Frame], q: Sequence[float] | Array, spatial: bool) -> None:
+        n = len(frames) + 1
+        self.turns = np.tile(np.eye(3), (n, 1, 1))
+        self.centres = np.zeros((n, 3))
+        for i, frame in enumerate(frames):
+            own = [float(x) for x in q[frame.first : frame.first + frame.size]]
+            self.centres[i, : 3 if spatial else 2] = own[: 3 if spatial else 2]
+            if spatial and frame.size == 7:
+                e = np.array(own[3:]) / np.linalg.norm(own[3:])
+                self.turns[i] = matrix((e[0], e[1], e[2], e[3]))
+            elif not spatial and frame.size == 3:
+                c, s = np.cos(own[2]), np.sin(own[2])
+                self.turns[i, :2, :2] = [[c, -s], [s, c]]
+
+    def out(self, body: int, points: Sequence[Sequence[float]] | Array) -> Array:
+        """Return points of a body in the ground frame, shape (k, 3)."""
+        return np.asarray(self.centres[body] + np.asarray(points, dtype=np.float64) @ self.turns[body].T)
+
+    def inside(self, body: int, points: Array) -> Array:
+        """Return points of the ground frame as points of a body, shape (k, 3)."""
+        return np.asarray((np.asarray(points) - self.centres[body]) @ self.turns[body])
+
+
+def frames_of(mechanism: Mechanism) -> tuple[Frame, ...]:
+    """Return where the coordinates of each body stand in q."""
+    found, first = [], 0
+    for body in mechanism.bodies:
+        found.append(Frame(body.name, first, len(body.coordinates)))
+        first += len(body.coordinates)
+    return tuple(found)
+
+
+def upwards(gravity: Sequence[float], spatial: bool) -> Point:
+    """Return the axis that points most against gravity."""
+    if not any(gravity):
+        return (0.0, 0.0, 1.0) if spatial else (0.0, 1.0, 0.0)
+    k = int(np.argmax(np.abs(gravity)))
+    up = [0.0, 0.0, 0.0]
+    up[k] = -float(np.sign(gravity[k]))
+    return (up[0], up[1], up[2]) if spatial else (0.0, 1.0, 0.0)
+
+
+def is_spatial(mechanism: Mechanism) -> bool:
+    """Whether a mechanism is one in space."""
+    return bool(mechanism.bodies) and isinstance(mechanism.bodies[0], SpatialBody)

@@ -1,0 +1,216 @@
+"""Functions of `symgen.native.language` as JavaScript: the emitted code of a mechanism for a page.
+
+Numbers of both languages are the same 64 bits; operations stand in the order of the source. Integers of emitted code
+are indices and counters, far below 2^53. Arrays are ``Float64Array``, of integers too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from symgen.native.language import (
+    Assign,
+    Call,
+    Choice,
+    Constant,
+    Element,
+    Evaluate,
+    Expression,
+    For,
+    Function,
+    If,
+    Leave,
+    Logic,
+    Operation,
+    Return,
+    Statement,
+    Store,
+    Variable,
+    While,
+)
+
+#: What printed functions call beside ``Math``.
+HELPERS = """\
+const copysign = (x, y) => (y < 0 || Object.is(y, -0) ? -Math.abs(x) : Math.abs(x));
+const floored = (a, b) => Math.floor(a / b);
+const rest = (a, b) => a - b * Math.floor(a / b);
+const least = (a, b) => (b < a ? b : a);
+const greatest = (a, b) => (b > a ? b : a);
+const square = (x) => x * x;
+function power(x, n) {
+  let result = 1;
+  for (; n; n >>= 1) {
+    if (n & 1) result *= x;
+    x *= x;
+  }
+  return result;
+}
+"""
+#: Words that may not be names; emitted code has none of them today.
+RESERVED = frozenset(
+    "arguments await break case catch class const debugger default delete enum eval export extends function implements "
+    "in instanceof interface let new package private protected public static super switch this throw typeof undefined "
+    "var void with yield Math copysign floored rest least greatest square power".split()
+)
+
+_SIGNS = {"add": ("+", 12), "sub": ("-", 12), "mul": ("*", 13), "div": ("/", 13), "and": ("&&", 5), "or": ("||", 4)}
+_SIGNS |= {"lt": ("<", 10), "le": ("<=", 10), "gt": (">", 10), "ge": (">=", 10), "eq": ("===", 9), "ne": ("!==", 9)}
+_CALLED = {"floordiv": "floored", "mod": "rest", "min": "least", "max": "greatest", "abs": "Math.abs"}
+_CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
+
+
+def javascript(functions: Mapping[str, Function]) -> str:
+    """Return the text of functions and of all that they call, each once, callees first.
+
+    Parameters
+    ----------
+    functions : mapping of str to Function
+        What the text shall define, by the names that it shall have there.
+    """
+    names: dict[object, str] = {_key(function): name for name, function in functions.items()}
+    texts: list[str] = []
+
+    def define(function: Function) -> None:
+        for called in function.called:
+            if _key(called) not in names:
+                names[_key(called)] = _free(_word(called.name), names.values())
+                define(called)
+        texts.append(_Printer(function, names).text())
+
+    for function in functions.values():
+        define(function)
+    return "\n".join(texts)
+
+
+def _key(function: Function) -> object:
+    return function.source, function.parameters
+
+
+def _free(name: str, taken: Iterable[str]) -> str:
+    known, found, k = set(taken), name, 2
+    while found in known:
+        found, k = f"{name}_{k}", k + 1
+    return found
+
+
+def _word(name: str) -> str:
+    """Return a variable's name; those that the reader made have dots."""
+    name = name.replace(".", "_") if not name[0].isdigit() else f"held{name.replace('.', '_')}"
+    return f"{name}_" if name in RESERVED else name
+
+
+def _literal(value: float | int | bool) -> tuple[str, int]:
+    if isinstance(value, bool):
+        return ("true" if value else "false"), 20
+    if isinstance(value, float) and not math.isfinite(value):
+        return ("NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"), 20 if value > 0 else 14
+    text = repr(value).removesuffix(".0")
+    return text, 14 if text.startswith("-") else 20
+
+
+class _Printer:
+    """Prints one function."""
+
+    def __init__(self, function: Function, names: dict[object, str]) -> None:
+        self.function, self.names = function, names
+        self.counters = 0
+
+    def text(self) -> str:
+        """Return the definition, with the tables that it reads before it."""
+        f = self.function
+        tables = [
+            f"const {self.names[_key(f)]}_{_word(name)} = [{', '.join(_literal(x)[0] for x in values)}];"
+            for name, values in f.tables.items()
+        ]
+        given = {p.name for p in f.parameters}
+        local = [_word(name) for name in f.variables if name not in given and name not in f.fixed]
+        lines = [f"let {', '.join(local)};"] if local else []
+        lines += self.lines(f.body)
+        head = f"function {self.names[_key(f)]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
+        return "\n".join([*tables, head, *lines, "}"])
+
+    def lines(self, statements: tuple[Statement, ...]) -> list[str]:
+        """Return statements as lines."""
+        return [line for statement in statements for line in self.statement(statement)]
+
+    def statement(self, s: Statement) -> list[str]:
+        """Return one statement."""
+        if isinstance(s, Assign):
+            once = "const " if s.name in self.function.fixed else ""
+            return [f"{once}{_word(s.name)} = {self.value(s.value)};"]
+        if isinstance(s, Store):
+            return [f"{_word(s.array)}[{self.value(s.index)}] = {self.value(s.value)};"]
+        if isinstance(s, Evaluate):
+            return [f"{self.value(s.call)};"]
+        if isinstance(s, Return):
+            return [f"return {self.value(s.value)};"]
+        if isinstance(s, Leave):
+            return [f"{s.how};"]
+        if isinstance(s, If):
+            found = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
+            return [*found, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
+        if isinstance(s, While):
+            return [f"while ({self.value(s.test)}) {{", *self.lines(s.body), "}"]
+        assert isinstance(s, For), "all kinds of statements are known"
+        self.counters += 1
+        i, sign = f"counter{self.counters}", "<" if s.step > 0 else ">"
+        head = f"for (let {i} = {self.value(s.start)}, end = {self.value(s.stop)}; {i} {sign} end; {i} += {s.step}) {{"
+        return [head, f"{_word(s.name)} = {i};", *self.lines(s.body), "}"]
+
+    def value(self, e: Expression, level: int = 0) -> str:
+        """Return an expression, in parentheses where it binds weaker than `level`."""
+        text, own = self.expression(e)
+        return text if own >= level else f"({text})"
+
+    def expression(self, e: Expression) -> tuple[str, int]:
+        """Return an expression and how strongly it binds."""
+        if isinstance(e, Constant):
+            return _literal(e.value)
+        if isinstance(e, Variable):
+            return _word(e.name), 20
+        if isinstance(e, Element):
+            constant = e.array in self.function.tables
+            array = f"{self.names[_key(self.function)]}_{_word(e.array)}" if constant else _word(e.array)
+            return f"{array}[{self.value(e.index)}]", 20
+        if isinstance(e, Call):
+            given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
+            return f"{self.names[_key(e.function)]}({', '.join(given)})", 20
+        if isinstance(e, Logic):
+            sign, own = _SIGNS[e.name]
+            return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
+        if isinstance(e, Choice):
+            return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
+        return self.operation(e)
+
+    def operation(self, e: Operation) -> tuple[str, int]:
+        """Return an operation."""
+        name, first = e.name, e.arguments[0]
+        if name in ("and", "or") and e.type != "bool":
+            return f"{self.value(first, 8)} {'&' if name == 'and' else '|'} {self.value(e.arguments[1], 8)}", 7
+        if name in _SIGNS:
+            sign, own = _SIGNS[name]
+            room = "" if sign in "*/" else " "  # a sign may stand behind + and -
+            return f"{self.value(first, own)}{room}{sign}{room}{self.value(e.arguments[1], own + 1)}", own
+        if name == "neg":
+            return f"-{self.value(first, 15)}", 14
+        if name == "not":
+            return f"!{self.value(first, 15)}", 14
+        if name in ("float", "int", "bool"):
+            return self.converted(name, first)
+        if name == "pow" and e.arguments[1].type == "int":
+            exponent = e.arguments[1]
+            assert isinstance(exponent, Constant), "a power with a literal exponent"
+            if exponent.value == 2:
+                return f"square({self.value(first)})", 20
+            return f"power({self.value(first)}, {int(exponent.value)})", 20
+        called = _CALLED.get(name, "Math.pow" if name == "pow" else f"Math.{name.removeprefix('math.')}")
+        return f"{called}({', '.join(self.value(a) for a in e.arguments)})", 20
+
+    def converted(self, kind: str, value: Expression) -> tuple[str, int]:
+        """Return a value in another type."""
+        if kind == "bool":
+            return f"{self.value(value, 10)} !== 0", 9
+        if value.type == "bool":
+            return f"({self.value(value)} ? 1 : 0)", 20
+        return (f"Math.trunc({self.value(value)})", 20) if kind == "int" else self.expression(value)

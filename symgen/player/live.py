@@ -1,0 +1,203 @@
+"""What a page needs to work out the motion itself: the emitted code as JavaScript, and numbers to begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.describe.derived import derived
+from symgen.describe.holds import holds_of
+from symgen.describe.start import described_start
+from symgen.native.javascript import HELPERS, javascript
+from symgen.native.read import Foreign
+from symgen.player.formulas import Lines, NotInPages, Script
+from symgen.runtime import abi
+from symgen.runtime.model_arrays import lengths_of
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.native.read import Kind
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
+
+#: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
+MOST = {False: 76_000, True: 270_000}
+A_OPERATION = 24
+
+#: Sections of the scratch that a start finds and evaluations do not.
+_KEPT = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
+
+_T: Kind = ("float", False)
+_A: Kind = ("float", True)
+_I: Kind = ("int", True)
+_LAW = {"rhs": (_T, _A, _A, _A, _I, _A), "accept": (_T, _A, _A, _A, _I), "geometry": (_T, _A, _A, _A)}
+_LAW |= {"confirm": (_T, _A, _A, _A, _I, _A)}
+_MODEL = {"masses": (_A, _A), "move": (_A, _A), "bodies": (_T, _A, _A, _A, _A, _A), "measure": (_T, _A, _A, _A)}
+
+
+@dataclass(frozen=True)
+class Live:
+    """The live part of a page.
+
+    Attributes
+    ----------
+    code : str
+        Emitted functions as JavaScript.
+    spec : mapping
+        Sizes, places and numbers, as JSON has them.
+    """
+
+    code: str
+    spec: Mapping[str, Any]
+
+
+def live_part(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float) -> tuple[Live | None, str]:
+    """Return the live part of a page, or None and why there is none.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        As described; its joints give the start for other parameters.
+    compiled : CompiledModel
+        Its code for one method in coordinates of bodies or of joints.
+    start : Start
+        Where the motion begins.
+    step : float
+        Of the Runge-Kutta method [s].
+    """
+    spatial, law = mechanism.space == "spatial", compiled.law
+    if compiled.shape != "straight":
+        return None, "the page has no live part: the code of this run is looped"
+    operations = sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
+    limit = MOST[spatial] // A_OPERATION
+    if operations > limit:
+        return None, f"the page has no live part: {operations} operations are more than the {limit} it may have"
+    try:
+        code = emitted(compiled)
+    except Foreign as error:
+        return None, f"the page has no live part: its code has {error}"
+    if len(code) > MOST[spatial]:
+        return None, f"the page has no live part: {len(code)} characters are more than the {MOST[spatial]} it may have"
+    joint = "function bodies(" in code
+    try:
+        script = _script(mechanism, joint)
+    except NotInPages:
+        return None, "the page has no live part: a formula of the start is not one that pages know"
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint)), ""
+
+
+def emitted(compiled: CompiledModel) -> str:
+    """Return the functions of a compiled model that a page calls, as JavaScript.
+
+    Raises
+    ------
+    Foreign
+        If they are not in the language that is printed.
+    """
+    wanted: dict[str, Any] = {}
+    for module, table in ((compiled.law_module, _LAW), (compiled.model, _MODEL)):
+        wanted |= {name: getattr(module, name).read(kinds) for name, kinds in table.items() if hasattr(module, name)}
+    wanted["prepareModel"] = compiled.model.prepare.read((_A,))
+    wanted["prepareLaw"] = compiled.law_module.prepare.read((_A,))
+    if "geometry" not in wanted:
+        wanted["geometry"] = compiled.model.geometry.read(_LAW["geometry"])
+    return javascript(wanted)
+
+
+def _script(mechanism: Mechanism, joint: bool) -> str:
+    """Return what follows from parameters: derived ones, and the described start."""
+    places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
+    formulas = []
+    for name, expression in derived(mechanism.parameters):
+        lines = Lines(places)
+        value = lines.result(lines.value(expression, name))
+        formulas.append(
+            f"if (!given.has({_index(places[name])})) {{ {' '.join(lines.lines)} {places[name]} = {value}; }}"
+        )
+    text = "function derive(p, given) {\n" + "\n".join(formulas) + "\n}\n"
+    if joint:
+        return text + "const describe = null;\n"
+    lines = Lines(places)
+    q, v = described_start(mechanism, lines)
+    own = {h.name: h.value for h in holds_of(mechanism)}
+    _held_values(mechanism, own, lines, q, v)
+    told = ", ".join("null" if x is None else lines.result(x) for x in v)
+    body, places_of_bodies = "\n".join(lines.lines), ", ".join(map(lines.result, q))
+    return f"{text}function describe(p) {{\n{body}\nreturn {{ q: [{places_of_bodies}], v: [{told}] }};\n}}\n"
+
+
+def _held_values(mechanism: Mechanism, own: Mapping[str, Any], lines: Lines, q: list[Any], v: list[Any]) -> None:
+    """Put values that the description holds in the place of described ones; those of joints are left to closing."""
+    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
+    speeds = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
+    for name, value in own.items():
+        for known, found in ((names, q), (speeds, v)):
+            if name in known and value is not None:
+                found[known.index(name)] = lines.value(value, name)
+
+
+def _index(place: str) -> str:
+    return place.removeprefix("p[").removesuffix("]")
+
+
+def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool) -> dict[str, Any]:
+    info = compiled.info
+    values = [float(start.p[i]) for i in range(len(info.parameters))]
+    sections = {
+        name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
+    }
+    kept = [i for name in _KEPT for i in range(info.sections[name][0], sum(info.sections[name]))]
+    return {
+        "nq": info.nq,
+        "nv": info.nv,
+        "ny": info.ny,
+        "m": info.m,
+        "np": len(start.p),
+        "nw": len(start.w),
+        "windings": info.windings,
+        "joint": joint,
+        "nb": sum(len(b.coordinates) for b in mechanism.bodies),
+        "nbv": sum(len(b.speeds) for b in mechanism.bodies),
+        "y0": [float(x) for x in start.y],
+        "p0": [float(x) for x in start.p],
+        "w0": [[i, float(start.w[i])] for i in kept if start.w[i] != 0.0 and np.isfinite(start.w[i])],
+        "masked": [i for i in kept if np.isinf(start.w[i])],
+        "lengths": [int(x) for x in lengths_of(info)],
+        "angular": [int(x.unit != "m/s") for x in info.velocities],
+        "rows": [int(row.unit == "m") for row in info.rows],
+        "jacobian": [[row, column, constant, slot] for row, column, constant, slot in info.jacobian],
+        "at": sections,
+        "status": {"length": abi.LENGTH, "first": abi.WINDING},
+        "parameters": [
+            {"name": q.name, "unit": q.unit, "value": value, "follows": bool(own.formula)}
+            for q, value, own in zip(info.parameters, values, mechanism.parameters, strict=False)
+        ],
+        "state": [q.name for q in (*info.coordinates, *info.velocities)],
+        "fixed": [] if joint else _fixed(mechanism, compiled),
+        "step": step,
+        "method": compiled.law.method,
+    }
+
+
+def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
+    """Return the velocities whose coordinates stay where they are described."""
+    info, found = compiled.info, set[int]()
+    velocities = [v.name for v in info.velocities]
+    speeds = {
+        f"{b.name}.{c}": f"{b.name}.{s}"
+        for b in mechanism.bodies
+        for c, s in zip(b.coordinates, b.speeds, strict=False)
+    }
+    for hold in holds_of(mechanism):
+        body, _, what = hold.name.rpartition(".")
+        if what == "orientation":
+            found |= {velocities.index(f"{body}.{s}") for s in ("wx", "wy", "wz")}
+        elif hold.name in speeds:
+            found.add(velocities.index(speeds[hold.name]))
+    return sorted(found)
+
+
+__all__ = ["Live", "Script", "emitted", "live_part"]

@@ -1,0 +1,200 @@
+"""From a recording to its page: one HTML file with style, script and data inside, which asks nobody for anything."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass
+from functools import lru_cache
+from html import escape
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from symgen.arguments import path as argument_path
+from symgen.describe.evaluate import evaluate
+from symgen.describe.mechanism import AnyBody
+from symgen.drawing.build import build_scene
+from symgen.drawing.scene import Dot, Line, Look, Mark, Scene, Solid, Stretch, Tube
+from symgen.errors import InputError
+from symgen.files import check_writable, write_whole
+from symgen.player.live import Live
+from symgen.player.recording import Recording, frames_within, packed
+
+#: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
+LARGEST = {False: 147_000, True: 480_000}
+#: Characters for data at most.
+MOST_DATA = {False: 60_000, True: 150_000}
+SCRIPTS = ("draw.js", "plots.js", "player.js")
+
+
+@lru_cache(maxsize=8)
+def _web(name: str) -> str:
+    """Return a part of the page."""
+    text = (Path(__file__).parent / "web" / name).read_text(encoding="utf-8")
+    if not name.endswith(".js"):
+        return text
+    # comments and what lines begin with are for those who read the sources
+    lines = (line.strip() for line in text.splitlines())
+    return "".join(f"{line}\n" for line in lines if line and not line.startswith("//"))
+
+
+def page(recording: Recording, live: Live | None = None, note: str = "", second: Recording | None = None) -> str:
+    """Return the page of a motion.
+
+    Parameters
+    ----------
+    recording : Recording
+        What moves.
+    live : Live, optional
+        What works out other motions in the page.
+    note : str
+        Why there is none.
+    second : Recording, optional
+        Another motion of the same mechanism, drawn faintly behind.
+    """
+    spatial = recording.mechanism.space == "spatial"
+    scene = build_scene(recording.mechanism, recording.q, recording.values)
+    data: dict[str, Any] = {
+        "title": recording.mechanism.title or recording.mechanism.name,
+        "name": recording.mechanism.name,
+        "scene": scene_data(scene),
+        "points": _points(recording, scene),
+        "names": [f"{b.name}.{c}" for b in recording.mechanism.bodies for c in b.coordinates],
+        "live": None if live is None else live.spec,
+        "note": note,
+    }
+    script = _script(live)
+    held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(_json(data))
+    room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
+    motions = [recording] if second is None else [recording, second]
+    data["motions"] = [packed(each, frames_within(each, room // len(motions))) for each in motions]
+    text = _web("page.html")
+    parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
+    for name, part in parts.items():
+        text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
+    return text
+
+
+def _json(data: Any) -> str:
+    """Return JSON that cannot end the element it stands in."""
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False, ensure_ascii=False)
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _script(live: Live | None) -> str:
+    own = "".join(_web(name) for name in SCRIPTS)
+    if live is None:
+        return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
+    wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()
+    optional = [name for name in ("confirm", "move", "bodies") if f"function {name}(" in live.code]
+    code = f"{live.code}const emitted = {{ {', '.join([*wanted, *optional])} }};\n"
+    return f"(() => {{\n'use strict';\n{code}{_web('live.js')}{own}}})();"
+
+
+def scene_data(scene: Scene) -> dict[str, Any]:
+    """Return a scene as JSON has it: marks by letters, looks by number, lengths with six digits."""
+    looks: dict[Look, int] = {}
+    size = 3 if scene.spatial else 2
+
+    def point(p: Sequence[float]) -> list[float]:
+        return [float(f"{x:.6g}") for x in p[:size]]
+
+    def mark(m: Mark) -> list[Any]:
+        look = looks.setdefault(m.look, len(looks))
+        if isinstance(m, Line):
+            return ["L", look, m.body, int(m.closed), [x for p in m.points for x in point(p)]]
+        if isinstance(m, Dot):
+            return ["D", look, m.body, point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
+        if isinstance(m, Tube):
+            return ["T", look, m.body, point(m.a), point(m.b), float(f"{m.radius:.6g}")]
+        if isinstance(m, Solid):
+            return ["S", look, m.body, [[x for p in face for x in point(p)] for face in m.faces]]
+        assert isinstance(m, Stretch), "all kinds of marks are known"
+        return ["X", look, m.kind, m.body, point(m.at), m.other, point(m.to)]
+
+    items = [
+        {
+            "role": item.role,
+            "name": item.name,
+            "kind": item.kind,
+            "marks": [mark(m) for m in item.marks],
+            "ends": [[body, point(at)] for body, at in item.ends],
+            **({} if item.label is None else {"label": [item.label[0], point(item.label[1])]}),
+        }
+        for item in scene.items
+    ]
+    return {
+        "spatial": scene.spatial,
+        "up": list(scene.up),
+        "unit": scene.unit,
+        "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
+        "looks": [list(astuple(look)) for look in looks],
+        "items": items,
+    }
+
+
+def _points(recording: Recording, scene: Scene) -> list[list[Any]]:
+    """Return the points whose traces a page can draw: those with names, and centres of mass."""
+    found: list[list[Any]] = []
+    size = 3 if scene.spatial else 2
+    bodies: tuple[AnyBody, ...] = recording.mechanism.bodies
+    for i, body in enumerate(bodies):
+        found.append([f"{body.name}.centre", i, [0.0] * size])
+        centre = np.array([evaluate(e, recording.values) for e in body.centre_of_mass])
+        for name, p in body.points:
+            at = np.array([evaluate(e, recording.values) for e in p]) - centre
+            found.append([f"{body.name}.{name}", i, [float(f"{x:.6g}") for x in at]])
+    return found
+
+
+@dataclass(frozen=True, repr=False)
+class Page:
+    """A page: shown by notebooks in a frame of its own, saved as one file.
+
+    Attributes
+    ----------
+    html : str
+        The whole file.
+    name : str
+        Of the mechanism.
+    live : bool
+        Whether it works out other motions by itself.
+    """
+
+    html: str
+    name: str
+    live: bool
+
+    def save(self, path: str | PathLike[str]) -> Path:
+        """Write the page to a ``.html`` file, whole or not at all.
+
+        Raises
+        ------
+        InputError
+            If the ending is another one or the file cannot be written.
+        """
+        return write_whole(check_page("view", argument_path("path", path)), self.html)
+
+    def _repr_html_(self) -> str:
+        return f'<iframe srcdoc="{escape(self.html, quote=True)}" style="width:100%;height:640px;border:0"></iframe>'
+
+    def __repr__(self) -> str:
+        part = "with" if self.live else "without"
+        return f"<Page of {self.name}: {len(self.html)} characters, {part} live part>"
+
+
+def check_page(where: str, path: Path) -> Path:
+    """Refuse a page that could not be written, before anything is computed for it.
+
+    Raises
+    ------
+    InputError
+        If the ending is another one than ``.html`` or the file cannot be written.
+    """
+    if path.suffix.lower() != ".html":
+        raise InputError(where, "a file that ends in .html", f"'{path.suffix}'" if path.suffix else "no ending")
+    check_writable(where, path)
+    return path

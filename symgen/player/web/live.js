@@ -1,0 +1,210 @@
+// The emitted equations at work in the page: the start for changed parameters, steps of Runge and Kutta, corrections.
+
+function makeLive(spec, code) {
+  const { nq, nv, ny, m, at } = spec;
+  const p = Float64Array.from(spec.p0);
+  const w = new Float64Array(spec.nw);
+  const iw = new Float64Array(16);
+  const given = new Set();
+  const stages = [0, 1, 2, 3].map(() => new Float64Array(ny));
+  const middle = new Float64Array(ny);
+
+  function scratch() {
+    w.fill(0);
+    for (const [i, x] of spec.w0) w[i] = x;
+    for (const i of spec.masked) w[i] = Infinity;
+    iw.fill(0);
+  }
+
+  function prepare() {
+    code.derive(p, given);
+    code.prepareModel(p);
+    code.prepareLaw(p);
+    code.masses(p, w);
+  }
+
+  function setParameters(values) {
+    for (const [i, x] of values) {
+      p[i] = x;
+      given.add(i);
+    }
+    prepare();
+  }
+
+  function rhs(t, y, ydot) {
+    if (code.rhs(t, y, p, w, iw, ydot) && code.confirm) {
+      iw[0] = 1;
+      code.confirm(t, y, p, w, iw, ydot);
+      iw[0] = 0;
+    }
+  }
+
+  // The state's rates; parameters that are given replace those of the page for this one call.
+  function rates(t, y, values) {
+    const ydot = new Float64Array(ny), kept = p.slice(), state = new Float64Array(ny);
+    state.set(Array.from(y).slice(0, ny));
+    if (values) {
+      for (let i = 0; i < spec.parameters.length; i++) if (values[i] !== undefined) p[i] = values[i];
+      code.prepareModel(p);
+      code.prepareLaw(p);
+      code.masses(p, w);
+    }
+    rhs(t, state, ydot);
+    if (values) {
+      p.set(kept);
+      code.masses(p, w);
+    }
+    return Array.from(ydot);
+  }
+
+  // -- the start ------------------------------------------------------------------------------------------------------
+
+  function jacobian() {
+    const d = Array.from({ length: m }, () => new Float64Array(nv));
+    for (const [row, column, constant, slot] of spec.jacobian) d[row][column] = slot === null ? constant : w[at.jacobian + slot];
+    return d;
+  }
+
+  // The change x of least length in the metric of `scale` with D x = right; rows that depend on others are left out.
+  function leastNorm(d, right, scale) {
+    const g = Array.from({ length: m }, (_, i) => Float64Array.from({ length: m }, (_, j) => {
+      let sum = 0;
+      for (let k = 0; k < nv; k++) sum += d[i][k] * d[j][k] * scale[k] * scale[k];
+      return sum;
+    }));
+    const weight = g.map((row, i) => (row[i] > 0 ? 1 / Math.sqrt(row[i]) : 0));
+    const a = g.map((row, i) => row.map((x, j) => x * weight[i] * weight[j]));
+    const b = Float64Array.from(right, (x, i) => x * weight[i]);
+    const order = [], left = new Set(a.keys());
+    while (left.size) {
+      let best = -1;
+      for (const i of left) if (best < 0 || a[i][i] > a[best][best]) best = i;
+      if (!(a[best][best] > 1e-12)) break;
+      left.delete(best);
+      order.push(best);
+      for (const i of left) {
+        const f = a[i][best] / a[best][best];
+        if (f === 0) continue;
+        for (const j of left) a[i][j] -= f * a[best][j];
+        b[i] -= f * b[best];
+      }
+    }
+    const z = new Float64Array(m);
+    for (let k = order.length - 1; k >= 0; k--) {
+      const i = order[k];
+      let sum = b[i];
+      for (let l = k + 1; l < order.length; l++) sum -= a[i][order[l]] * z[order[l]];
+      z[i] = sum / a[i][i];
+    }
+    const x = new Float64Array(nv);
+    for (let k = 0; k < nv; k++) {
+      for (let i = 0; i < m; i++) x[k] += d[i][k] * weight[i] * z[i];
+      x[k] *= scale[k] * scale[k];
+    }
+    return x;
+  }
+
+  function shift(y, change, factor) {
+    if (nq === nv) for (let j = 0; j < nv; j++) y[j] += factor * change[j];
+    else {
+      for (let j = 0; j < nv; j++) w[at.change + j] = factor * change[j];
+      code.move(y, w);
+    }
+  }
+
+  function extent(y) {
+    let largest = 0;
+    for (let i = 0; i < nq; i++) if (spec.lengths[i] && Math.abs(y[i]) > largest) largest = Math.abs(y[i]);
+    return largest;
+  }
+
+  // Positions closed by shortest changes from the described ones, then velocities: those given are kept.
+  function start() {
+    scratch();
+    prepare();
+    const y = Float64Array.from(spec.y0);
+    if (!code.describe) {
+      code.accept(0, y, p, w, iw);
+      return y;
+    }
+    const described = code.describe(p);
+    y.set(described.q);
+    y.fill(0, nq);
+    const length = w[spec.status.length];
+    const free = Float64Array.from({ length: nv }, (_, j) => length * Math.sqrt(w[at.gauge + j]));
+    const scale = free.slice();
+    for (const j of spec.fixed) scale[j] = 0;
+    let best = Infinity, stalled = 0;
+    for (let round = 0; round < 60 && m; round++) {
+      code.geometry(0, y, p, w);
+      const right = new Float64Array(m);
+      let square = 0;
+      for (let i = 0; i < m; i++) {
+        right[i] = -w[at.residual + i];
+        square += ((spec.rows[i] ? 1 : length) * right[i]) ** 2;
+      }
+      const size = Math.sqrt(square), whole = Math.max(length, extent(y));
+      stalled = size > 0.5 * best ? stalled + 1 : 0;
+      best = Math.min(best, size);
+      if (!Number.isFinite(size) || stalled >= 15) return null;
+      if (size <= 1e-15 * whole * Math.max(m, 1) || (stalled >= 3 && size < 1e-9 * whole)) break;
+      if (round === 59) return null;
+      const change = leastNorm(jacobian(), right, scale);
+      let longest = 0;
+      for (let j = 0; j < nv; j++) longest = Math.max(longest, Math.abs(change[j]) / (spec.angular[j] ? 1 : length));
+      shift(y, change, 1 / Math.max(longest, 1));
+    }
+    described.v.forEach((x, j) => {
+      y[nq + j] = x === null ? 0 : x;
+      scale[j] = x === null ? free[j] : 0;
+    });
+    if (m) {
+      code.geometry(0, y, p, w);
+      const d = jacobian();
+      for (let pass = 0; pass < 2; pass++) {
+        const right = Float64Array.from({ length: m }, (_, i) => {
+          let sum = w[at.nu + i];
+          for (let j = 0; j < nv; j++) sum -= d[i][j] * y[nq + j];
+          return sum;
+        });
+        const change = leastNorm(d, right, pass ? free : scale);
+        for (let j = 0; j < nv; j++) y[nq + j] += change[j];
+      }
+    }
+    return y;
+  }
+
+  // -- steps ----------------------------------------------------------------------------------------------------------
+
+  function step(t, y, h) {
+    const [a, b, c, d] = stages;
+    rhs(t, y, a);
+    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * a[i];
+    rhs(t + 0.5 * h, middle, b);
+    for (let i = 0; i < ny; i++) middle[i] = y[i] + 0.5 * h * b[i];
+    rhs(t + 0.5 * h, middle, c);
+    for (let i = 0; i < ny; i++) middle[i] = y[i] + h * c[i];
+    rhs(t + h, middle, d);
+    for (let i = 0; i < ny; i++) y[i] += (h / 6) * (a[i] + 2 * (b[i] + c[i]) + d[i]);
+    code.accept(t + h, y, p, w, iw);
+    return Number.isFinite(y[0]);
+  }
+
+  // Coordinates of bodies at a state; of the joints of a tree they are worked out by emitted code.
+  const seen = new Float64Array(spec.nb + 2 * spec.nbv), unused = new Float64Array(ny);
+  function bodies(t, y) {
+    if (!spec.joint) return Array.from(y.subarray(0, nq));
+    code.bodies(t, y, p, w, unused, seen);
+    return Array.from(seen.subarray(0, spec.nb));
+  }
+
+  function reset() {
+    given.clear();
+    p.set(spec.p0);
+    scratch();
+    prepare();
+  }
+
+  reset();
+  return { spec, p, rates, start, step, bodies, setParameters, reset };
+}

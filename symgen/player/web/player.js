@@ -1,0 +1,456 @@
+// The page: time, controls, what is drawn beside the mechanism, and the live part.
+
+const data = JSON.parse(document.getElementById("data").textContent);
+const $ = (id) => document.getElementById(id);
+const view = makeScene($("view"), data.scene);
+const plot = makePlot($("plot"), $("key"));
+
+function recorded(part) {
+  const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = floatColumns(part.q, n);
+  const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
+  const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
+  for (const name of ["reactions", "pulls"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
+  return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
+}
+
+const motions = data.motions.map(recorded);
+let motion = motions[0]; // what is played: the recording, or what the live part works out
+let time = motion.t[0] || 0, playing = false, speed = 1, last = 0, group = null, wanted = true;
+let traced = [];
+
+// -- positions between frames ---------------------------------------------------------------------------------------------
+
+function index(t, time) {
+  let low = 0, high = t.length - 1;
+  while (high - low > 1) {
+    const k = (low + high) >> 1;
+    if (t[k] <= time) low = k;
+    else high = k;
+  }
+  return low;
+}
+
+// Cubic between frames, with slopes of their neighbours.
+function between(motion, time) {
+  const { t, rows } = motion;
+  if (t.length < 2) return rows[0];
+  const k = index(t, time), h = t[k + 1] - t[k] || 1, s = Math.min(Math.max((time - t[k]) / h, 0), 1);
+  if (s === 0) return rows[k];
+  if (s === 1) return rows[k + 1];
+  const a = rows[k], b = rows[k + 1], before = rows[k - 1], after = rows[k + 2];
+  const lead = k > 0 ? h / (t[k + 1] - t[k - 1]) : 1, tail = after ? h / (t[k + 2] - t[k]) : 1;
+  return a.map((x, i) => {
+    const m = before ? (b[i] - before[i]) * lead : b[i] - x, n = after ? (after[i] - x) * tail : b[i] - x;
+    return x + s * (m + s * (3 * (b[i] - x) - 2 * m - n + s * (m + n - 2 * (b[i] - x))));
+  });
+}
+
+function columnAt(column, t, time) {
+  const k = index(t, time), s = t.length > 1 ? (time - t[k]) / (t[k + 1] - t[k] || 1) : 0;
+  return column[k] + Math.min(Math.max(s, 0), 1) * ((column[k + 1] ?? column[k]) - column[k]);
+}
+
+// -- drawing --------------------------------------------------------------------------------------------------------------
+
+let took = 0;
+function render() {
+  const began = performance.now(), q = between(motion, time);
+  view.clear();
+  if (!q) return;
+  for (const [name, points, colour] of traced) if (name) view.trace(points, colour);
+  const ghosts = motion === motions[0] ? motions.slice(1) : motions.slice(0, 1);
+  for (const ghost of ghosts) view.draw(between(ghost, Math.min(time, ghost.end)), 0.25, ["body", "force"]);
+  view.draw(q);
+  if ($("forces").checked) arrows(q);
+  if ($("gaps").checked) gaps(q);
+  if ($("labels").checked) view.names();
+  took = performance.now() - began;
+  timeline();
+  if (group) plot.cursor(time, group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
+  const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
+  $("clock").textContent = `${time.toFixed(3)} s of ${motion.end.toFixed(2)}`;
+  $("hint").textContent = doubt.map((m) => m[3]).join("; ");
+  wanted = false;
+}
+
+function arrows(q) {
+  const { reactions, pulls } = motion;
+  const items = Object.fromEntries(data.scene.items.map((item) => [`${item.role} ${item.name}`, item]));
+  const long = 0.16 * Math.min(view.camera.width, view.camera.height), d = view.spatial ? 3 : 2;
+  if (reactions) {
+    const most = largest(reactions, d);
+    reactions.names.forEach((name, j) => {
+      const item = items[`joint ${name}`];
+      if (!item || !item.ends.length || !(most > 0)) return;
+      const f = Array.from({ length: d }, (_, c) => columnAt(reactions.columns[j * d + c], motion.t, time));
+      view.arrow(item.ends[0][0], item.ends[0][1], f, long / most, "#b00060");
+    });
+  }
+  if (pulls) {
+    const most = largest(pulls, 1);
+    pulls.names.forEach((name, j) => {
+      const item = items[`force ${name}`], mark = item && item.marks.find((m) => m[0] === "X");
+      if (!mark || !(most > 0)) return;
+      const [, , , body, at, other, to] = mark, f = columnAt(pulls.columns[j], motion.t, time) / most;
+      const a = worldOf(q, body, at), b = worldOf(q, other, to), l = Math.hypot(...b.map((x, i) => x - a[i])) || 1;
+      const way = b.map((x, i) => (x - a[i]) / l);
+      view.place(q);
+      view.arrow(other, to, way.map((x) => x * f), long, "#a0522d");
+      view.arrow(body, at, way.map((x) => -x * f), long, "#a0522d");
+    });
+  }
+}
+
+const worldOf = (q, body, at) => (body < 0 ? [...at, 0].slice(0, 3) : view.where(q, body, at));
+
+function largest(part, d) {
+  if (part.most === undefined) {
+    part.most = 0;
+    for (let j = 0; j < part.names.length; j++) for (let k = 0; k < motion.t.length; k++) {
+      let sum = 0;
+      for (let c = 0; c < d; c++) sum += (part.columns[j * d + c][k] || 0) ** 2;
+      part.most = Math.max(part.most, Math.sqrt(sum));
+    }
+  }
+  return part.most;
+}
+
+const PINS = ["revolute", "spherical", "universal", "constant-velocity", "rigid"];
+function gaps(q) {
+  const violation = motion.groups.find((g) => g.title === "violation");
+  const size = violation ? columnAt(violation.columns[0], motion.t, time) : -9; // the power of ten
+  const hue = Math.round(120 * Math.min(Math.max((-4 - size) / 8, 0), 1)); // red from 1e-4 on, green below 1e-12
+  for (const item of data.scene.items) {
+    if (item.role === "joint" && item.ends.length === 2 && PINS.includes(item.kind)) view.gap(q, item.ends, 1000, `hsl(${hue},90%,40%)`);
+  }
+}
+
+function timeline() {
+  const canvas = $("timeline"), [context, width, height] = sized(canvas);
+  const x = (t) => 6 + ((t - motion.t[0]) / (motion.end - motion.t[0] || 1)) * (width - 12);
+  context.fillStyle = "#eef1f4";
+  context.fillRect(6, 12, width - 12, 10);
+  if (motion.status !== "ok") {
+    context.fillStyle = motion.status === "failed" ? "#f3b6b6" : "#f4e0a8";
+    context.fillRect(6, 12, width - 12, 10);
+  }
+  context.fillStyle = "#9fb4c8";
+  context.fillRect(6, 12, x(time) - 6, 10);
+  for (const [begin, end, kind] of motion.moments) {
+    context.fillStyle = { rank: "#b00060", event: "#0072B2" }[kind] || "#a06000";
+    context.fillRect(x(begin) - 1, 8, Math.max(2, x(end) - x(begin)), 18);
+  }
+  context.fillStyle = "#20262e";
+  context.fillRect(x(time) - 2, 6, 4, 22);
+  canvas.setAttribute("aria-valuenow", time.toFixed(3));
+  canvas.setAttribute("aria-valuemax", motion.end.toFixed(3));
+}
+
+// -- time -----------------------------------------------------------------------------------------------------------------
+
+function go(to) {
+  time = Math.min(Math.max(to, motion.t[0] || 0), motion.t[motion.t.length - 1] || 0);
+  wanted = true;
+}
+
+function play(on) {
+  if (on && time >= motion.end - 1e-9) go(0);
+  playing = on;
+  $("play").textContent = on ? "Pause" : "Play";
+}
+
+function tick(now) {
+  const passed = Math.min((now - last) / 1000, 0.1);
+  last = now;
+  if (!motion.whole) compute(8);
+  if (playing) {
+    const end = motion.t[motion.t.length - 1] || 0;
+    let to = time + passed * speed;
+    if (to > end) {
+      if (!motion.whole) to = end; // wait until it is worked out
+      else if ($("loop").checked) to = motion.t[0];
+      else {
+        to = end;
+        play(false);
+      }
+    }
+    go(to);
+  }
+  if (wanted) render();
+  requestAnimationFrame(tick);
+}
+
+function traces() {
+  const chosen = $("trace").value, list = chosen === "all" ? data.points : data.points.filter((p) => p[0] === chosen);
+  traced = list.map(([name, body, at], i) => [name, motion.rows.map((q) => view.where(q, body, at)), COLOURS[i % COLOURS.length]]);
+  wanted = true;
+}
+
+function choose() {
+  group = motion.groups[$("group").value] || null;
+  $("plots").hidden = !group;
+  if (group) plot.lines(group, motion.t, motion.end);
+  wanted = true;
+}
+
+function show(next) {
+  motion = next;
+  const before = $("group").value;
+  $("group").textContent = "";
+  motion.groups.forEach((g, i) => $("group").append(new Option(`${g.title}${g.unit ? ` [${g.unit}]` : ""}`, i)));
+  if (before && motion.groups[before]) $("group").value = before;
+  go(time);
+  choose();
+  traces();
+}
+
+// -- live -----------------------------------------------------------------------------------------------------------------
+
+let live = null, state = null, clock = 0, follow = null;
+if (data.live) live = makeLive(data.live, Object.assign({ confirm: null, move: null, bodies: null }, emitted));
+
+// Begin again with the sliders' parameters; steps are taken while the page is drawn.
+function restart() {
+  state = live.start();
+  const failed = !state || !state.every(Number.isFinite);
+  $("closes").textContent = failed ? "it does not close with these parameters" : "";
+  if (failed) return;
+  clock = 0;
+  const end = motions[0].end, spacing = end / Math.max(60, Math.min(600, Math.round(end * 60)));
+  const next = { t: [0], rows: [live.bodies(0, state)], groups: [], moments: [], facts: [], status: "ok", end, spacing, whole: false };
+  follow = next;
+  show(next);
+}
+
+function compute(budget) {
+  const began = performance.now(), h = data.live.step;
+  while (performance.now() - began < budget) {
+    const due = Math.min(follow.t.length * follow.spacing, follow.end);
+    while (clock < due - 1e-12 && performance.now() - began < 2 * budget) {
+      const step = Math.min(h, due - clock);
+      if (!live.step(clock, state, step)) {
+        follow.end = clock;
+        follow.status = "failed";
+        finish();
+        return;
+      }
+      clock = due - clock - step < 1e-9 * h ? due : clock + step;
+    }
+    if (clock < due - 1e-12) break;
+    follow.t.push(clock);
+    follow.rows.push(live.bodies(clock, state));
+    if (clock >= follow.end - 1e-9) {
+      finish();
+      return;
+    }
+  }
+  wanted = true;
+}
+
+function finish() {
+  follow.whole = true;
+  const chosen = follow.rows.map((row) => row);
+  const columns = data.names.map((_, i) => Float64Array.from(chosen, (row) => row[i]));
+  follow.groups = positions(columns);
+  show(follow);
+}
+
+function positions(columns) {
+  const of = (angle) => data.names.map((name, i) => [name, i]).filter(([name]) => name.endsWith(".theta") === angle && !/\.e[0-3]$/.test(name));
+  return [[of(false), "position", "m"], [of(true), "angle", "rad"]].filter(([list]) => list.length)
+    .map(([list, title, unit]) => ({ title, unit, names: list.map((n) => n[0]), columns: list.map((n) => columns[n[1]]), log: false }));
+}
+
+function sliders() {
+  const box = $("live"), list = document.createElement("div"), head = document.createElement("p");
+  box.hidden = false;
+  list.className = "list";
+  const back = document.createElement("button");
+  back.textContent = "As recorded";
+  const told = document.createElement("b");
+  told.id = "closes";
+  told.style.color = "#a00000";
+  head.append("live: ", data.live.method, ", rk4 ", short(data.live.step), " s ", back, " ", told);
+  box.append(head, list);
+  const inputs = [];
+  data.live.parameters.forEach((parameter, i) => {
+    const row = document.createElement("label"), name = document.createElement("span"), input = document.createElement("input"), out = document.createElement("output");
+    row.className = "slider";
+    name.textContent = name.title = parameter.name;
+    input.type = "range";
+    const size = Math.abs(parameter.value) || 1;
+    Object.assign(input, { min: 0, max: 400, value: 200 });
+    input.dataset.name = parameter.name;
+    const value = () => (parameter.value === 0 ? ((input.value - 200) / 200) * size : parameter.value * 4 ** ((input.value - 200) / 200));
+    const tell = () => (out.textContent = `${short(live.p[i])} ${parameter.unit}`);
+    input.addEventListener("input", () => {
+      live.setParameters([[i, value()]]);
+      inputs.forEach((each) => each.tell());
+      restart();
+      play(true);
+    });
+    inputs.push({ input, tell });
+    tell();
+    row.append(name, input, out);
+    list.append(row);
+  });
+  back.addEventListener("click", () => {
+    live.reset();
+    inputs.forEach((each) => {
+      each.input.value = 200;
+      each.tell();
+    });
+    $("closes").textContent = "";
+    follow = null;
+    show(motions[0]);
+  });
+}
+
+// -- controls -------------------------------------------------------------------------------------------------------------
+
+function facts() {
+  motion.facts.forEach(([label, text], i) => {
+    const part = document.createElement("span");
+    part.textContent = `${i ? " · " : ""}${label ? `${label} ` : ""}${text}`;
+    if (label === "status" && text !== "ok") part.className = "bad";
+    $("facts").append(part);
+  });
+  $("note").textContent = data.note;
+}
+
+for (const s of [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10]) $("speed").append(new Option(`${s}×`, s));
+$("speed").value = 1;
+$("trace").append(new Option("none", ""), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
+$("trace").value = data.points.length <= 12 ? "all" : "";
+$("speed").addEventListener("change", () => (speed = Number($("speed").value)));
+$("trace").addEventListener("change", traces);
+$("group").addEventListener("change", choose);
+$("play").addEventListener("click", () => play(!playing));
+$("fit").addEventListener("click", refit);
+for (const id of ["labels", "forces", "gaps"]) $(id).addEventListener("change", () => (wanted = true));
+$("forcesBox").hidden = !(motion.reactions || motion.pulls);
+
+function refit() {
+  view.fit(motion.rows);
+  wanted = true;
+}
+
+function drag(canvas, move) {
+  const held = new Map();
+  canvas.addEventListener("pointerdown", (e) => {
+    canvas.setPointerCapture(e.pointerId);
+    held.set(e.pointerId, [e.clientX, e.clientY]);
+    move(e, 0, 0, null);
+  });
+  canvas.addEventListener("pointermove", (e) => {
+    const before = held.get(e.pointerId);
+    if (!before) return;
+    let pinch = null;
+    if (held.size === 2) {
+      const other = [...held].find(([id]) => id !== e.pointerId)[1];
+      pinch = Math.hypot(e.clientX - other[0], e.clientY - other[1]) / (Math.hypot(before[0] - other[0], before[1] - other[1]) || 1);
+    }
+    move(e, e.clientX - before[0], e.clientY - before[1], pinch);
+    held.set(e.pointerId, [e.clientX, e.clientY]);
+  });
+  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (e) => held.delete(e.pointerId));
+}
+
+drag($("timeline"), (e) => {
+  const box = $("timeline").getBoundingClientRect();
+  go(motion.t[0] + ((e.clientX - box.left - 6) / (box.width - 12)) * (motion.end - motion.t[0]));
+});
+drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left)));
+drag($("view"), (e, dx, dy, pinch) => {
+  const { camera } = view;
+  if (pinch) camera.scale *= pinch;
+  else if (view.spatial && !e.shiftKey && e.button !== 2) {
+    camera.turn += 0.01 * dx;
+    camera.tilt = Math.min(Math.max(camera.tilt + 0.01 * dy, -1.57), 1.57);
+  } else {
+    camera.x -= dx / camera.scale;
+    camera.y += dy / camera.scale;
+  }
+  wanted = true;
+});
+$("view").addEventListener("wheel", (e) => {
+  e.preventDefault();
+  view.camera.scale *= Math.exp(-0.0015 * e.deltaY);
+  wanted = true;
+}, { passive: false });
+
+window.addEventListener("keydown", (e) => {
+  if (["SELECT", "INPUT", "BUTTON"].includes(e.target.tagName) && e.target.type !== "checkbox") return;
+  const frame = (motion.end - motion.t[0]) / 100;
+  const act = {
+    " ": () => play(!playing), ArrowRight: () => go(time + frame), ArrowLeft: () => go(time - frame),
+    Home: () => go(motion.t[0]), End: () => go(motion.end), 0: refit, l: () => $("loop").click(),
+    f: () => $("forces").click(), g: () => $("gaps").click(), n: () => $("labels").click(),
+    "+": () => faster(1), "-": () => faster(-1),
+  }[e.key];
+  if (!act) return;
+  e.preventDefault();
+  act();
+});
+
+function faster(by) {
+  const select = $("speed");
+  select.selectedIndex = Math.min(Math.max(select.selectedIndex + by, 0), select.length - 1);
+  speed = Number(select.value);
+}
+
+window.addEventListener("resize", () => {
+  refit();
+  choose();
+});
+
+// -- for scripts ------------------------------------------------------------------------------------------------------------
+
+window.symgen = {
+  t: Array.from(motions[0].t),
+  q: motions[0].rows.map((row) => Array.from(row)),
+  names: data.names,
+  live: Boolean(live),
+  parameters: live ? data.live.parameters.map((x) => x.name) : [],
+  state: live ? data.live.state : [],
+  y0: live ? data.live.y0 : null,
+  rates: live ? live.rates : null,
+  // The state at the end of a run with parameters by name, by steps of the classical Runge-Kutta method.
+  run(values = {}, until = motions[0].end, step = data.live.step) {
+    live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
+    const y = live.start(), count = Math.round(until / step);
+    if (y) for (let k = 0; k < count; k++) live.step(k * step, y, step);
+    live.reset();
+    return y && Array.from(y);
+  },
+  // Milliseconds that drawing one frame takes, at each of some times.
+  frames(count = 100) {
+    const found = [];
+    for (let k = 0; k < count; k++) {
+      go(motion.t[0] + (k / count) * (motion.end - motion.t[0]));
+      render();
+      found.push(took);
+    }
+    return found;
+  },
+  // Seconds of motion that the live part works out in one second.
+  pace(milliseconds = 300) {
+    const y = live.start(), began = performance.now();
+    let t = 0;
+    while (performance.now() - began < milliseconds) {
+      live.step(t, y, data.live.step);
+      t += data.live.step;
+    }
+    live.reset();
+    return (1000 * t) / (performance.now() - began);
+  },
+};
+
+facts();
+if (live) sliders();
+view.fit(motion.rows);
+show(motion);
+requestAnimationFrame((now) => {
+  last = now;
+  tick(now);
+});

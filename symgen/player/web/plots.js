@@ -1,0 +1,127 @@
+// Columns over time on a canvas, with a cursor that is the player's.
+
+const COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"];
+
+function decoded(text) {
+  const bytes = atob(text), data = new Uint8Array(bytes.length);
+  for (let i = 0; i < bytes.length; i++) data[i] = bytes.charCodeAt(i);
+  return data.buffer;
+}
+
+function floatColumns(text, count) {
+  const all = new Float32Array(decoded(text));
+  return Array.from({ length: count ? all.length / count : 0 }, (_, i) => all.subarray(i * count, (i + 1) * count));
+}
+
+function shortColumns(part, count) {
+  const all = new Uint16Array(decoded(part.data));
+  return part.low.map((low, i) => Float64Array.from(all.subarray(i * count, (i + 1) * count), (x) => (x === 65535 ? NaN : low + (x / 65534) * part.span[i])));
+}
+
+function ticks(low, high, most) {
+  const rough = (high - low) / most, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((k) => k * power).find((s) => s >= rough) || power;
+  const found = [];
+  for (let x = Math.ceil(low / step - 1e-9) * step; x <= high + 1e-9 * step; x += step) found.push(Math.abs(x) < 1e-9 * step ? 0 : x);
+  return found;
+}
+
+const short = (x) => (x === 0 ? "0" : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-3 ? x.toExponential(1) : String(+x.toPrecision(4)));
+
+function sized(canvas) {
+  const ratio = window.devicePixelRatio || 1, box = canvas.getBoundingClientRect();
+  canvas.width = Math.round(box.width * ratio);
+  canvas.height = Math.round(box.height * ratio);
+  const context = canvas.getContext("2d");
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return [context, box.width, box.height];
+}
+
+function makePlot(canvas, key) {
+  let picture = null, frame = null;
+
+  function lines(group, t, end) {
+    const [context, width, height] = sized(canvas);
+    context.fillStyle = "#ffffff";
+    context.fillRect(0, 0, width, height);
+    let low = Infinity, high = -Infinity;
+    for (const column of group.columns) for (const x of column) {
+      if (Number.isFinite(x)) {
+        low = Math.min(low, x);
+        high = Math.max(high, x);
+      }
+    }
+    if (!(high >= low)) [low, high] = [0, 1];
+    if (high - low < 1e-12 * Math.max(Math.abs(high), 1e-300)) [low, high] = [low - 0.5 * (Math.abs(low) || 1), high + 0.5 * (Math.abs(high) || 1)];
+    const left = 58, right = 8, top = 10, bottom = 30;
+    const x = (time) => left + ((time - t[0]) / (end - t[0] || 1)) * (width - left - right);
+    const y = (value) => height - bottom - ((value - low) / (high - low)) * (height - top - bottom);
+    context.font = "11px system-ui, sans-serif";
+    context.fillStyle = "#56606c";
+    context.strokeStyle = "#e3e6ea";
+    context.lineWidth = 1;
+    context.textAlign = "right";
+    for (const v of ticks(low, high, 5)) {
+      context.beginPath();
+      context.moveTo(left, y(v));
+      context.lineTo(width - right, y(v));
+      context.stroke();
+      context.fillText(group.log ? `1e${short(v)}` : short(v), left - 5, y(v) + 4);
+    }
+    context.textAlign = "center";
+    for (const v of ticks(t[0], end, 6)) context.fillText(short(v), x(v), height - bottom + 14);
+    context.fillText("t [s]", (left + width) / 2, height - 3);
+    context.save();
+    context.translate(11, (height - bottom + top) / 2);
+    context.rotate(-Math.PI / 2);
+    context.fillText(`${group.title}${group.unit ? ` [${group.unit}]` : ""}`, 0, 0);
+    context.restore();
+    group.columns.forEach((column, i) => {
+      context.beginPath();
+      context.strokeStyle = COLOURS[i % COLOURS.length];
+      context.setLineDash([[], [5, 3], [2, 2]][Math.floor(i / COLOURS.length) % 3]);
+      context.lineWidth = 1.4;
+      let pen = false;
+      for (let k = 0; k < t.length; k++) {
+        if (!Number.isFinite(column[k])) pen = false;
+        else if (pen) context.lineTo(x(t[k]), y(column[k]));
+        else {
+          context.moveTo(x(t[k]), y(column[k]));
+          pen = true;
+        }
+      }
+      context.stroke();
+    });
+    context.setLineDash([]);
+    picture = document.createElement("canvas");
+    Object.assign(picture, { width: canvas.width, height: canvas.height });
+    picture.getContext("2d").drawImage(canvas, 0, 0);
+    frame = { context, x, top, bottom, height, left, right, width, begin: t[0], end };
+    key.textContent = "";
+    group.names.forEach((name, i) => {
+      const entry = document.createElement("span"), line = document.createElement("i");
+      line.style.background = COLOURS[i % COLOURS.length];
+      entry.append(line, name, document.createElement("b"));
+      entry.lastChild.style.fontWeight = "normal";
+      key.append(entry);
+    });
+  }
+
+  function cursor(time, values, log) {
+    if (!frame) return;
+    const { context, x, top, bottom, height, width } = frame;
+    context.drawImage(picture, 0, 0, width, height);
+    context.strokeStyle = "#20262e";
+    context.lineWidth = 1;
+    context.beginPath();
+    context.moveTo(x(time), top);
+    context.lineTo(x(time), height - bottom);
+    context.stroke();
+    values.forEach((value, i) => {
+      if (key.children[i]) key.children[i].lastChild.textContent = ` ${log ? (10 ** value).toExponential(1) : short(value)}`;
+    });
+  }
+
+  const timeAt = (px) => (frame ? frame.begin + ((px - frame.left) / (frame.width - frame.left - frame.right)) * (frame.end - frame.begin) : 0);
+  return { lines, cursor, timeAt };
+}

@@ -1,0 +1,206 @@
+"""A LaTeX document of derived equations: compiles as it is, and no line runs over the edge of the page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from symgen.errors import InputError, nearest
+from symgen.reading.boxes import escaped, latex, name
+from symgen.reading.sheet import LINE, Block, Line, Sheet
+from symgen.reading.typeset import broken
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.formulate.equations import Equations
+    from symgen.reading.law import Law
+
+#: What a document may have.
+SECTIONS = ("nomenclature", "Phi", "D", "nu", "gamma", "N", "M", "f", "energies", "law", "left-out")
+#: Equations of one environment: TeX keeps it in memory as a whole.
+_TOGETHER = 24
+
+_HEAD = r"""\documentclass[10pt,a4paper]{article}
+\usepackage[utf8]{inputenc}
+\usepackage{amsmath,amssymb,longtable}
+\usepackage[margin=25mm]{geometry}
+\allowdisplaybreaks
+\setcounter{MaxMatrixCols}{60}
+\setlength{\parindent}{0pt}
+\setlength{\emergencystretch}{6em}
+"""
+
+
+def document(
+    mechanism: Mechanism,
+    equations: Equations,
+    law: Law,
+    values: Mapping[str, float],
+    select: Sequence[str] = (),
+) -> str:
+    r"""Return a document with everything that was derived.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description, with its tree where coordinates are those of joints.
+    equations : Equations
+        What was derived.
+    law : Law
+        The method's law.
+    values : mapping
+        Values of parameters.
+    select : sequence of str
+        Sections of `SECTIONS`, and joints, that it is restricted to.
+
+    Raises
+    ------
+    InputError
+        If a name in `select` is neither.
+    """
+    wanted, joints = selected(equations, select)
+    sheet = Sheet(mechanism, equations, joints)
+    e = equations
+    kind = "bodies" if mechanism.topology is None else "the joints of a tree"
+    parts = [
+        _HEAD,
+        rf"\title{{{escaped(mechanism.title or mechanism.name)}}}",
+        r"\author{}\date{}",
+        r"\begin{document}",
+        r"\maketitle",
+        rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {e.nq} coordinates, {e.nv} "
+        rf"velocities, {e.m} constraint rows. Its motion follows from",
+        r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]",
+        r"Numbers are rounded to six digits.",
+    ]
+    sections: dict[str, list[str]] = {
+        "nomenclature": _nomenclature(sheet, values),
+        "Phi": _section(r"Constraints $\Phi = 0$", _lines(sheet.phi(sheet.rows), " = 0")),
+        "D": _section(r"Jacobian $D$, by joint; blocks that are not written are zero", _jacobian(sheet)),
+        "nu": _section(r"Velocity constraints $D v = \nu$", _lines(sheet.nu(sheet.rows)) or [r"$\nu = 0$"]),
+        "gamma": _section(r"Acceleration constraints $D \dot v = \gamma$", _lines(sheet.gamma(sheet.rows))),
+        "N": _section(r"Rates of the coordinates $\dot q = N v$", _lines(sheet.rates()) or [r"$\dot q = v$"]),
+        "M": _section(r"Mass matrix $M$; what is not written is zero or symmetric", _mixed(sheet.mass())),
+        "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
+        "energies": _section("Energies and power", _lines(sheet.energies())),
+    }
+    if not e.m:
+        for part in ("Phi", "D", "nu", "gamma"):
+            del sections[part]
+    kept = [part for part in sections if part in wanted]
+    parts += [text for part in kept for text in sections[part]]
+    shared = _lines(sheet.shared(sheet.nodes(kept)))
+    if shared:
+        parts += _section("Shared terms", shared)
+    if "law" in wanted:
+        parts += _law(law)
+    if "left-out" in wanted and e.omissions:
+        parts += [r"\section*{Left out}", r"\begin{itemize}"]
+        parts += [rf"\item {_words(o.what)}: {_words(o.why)}" for o in e.omissions]
+        parts += [r"\end{itemize}"]
+    return "\n".join([*parts, r"\end{document}"]) + "\n"
+
+
+def selected(equations: Equations, select: Sequence[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the sections and the joints that are asked for; ``joints.D`` is a joint, ``D`` the Jacobian."""
+    known = tuple(dict.fromkeys(row.joint for row in equations.rows))
+    sections, joints = list[str](), list[str]()
+    for item in select:
+        joint = item.removeprefix("joints.")
+        if item in SECTIONS:
+            sections.append(item)
+        elif joint in known:
+            joints.append(joint)
+        else:
+            expected = f"a joint with rows, or one of {', '.join(SECTIONS)}"
+            raise InputError("--select", expected, f"'{item}'", nearest(item, (*SECTIONS, *known)))
+    return tuple(sections) or SECTIONS, tuple(joints)
+
+
+def _section(title: str, body: Iterable[str]) -> list[str]:
+    listed = list(body)
+    return [rf"\section*{{{title}}}", *listed] if listed else []
+
+
+def _breakable(text: str) -> str:
+    return escaped(text).replace("-", r"-\allowbreak ")
+
+
+def _words(text: str) -> str:
+    """Return a sentence with names in it; long names may be broken."""
+    return escaped(text).replace(r"\_", r"\_\allowbreak ").replace(".", r".\allowbreak ")
+
+
+def _aligned(rows: Sequence[str]) -> list[str]:
+    found = []
+    for first in range(0, len(rows), _TOGETHER):
+        found.append("\\begin{align*}\n" + " \\\\\n".join(rows[first : first + _TOGETHER]) + "\n\\end{align*}")
+    return found
+
+
+def _lines(lines: Iterable[Line], tail: str = "") -> list[str]:
+    return _aligned([text for line in lines for text in _line(line, tail)])
+
+
+def _line(line: Line, tail: str = "") -> list[str]:
+    """Return an equation as rows of an aligned environment."""
+    left = latex(line.left)
+    room = LINE - line.left.width - (2.0 if tail else 0.0)
+    if line.left.width > LINE / 3:  # a name that takes most of the line
+        rows, room, first = [rf"{left} &"], LINE - 4.0, r"\quad ="
+        rows = [rf"\rlap{{${left}$}} &"]
+    else:
+        rows, first = [], f"{left} &="
+    for i, boxes in enumerate(broken(line.right, room - 1.5, room - 3.0)):
+        text = " ".join(map(latex, boxes))
+        rows.append(f"{first} {text}" if i == 0 else rf"&\quad {{}} {text}")
+    if line.left.width > LINE / 3:
+        rows = [rows[0], *(r"&" + r if not r.startswith("&") else r for r in rows[1:])]
+    rows[-1] += tail
+    return rows
+
+
+def _matrix(block: Block) -> str:
+    body = r" \\ ".join(" & ".join(map(latex, line)) for line in block.entries)
+    return rf"{latex(block.left)} &= \begin{{pmatrix}} {body} \end{{pmatrix}}"
+
+
+def _jacobian(sheet: Sheet) -> list[str]:
+    return _aligned([_matrix(block) for joint in sheet.joints for block in sheet.jacobian(joint)])
+
+
+def _mixed(items: Iterable[Line | Block]) -> list[str]:
+    rows: list[str] = []
+    for item in items:
+        rows += [_matrix(item)] if isinstance(item, Block) else _line(item)
+    return _aligned(rows)
+
+
+def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
+    found = [r"\section*{Nomenclature}"]
+    for title, quantities in sheet.quantities():
+        if not quantities:
+            continue
+        found += [
+            rf"\subsection*{{{title}}}",
+            r"\begin{longtable}{@{}p{0.3\textwidth}p{0.36\textwidth}p{0.12\textwidth}r@{}}",
+        ]
+        for quantity in quantities:
+            value = f"{values[quantity.name]:.6g}" if title == "Parameters" else ""
+            symbol = latex(name(quantity.name))
+            found.append(rf"${symbol}$ & \raggedright {_words(quantity.name)} & {_words(quantity.unit)} & {value} \\")
+        found.append(r"\end{longtable}")
+    return found
+
+
+def _law(law: Law) -> list[str]:
+    found = [rf"\section*{{The law of \texttt{{{_breakable(law.method)}}}}}", f"{_words(law.summary)}."]
+    purposes = dict.fromkeys((step.function, step.purpose) for step in law.steps)
+    for function, purpose in purposes:
+        steps = [step for step in law.steps if step.function == function]
+        rows = []
+        for step in steps:
+            note = r" && \text{(solved)}" if step.solved else ""
+            rows.append(rf"{latex(step.left)} &= {latex(step.right)}{note}")
+        found += [rf"\paragraph{{{_words(function)}}} {_words(purpose)}", *_aligned(rows)]
+    return found

@@ -1,0 +1,407 @@
+"""Derived equations as SymPy objects: converted from the graph that is compiled, not derived a second time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from html import escape
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from symgen import arguments
+from symgen.describe.evaluate import parameter_values
+from symgen.errors import InputError, nearest
+from symgen.formulate.display import Display, latex_name
+from symgen.formulate.formulate import formulate
+from symgen.ir.derivative import jacobian
+from symgen.ir.program import of_table
+from symgen.reading.structure import shared_terms, structure
+from symgen.vocabulary.expressions import SMOOTH
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.formulate.equations import Equations
+    from symgen.ir.interpolation import Interpolation
+    from symgen.reading.law import Law
+
+#: Quantities with more operations, written out without sharing, are written with shared terms.
+LARGEST = 30_000
+#: What the equations consist of: attribute, LaTeX, words.
+QUANTITIES = {
+    "Phi": (r"\Phi", "constraints, 0 where a row has none"),
+    "D": ("D", "Jacobian, D v = nu"),
+    "nu": (r"\nu", "right-hand side of the velocity constraints"),
+    "gamma": (r"\gamma", "right-hand side of the acceleration constraints, D v' = gamma"),
+    "N": ("N", "kinematic map, q' = N v"),
+    "M": ("M", "mass matrix"),
+    "f": ("f", "forces, M v' + D^T lambda = f"),
+    "T": ("T", "kinetic energy"),
+    "V": ("V", "potential energy"),
+    "power": ("P", "power of the forces without potential"),
+}
+
+
+@dataclass(frozen=True)
+class SymbolicEquations:
+    """Equations of motion of a mechanism as SymPy matrices and symbols with the names of the file.
+
+    ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v``; `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and
+    `power` are made when they are first asked for. Quantities with more than `LARGEST` operations are written with
+    shared terms, whose meaning stands in `definitions`; `notes` says which.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description, with its tree where coordinates are those of joints.
+    sharing : bool
+        Whether everything is written with shared terms; see `shared`.
+    values : mapping
+        What symbols are replaced by; see `subs`.
+    """
+
+    mechanism: Mechanism
+    sharing: bool = False
+    values: Mapping[Any, Any] = field(default_factory=dict)
+
+    # -- what was derived ------------------------------------------------------------------------------------------
+
+    @cached_property
+    def derived(self) -> Equations:
+        """The equations as nodes of the graph that is compiled."""
+        return formulate(self.mechanism)
+
+    @cached_property
+    def _written(self) -> Equations:
+        """The equations with a graph of their own, to which N is added."""
+        return replace(self.derived, graph=self.derived.graph.copy())
+
+    @property
+    def coordinates(self) -> str:
+        """Whose coordinates q holds: ``absolute``, those of bodies, or ``joint``."""
+        return "absolute" if self.mechanism.topology is None else "joint"
+
+    @property
+    def rows(self) -> tuple[str, ...]:
+        """Names of the rows of `Phi`, `D`, `nu` and `gamma`."""
+        return tuple(row.name for row in self.derived.rows)
+
+    @property
+    def t(self) -> Any:
+        """The symbol of time."""
+        return self._plain.symbols["t", 0]
+
+    @cached_property
+    def q(self) -> Mapping[str, Any]:
+        """Symbols of the coordinates, by name."""
+        return self._symbols("q")
+
+    @cached_property
+    def v(self) -> Mapping[str, Any]:
+        """Symbols of the velocities, by name."""
+        return self._symbols("v")
+
+    @cached_property
+    def parameters(self) -> Mapping[str, Any]:
+        """Symbols of the parameters and inputs, by name."""
+        return self._symbols("p")
+
+    @cached_property
+    def turned(self) -> Mapping[str, Any]:
+        """Symbols of angles as they were last, for measures that count turns: these are on the nearest branch."""
+        return self._symbols("winding")
+
+    # -- quantities ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def Phi(self) -> Any:
+        """Constraints, a matrix of shape (m, 1); 0 in nonholonomic rows, which have none."""
+        return self._matrix("Phi")
+
+    @cached_property
+    def D(self) -> Any:
+        """Jacobian of the constraints, shape (m, nv)."""
+        return self._matrix("D")
+
+    @cached_property
+    def nu(self) -> Any:
+        """Right-hand side of the velocity constraints D v = nu, shape (m, 1)."""
+        return self._matrix("nu")
+
+    @cached_property
+    def gamma(self) -> Any:
+        """Right-hand side of the acceleration constraints D v' = gamma, shape (m, 1)."""
+        return self._matrix("gamma")
+
+    @cached_property
+    def N(self) -> Any:
+        """Kinematic map of q' = N v, shape (nq, nv)."""
+        return self._matrix("N")
+
+    @cached_property
+    def M(self) -> Any:
+        """Mass matrix, shape (nv, nv)."""
+        return self._matrix("M")
+
+    @cached_property
+    def f(self) -> Any:
+        """Forces, shape (nv, 1)."""
+        return self._matrix("f")
+
+    @cached_property
+    def T(self) -> Any:
+        """Kinetic energy [J]."""
+        return self._matrix("T")[0, 0]
+
+    @cached_property
+    def V(self) -> Any:
+        """Potential energy [J]."""
+        return self._matrix("V")[0, 0]
+
+    @cached_property
+    def power(self) -> Any:
+        """Power of the forces without potential [W]."""
+        return self._matrix("power")[0, 0]
+
+    def quantity(self, name: str) -> Any:
+        """Return one of `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and `power` by its name.
+
+        Raises
+        ------
+        InputError
+            If there is none of that name.
+        """
+        return getattr(self, arguments.one_of("quantity", name, tuple(QUANTITIES)))
+
+    # -- shared terms ----------------------------------------------------------------------------------------------
+
+    def shared(self) -> SymbolicEquations:
+        """Return the same equations with what they share under names; `definitions` says what these stand for.
+
+        Names are those of the structure, ``BODY.c`` and ``BODY.s`` for cosine and sine of a body's angle and
+        ``BODY.a00`` to ``BODY.a22`` for its rotation matrix, and numbers for what else is used more than once.
+        """
+        return replace(self, sharing=True)
+
+    @cached_property
+    def definitions(self) -> Mapping[Any, Any]:
+        """What the names of shared terms stand for, by symbol, each written with earlier ones; empty without any."""
+        used = QUANTITIES if self.sharing else [name for name in QUANTITIES if self._is_large(name)]
+        return MappingProxyType(self._definitions([n for name in used for *_, n in self.nodes[name][1]]))
+
+    @cached_property
+    def notes(self) -> tuple[str, ...]:
+        """A sentence about each quantity that is written with shared terms because it would be too large."""
+        large = [] if self.sharing else [name for name in QUANTITIES if self._is_large(name)]
+        return tuple(
+            f"{name} would have {self._size(name)} operations written out, more than {LARGEST}: it is written with "
+            "shared terms, see definitions"
+            for name in large
+        )
+
+    # -- computing -------------------------------------------------------------------------------------------------
+
+    def subs(self, values: Mapping[Any, Any]) -> SymbolicEquations:
+        """Return the equations with symbols replaced.
+
+        Parameters
+        ----------
+        values : mapping
+            By symbol or name, what is put in its place: numbers or SymPy expressions.
+
+        Raises
+        ------
+        InputError
+            If a name is not one of the equations.
+        """
+        known = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
+        found = dict(self.values)
+        for key, value in values.items():
+            name = key.name if isinstance(key, sp.Symbol) else str(key)
+            if name not in known:
+                raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, known))
+            found[known[name]] = sp.sympify(value)
+        return replace(self, values=found)
+
+    def lambdify(self, *names: str, modules: str | Sequence[Any] = "numpy") -> Callable[..., Any]:
+        """Return a function ``(t, q, v, p=None, turned=None)`` that computes quantities, shared terms once.
+
+        Parameters
+        ----------
+        *names : str
+            Quantities, such as ``"D"`` and ``"gamma"``.
+        modules : str or sequence
+            As `sympy.lambdify` takes them.
+
+        Returns
+        -------
+        callable
+            Takes the time [s], sequences of q and v, of the parameters, with their values in the file unless given, and
+            of `turned`, all 0 unless given; gives what `names` say, a tuple where they are several.
+        """
+        import numpy as np
+
+        asked = names or ("Phi",)
+        shared = self if self.sharing else self.shared()
+        definitions = shared._definitions([n for name in asked for *_, n in self.nodes[name][1]])
+        terms = {symbol: sp.Symbol(f"_term{i}", real=True) for i, symbol in enumerate(definitions)}
+        outputs = [shared.quantity(name).xreplace(terms) for name in asked]
+        written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
+        symbols = [self.t, *(list(group.values()) for group in (self.q, self.v, self.parameters, self.turned))]
+        tables = _functions(self.derived.tables)
+        libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
+        compute = sp.lambdify(symbols, outputs, libraries, cse=lambda given: (written, given))
+        known = list(parameter_values(self.mechanism).values())
+
+        def computed(t: float, q: Any, v: Any, p: Any = None, turned: Any = None) -> Any:
+            """Return the quantities at a state."""
+            last = [0.0] * len(self.turned) if turned is None else turned
+            with np.errstate(all="ignore"):  # both branches of a condition are computed, one of which may be undefined
+                found = compute(t, q, v, known if p is None else p, last)
+            return found[0] if len(asked) == 1 else tuple(found)
+
+        return computed
+
+    def law(self, method: str = "direct-correction", **options: str) -> Law:
+        """Return the law of a method as the steps that are solved.
+
+        Parameters
+        ----------
+        method : str
+            Name of the method.
+        **options
+            Its structural options, such as ``weight="mass"``.
+
+        Raises
+        ------
+        InputError
+            If there is no such method or option.
+        """
+        from symgen.reading.law import law
+
+        return law(method, options)
+
+    # -- writing ---------------------------------------------------------------------------------------------------
+
+    def latex(self, *names: str) -> str:
+        """Return quantities as LaTeX, one equation ``NAME = ...`` a line; all of them unless some are named.
+
+        Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
+        """
+        lines = []
+        for name in names or QUANTITIES:
+            lines.append(f"{QUANTITIES.get(name, (name,))[0]} = {self._latex(self.quantity(name))}")
+        lines += [f"{self._latex(symbol)} = {self._latex(value)}" for symbol, value in self._of(names).items()]
+        return " \\\\\n".join(lines)
+
+    def _repr_latex_(self) -> str:
+        """Return what a notebook shows where it has no HTML."""
+        return (
+            r"$\displaystyle M \dot v + D^T \lambda = f,\quad D \dot v = \gamma,\quad \dot q = N v,\quad "
+            rf"q \in \mathbb{{R}}^{{{self.derived.nq}}},\ v \in \mathbb{{R}}^{{{self.derived.nv}}},\ "
+            rf"\lambda \in \mathbb{{R}}^{{{self.derived.m}}}$"
+        )
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: sizes, and the quantities folded."""
+        e = self.derived
+        sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
+        parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
+        for name, (_, words) in QUANTITIES.items():
+            count = self._size(name)
+            head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
+            text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
+            parts.append(f"<details>{head}{escape(text)}</details>")
+        return "\n".join(parts)
+
+    def __repr__(self) -> str:
+        e = self.derived
+        return f"<equations of {e.name}: nq = {e.nq}, nv = {e.nv}, m = {e.m}, {self.coordinates} coordinates>"
+
+    # -- from nodes ------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def nodes(self) -> Mapping[str, tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]]:
+        """For each quantity its shape, and row, column and node of its entries."""
+        e = self._written
+        rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
+        zero = e.graph.zero
+
+        def column(found: Iterable[int]) -> tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]:
+            listed = list(found)
+            return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
+
+        mass = (
+            (i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns)
+        )
+        return {
+            "Phi": column(zero if row.phi is None else row.phi for row in e.rows),
+            "D": ((e.m, e.nv), tuple((i, j, node) for i, row in enumerate(e.rows) for j, node in row.entries)),
+            "nu": column(row.nu for row in e.rows),
+            "gamma": column(row.gamma for row in e.rows),
+            "N": ((e.nq, e.nv), tuple((i, j, n) for i, row in enumerate(rates) for (_, j), n in sorted(row.items()))),
+            "M": ((e.nv, e.nv), tuple(mass)),
+            "f": column(e.forces),
+            **{k: column([n]) for k, n in (("T", e.kinetic), ("V", e.potential), ("power", e.power))},
+        }
+
+    @cached_property
+    def _plain(self) -> Display:
+        return Display(self._written, evaluated=True)
+
+    @cached_property
+    def _named(self) -> Display:
+        ends = [node for _, entries in self.nodes.values() for *_, node in entries]
+        taken = {symbol.name for symbol in self._plain.symbols.values()}
+        names = shared_terms(self._written.graph, ends, structure(self.mechanism, self._written), taken)
+        return Display(self._written, evaluated=True, named=names)
+
+    def _symbols(self, space: str) -> Mapping[str, Any]:
+        found = [s for (kind, _), s in self._plain.symbols.items() if kind == space]
+        return MappingProxyType({s.name: s for s in found})
+
+    def _size(self, name: str) -> int:
+        return self._written.graph.tree_operations(n for *_, n in self.nodes[name][1])
+
+    def _is_large(self, name: str) -> bool:
+        return self._size(name) > LARGEST
+
+    def _matrix(self, name: str) -> Any:
+        shape, entries = self.nodes[name]
+        display = self._named if self.sharing or self._is_large(name) else self._plain
+        found = {(i, j): self._put(display.expression(node)) for i, j, node in entries}
+        return sp.ImmutableDenseMatrix(*shape, lambda i, j: found.get((int(i), int(j)), sp.S.Zero))
+
+    def _put(self, expression: Any) -> Any:
+        return expression.subs(self.values) if self.values else expression
+
+    def _definitions(self, ends: Iterable[int]) -> dict[Any, Any]:
+        """Return what the names in `ends` stand for, in evaluation order."""
+        display, graph = self._named, self._written.graph
+        needed = [n for n in graph.needed(ends) if n in display.named and display.named[n] not in self.values]
+        return {display.named[n]: self._put(display.definition(n)) for n in needed}
+
+    def _of(self, names: Iterable[str]) -> Mapping[Any, Any]:
+        """Return the definitions that quantities need; of all unless some are named."""
+        used = [name for name in names or QUANTITIES if self.sharing or self._is_large(name)]
+        return self._definitions([n for name in used for *_, n in self.nodes[name][1]])
+
+    def _latex(self, expression: Any) -> str:
+        symbols = {s: latex_name(s.name) for s in expression.free_symbols}
+        return str(sp.latex(expression, symbol_names=symbols, mat_delim="(", full_prec=False))
+
+
+def _functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
+    """Return the interpolated functions and their derivatives by the names that expressions call them by."""
+    import numpy as np
+
+    found: dict[str, Any] = {}
+    for table in tables:
+        for order in range(3):
+            payload = f"{SMOOTH if table.pieces else ''}{table.name}" + "'" * order
+            name, what = of_table(payload)
+            value = np.vectorize(lambda x, table=table, order=order: table.value(float(x), order), otypes=[float])
+            found[f"{what.replace('value', 'table')}_{name}"] = value
+    return found

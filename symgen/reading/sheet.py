@@ -1,0 +1,216 @@
+"""What a document and a page are made of: equations as lines and matrices of boxes, in the order of a textbook."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from symgen.reading.boxes import Box, bracket, dot, name, row, sign
+from symgen.reading.structure import structure
+from symgen.reading.typeset import Sum, Typesetter, as_box, columns
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.formulate.equations import ConstraintRow, Equations, Quantity
+
+#: Width of a line, in units of the type's size.
+LINE = 43.0
+
+
+@dataclass(frozen=True)
+class Line:
+    """An equation: its left side, and a sum."""
+
+    left: Box
+    right: Sum
+    key: str = ""
+
+
+@dataclass(frozen=True)
+class Block:
+    """A matrix with its name, entries as boxes."""
+
+    left: Box
+    entries: tuple[tuple[Box, ...], ...]
+    key: str = ""
+
+
+class Sheet:
+    """Equations of a mechanism, written.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description, with its tree where coordinates are those of joints.
+    equations : Equations
+        What was derived.
+    joints : container of str, optional
+        Joints that are written; all unless some are given.
+    """
+
+    def __init__(self, mechanism: Mechanism, equations: Equations, joints: Sequence[str] = ()) -> None:
+        self.mechanism, self.equations = mechanism, equations
+        self.rows = tuple(row for row in equations.rows if not joints or row.joint in joints)
+        g = equations.graph
+        ends = [n for r in self.rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
+        ends += [n for block in equations.mass for line in block.entries for n in line]
+        ends += [*equations.forces, equations.kinetic, equations.potential, equations.power]
+        ends += [*(n for n in equations.q_rates if g.nodes[n].op != "input"), g.zero]
+        taken = {quantity.name for quantity in equations.parameters}
+        self.writer = Typesetter(equations, ends, self._names(), taken)
+
+    def _names(self) -> dict[int, str]:
+        """Return the names of the structure; cosine and sine of one coordinate read best as they are."""
+        g, found = self.equations.graph, structure(self.mechanism, self.equations)
+        simple = {n for n in found if g.nodes[n].op in ("sin", "cos") and g.nodes[g.nodes[n].args[0]].op == "input"}
+        return {n: title for n, title in found.items() if n not in simple}
+
+    # -- constraints -----------------------------------------------------------------------------------------------
+
+    @property
+    def joints(self) -> tuple[str, ...]:
+        """Joints with rows, in the order of the file."""
+        return tuple(dict.fromkeys(r.joint for r in self.rows))
+
+    def of(self, joint: str) -> tuple[ConstraintRow, ...]:
+        """Return the rows of a joint."""
+        return tuple(r for r in self.rows if r.joint == joint)
+
+    def phi(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+        """Return ``Phi_ROW = ...`` of holonomic rows."""
+        return [Line(indexed("Phi", r.name), self.writer.sum(r.phi), r.name) for r in rows if r.phi is not None]
+
+    def nu(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+        """Return ``nu_ROW = ...`` where it is not 0."""
+        zero = self.equations.graph.zero
+        return [Line(indexed("nu", r.name), self.writer.sum(r.nu), r.name) for r in rows if r.nu != zero]
+
+    def gamma(self, rows: Iterable[ConstraintRow]) -> list[Line]:
+        """Return ``gamma_ROW = ...``."""
+        return [Line(indexed("gamma", r.name), self.writer.sum(r.gamma), r.name) for r in rows]
+
+    @cached_property
+    def groups(self) -> dict[str, list[int]]:
+        """Velocities by what they belong to: bodies, or joints of the tree."""
+        found: dict[str, list[int]] = {}
+        for i, v in enumerate(self.equations.velocities):
+            found.setdefault(v.name.rpartition(".")[0], []).append(i)
+        return found
+
+    def jacobian(self, joint: str) -> list[Block]:
+        """Return the blocks of D of a joint's rows, by what the velocities belong to; those that are 0 are left out."""
+        rows, found = self.of(joint), list[Block]()
+        for group, indices in self.groups.items():
+            entries = [[dict(r.entries).get(i, self.equations.graph.zero) for i in indices] for r in rows]
+            if any(n != self.equations.graph.zero for line in entries for n in line):
+                left = Box("name", text="D", index=f"{joint},{group}", width=1.0 + 0.42 * len(joint + group))
+                found.append(self._block(left, entries, joint))
+        return found
+
+    def _block(self, left: Box, nodes: list[list[int]], key: str = "") -> Block:
+        """Return a matrix that is no wider than a line: its widest entries get names."""
+        boxes = [[as_box(self.writer.sum(n)) for n in line] for line in nodes]
+        tried: set[int] = set()
+        while columns(boxes) + left.width > LINE - 3.0:
+            flat = [(b.width, n) for pair in zip(boxes, nodes, strict=True) for b, n in zip(*pair, strict=True)]
+            waiting = [entry for entry in flat if entry[1] not in tried]
+            if not waiting:
+                break
+            widest = max(waiting)[1]
+            tried.add(widest)
+            short = as_box(self.writer.narrowed(widest))
+            boxes = [
+                [short if n == widest else b for b, n in zip(*pair, strict=True)]
+                for pair in zip(boxes, nodes, strict=True)
+            ]
+        return Block(left, tuple(map(tuple, boxes)), key)
+
+    def whole(self) -> list[Block]:
+        """Return M, and D where it has rows, as matrices; for small mechanisms."""
+        e, zero = self.equations, self.equations.graph.zero
+        masses = {
+            (i, j): b.entries[r][c] for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns)
+        }
+        everything = {"M": [[masses.get((i, j), zero) for j in range(e.nv)] for i in range(e.nv)]}
+        everything["D"] = [[dict(r.entries).get(j, zero) for j in range(e.nv)] for r in self.rows]
+        return [
+            Block(name(k), tuple(tuple(as_box(self.writer.sum(n)) for n in line) for line in nodes))
+            for k, nodes in everything.items()
+            if nodes
+        ]
+
+    # -- motion ----------------------------------------------------------------------------------------------------
+
+    def mass(self) -> list[Line | Block]:
+        """Return the diagonal entries of M as equations, and its blocks as matrices."""
+        found: list[Line | Block] = []
+        for block in self.equations.mass:
+            names = [self.equations.velocities[i].name for i in block.columns]
+            if len(names) == 1:
+                found.append(Line(row(name("M"), _of(names[0])), self.writer.sum(block.entries[0][0]), names[0]))
+            elif len(names) <= 6:
+                found.append(self._block(row(name("M"), _of(names[0])), [list(line) for line in block.entries]))
+            else:
+                found += [
+                    Line(row(name("M"), _of(names[i], names[j])), self.writer.sum(block.entries[i][j]))
+                    for i in range(len(names))
+                    for j in range(i, len(names))
+                    if block.entries[i][j] != self.equations.graph.zero
+                ]
+        return found
+
+    def forces(self) -> list[Line]:
+        """Return the entries of f that are not 0."""
+        g, e = self.equations.graph, self.equations
+        found = zip(e.velocities, e.forces, strict=True)
+        return [Line(row(name("f"), _of(v.name)), self.writer.sum(n), v.name) for v, n in found if n != g.zero]
+
+    def rates(self) -> list[Line]:
+        """Return ``q' = N v`` where it is not ``q' = v``."""
+        g, e = self.equations.graph, self.equations
+        found = zip(e.coordinates, e.q_rates, strict=True)
+        return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in found if g.nodes[n].op != "input"]
+
+    def energies(self) -> list[Line]:
+        """Return T, V and the power of forces without potential."""
+        e = self.equations
+        return [Line(name(k), self.writer.sum(n)) for k, n in (("T", e.kinetic), ("V", e.potential), ("P", e.power))]
+
+    def shared(self, nodes: Iterable[int]) -> list[Line]:
+        """Return what the names of shared terms that `nodes` need stand for."""
+        return [Line(self.writer.definitions[n][0], self.writer.definitions[n][1]) for n in self.writer.used(nodes)]
+
+    def nodes(self, what: Iterable[str]) -> list[int]:
+        """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
+        e = self.equations
+        known = {
+            "Phi": [r.phi for r in self.rows if r.phi is not None],
+            "D": [n for r in self.rows for _, n in r.entries],
+            "nu": [r.nu for r in self.rows],
+            "gamma": [r.gamma for r in self.rows],
+            "N": list(e.q_rates),
+            "M": [n for block in e.mass for line in block.entries for n in line],
+            "f": list(e.forces),
+            "energies": [e.kinetic, e.potential, e.power],
+        }
+        return [n for part in what for n in known.get(part, ())]
+
+    def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
+        """Return coordinates, velocities and parameters under their headings."""
+        e = self.equations
+        return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", e.parameters)]
+
+
+def indexed(letter: str, index: str) -> Box:
+    """Return a letter of the notation with the name of a row."""
+    return Box("name", text=letter, index=index, width=0.8 + 0.42 * len(index))
+
+
+def _of(*names: str) -> Box:
+    """Return the names of velocities as arguments."""
+    parts = [name(names[0])]
+    for other in names[1:]:
+        parts += [sign(","), name(other)]
+    return bracket(row(*parts))

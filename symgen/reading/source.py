@@ -1,0 +1,108 @@
+"""Where a joint stands: lines of the file it was described in, and emitted lines that compute its rows."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from os import fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symgen import catalogue
+from symgen.emit.printer import ElementAccess
+from symgen.ir.program import Target
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from symgen.formulate.equations import Equations
+    from symgen.ir.program import ModelProgram
+
+#: Longer files are not shown [characters].
+LONGEST = 150_000
+
+
+def text_of(model: str | PathLike[str]) -> str:
+    """Return the text that describes a model; empty where no file does, or a very long one."""
+    name = fspath(model)
+    path = catalogue.file_of(name) if name in catalogue.known() else None if ":" in name else Path(name)
+    try:
+        text = "" if path is None else path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return ""
+    return text if len(text) <= LONGEST else ""
+
+
+def sections(text: str) -> dict[str, int]:
+    """Return the first line, from 1, of each table ``[section.name]`` of a file, by that name."""
+    found: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), 1):
+        header = re.match(r"\s*\[\s*([A-Za-z_]+)\s*\.\s*[\"']?([A-Za-z0-9_]+)[\"']?\s*[\].]", line)
+        if header:
+            found.setdefault(f"{header[1]}.{header[2]}", number)
+    return found
+
+
+@dataclass(frozen=True)
+class Computed:
+    """An emitted line that computes something of a row.
+
+    Attributes
+    ----------
+    row, what : str
+        The row, and what of it: ``Phi``, ``nu``, ``gamma``, or the velocity whose entry of D it is.
+    function : str
+        The emitted function.
+    line : int
+        Line of the module, from 1.
+    text : str
+        The line itself.
+    """
+
+    row: str
+    what: str
+    function: str
+    line: int
+    text: str
+
+
+def computed(program: ModelProgram, equations: Equations, source: str) -> list[Computed]:
+    """Return the lines of the module ``model`` that compute Phi, nu, entries of D and gamma of each row.
+
+    Parameters
+    ----------
+    program : ModelProgram
+        The program that was printed.
+    equations : Equations
+        What was derived.
+    source : str
+        The module's text.
+    """
+    access = ElementAccess(program.layout, {})
+    names, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
+    wanted = [("geometry", Target("residual", i), n, "Phi") for i, n in enumerate(names)]
+    wanted += [("geometry", Target("nu", i), n, "nu") for i, n in enumerate(names)]
+    wanted += [
+        ("geometry", Target("jacobian", e.slot), names[e.row], speeds[e.column])
+        for e in program.jacobian
+        if e.slot is not None
+    ]
+    wanted += [("observe", Target("out", i), n, "gamma") for i, n in enumerate(names)]
+    found, lines = list[Computed](), assignments(source)
+    for function, target, row, what in wanted:
+        line = lines.get((function, access.write(target)))
+        if line is not None:
+            found.append(Computed(row, what, function, *line))
+    return found
+
+
+def assignments(source: str) -> dict[tuple[str, str], tuple[int, str]]:
+    """Return number and text of the line that assigns an element in each function, by both names."""
+    found: dict[tuple[str, str], tuple[int, str]] = {}
+    function = ""
+    for number, line in enumerate(source.splitlines(), 1):
+        if header := re.match(r"def (\w+)\(", line):
+            function = header[1]
+        elif assigned := re.match(r"    (\w+\[\d+\]) = ", line):
+            found[function, assigned[1]] = number, line.strip()
+    return found

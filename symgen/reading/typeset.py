@@ -1,0 +1,246 @@
+"""Nodes of the graph as formulas: sums of terms that can be broken between lines, none of them wider than a line.
+
+What is used more than once, and what would make a term too wide, gets a name and is written once, in `definitions`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from symgen.formulate.equations import Equations
+from symgen.ir.program import of_table
+from symgen.reading.boxes import Box, atoms, bracket, call, cases, is_number, name, number, over, power, row, sign
+
+#: Widest term, in units of the type's size; a line of a document has 44 of them.
+TERM = 30.0
+#: What is used more than once is written out where it has no more names and literals.
+SHORT = 3
+_RELATIONS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "step": ">"}
+_CONDITIONS = (*_RELATIONS, "and", "or", "not", "defined")
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A product with its sign."""
+
+    negative: bool
+    factors: tuple[Box, ...]
+    below: tuple[Box, ...] = ()
+
+    @property
+    def box(self) -> Box:
+        """The product without its sign."""
+        above = self.factors[0] if len(self.factors) == 1 else row(*self.factors)
+        if not self.below:
+            return above
+        return over(above, self.below[0] if len(self.below) == 1 else row(*self.below))
+
+
+Sum = tuple[Term, ...]
+
+
+def atom(box: Box) -> Sum:
+    """Return a box as a sum of one term."""
+    return (Term(False, (box,)),)
+
+
+def as_box(terms: Sum) -> Box:
+    """Return a sum in one line."""
+    if len(terms) == 1 and not terms[0].negative:
+        return terms[0].box
+    return row(*(part for i, term in enumerate(terms) for part in (*leading(term, i == 0), term.box)))
+
+
+def leading(term: Term, first: bool) -> tuple[Box, ...]:
+    """Return the sign before a term; none before a first one that is positive."""
+    if first and not term.negative:
+        return ()
+    return (sign("-" if term.negative else "+"),)
+
+
+class Typesetter:
+    """Writes nodes of derived equations.
+
+    Parameters
+    ----------
+    equations : Equations
+        What was derived.
+    ends : iterable of int
+        All nodes that will be written.
+    named : mapping of int to str
+        Nodes with names of their own.
+    taken : container of str
+        Names that mean something else.
+
+    Attributes
+    ----------
+    definitions : dict
+        Name and sum of what was given a name, by node, each written with earlier ones.
+    """
+
+    def __init__(
+        self, equations: Equations, ends: Iterable[int], named: Mapping[int, str], taken: Container[str] = ()
+    ) -> None:
+        self.equations, self.graph, self.taken = equations, equations.graph, taken
+        self.inputs: dict[tuple[str, int], str] = {("t", 0): "t"}
+        for space, quantities in (
+            ("q", equations.coordinates),
+            ("v", equations.velocities),
+            ("p", equations.parameters),
+        ):
+            self.inputs.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
+        self.definitions: dict[int, tuple[Box, Sum]] = {}
+        self._written: dict[int, Sum] = {}
+        self._full: dict[int, Sum] = {}
+        self._number = 0
+        listed = list(ends)
+        uses: dict[int, int] = {}
+        needed = self.graph.needed(listed)
+        for node in (*listed, *(a for n in needed for a in self.graph.nodes[n].args)):
+            uses[node] = uses.get(node, 0) + 1
+        for node in needed:
+            self._write(node, uses[node], named.get(node))
+
+    def sum(self, node: int) -> Sum:
+        """Return a node as it is used: its name where it has one."""
+        return self._written[node]
+
+    def narrowed(self, node: int) -> Sum:
+        """Return a node under a name, given now unless it has one: for entries of wide matrices."""
+        if node not in self.definitions and self.graph.nodes[node].op not in ("const", "input"):
+            self._give(node, None)
+        return self._written[node]
+
+    def used(self, nodes: Iterable[int]) -> list[int]:
+        """Return the nodes with names that `nodes` are written with, in evaluation order."""
+        return [n for n in self.graph.needed(nodes) if n in self.definitions]
+
+    def _write(self, node: int, uses: int, title: str | None) -> None:
+        operation = self.graph.nodes[node]
+        found = self._made(node)
+        while operation.args and any(term.box.width > TERM for term in found):
+            wide = [a for a in operation.args if self._can_be_named(a)]
+            if not wide or operation.op in ("add", "sub", "neg"):
+                break
+            self._give(max(wide, key=lambda a: as_box(self._written[a]).width), None)
+            found = self._made(node)
+        self._full[node] = self._written[node] = found
+        if operation.op in ("const", "input", "neg", *_CONDITIONS):
+            return
+        size = sum(atoms(term.box) for term in found)
+        if (title is not None and size > 1) or (uses > 1 and size > SHORT):
+            self._give(node, title)
+
+    def _can_be_named(self, node: int) -> bool:
+        return node not in self.definitions and self.graph.nodes[node].op not in ("const", "input", *_CONDITIONS)
+
+    def _give(self, node: int, title: str | None) -> None:
+        if title is None:
+            self._number += 1
+            while f"s{self._number}" in self.taken or f"s_{self._number}" in self.taken:
+                self._number += 1
+            title = f"s{self._number}"
+        self.definitions[node] = name(title), self._full[node]
+        self._written[node] = atom(name(title))
+
+    # -- operations ------------------------------------------------------------------------------------------------
+
+    def _made(self, node: int) -> Sum:
+        op, args, payload = self.graph.nodes[node]
+        if op == "const":
+            value = float(payload)  # type: ignore[arg-type]  # a constant's payload is a float
+            return (Term(value < 0.0, (number(abs(value)),)),)
+        if op == "input":
+            assert isinstance(payload, tuple), "an input's payload is its key"
+            space, index = payload
+            return atom(name(self.inputs.get(payload, f"{space}{index}")))
+        sums = [self._written[a] for a in args]
+        if op in ("add", "sub"):
+            return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))
+        if op == "neg":
+            return _turned(sums[0])
+        if op == "mul":
+            return (_square(sums[0]) if args[0] == args[1] else _product(_one(sums[0]), _one(sums[1])),)
+        if op == "div":
+            above, below = _one(sums[0]), _one(sums[1])
+            signs = above.negative != below.negative
+            return (Term(signs, above.factors + below.below, above.below + below.factors),)
+        if op == "pow":
+            return atom(power(_whole(sums[0]), as_box(sums[1])))
+        if op == "where":
+            return atom(cases([(as_box(sums[1]), self._condition(args[0])), (as_box(sums[2]), None)]))
+        if op in _CONDITIONS:
+            return atom(cases([(number(1.0), self._condition(node)), (number(0.0), None)]))
+        if op == "table":
+            table, what = of_table(payload)
+            return atom(call(table + {"value": "", "slope": "'", "second": "''"}[what], [as_box(s) for s in sums]))
+        return atom(call(op, [as_box(s) for s in sums]))
+
+    def _condition(self, node: int) -> Box:
+        """Return a node, 0 or 1 in the graph, as a condition."""
+        op, args, _ = self.graph.nodes[node]
+        if op in _RELATIONS:
+            return row(as_box(self._written[args[0]]), sign(_RELATIONS[op]), as_box(self._written[args[1]]))
+        if op in ("and", "or"):
+            return row(bracket(self._condition(args[0])), sign(op), bracket(self._condition(args[1])))
+        if op == "not":
+            return row(sign("not"), bracket(self._condition(args[0])))
+        if op == "defined":
+            return call("defined", [as_box(self._written[args[0]])])
+        return row(as_box(self._written[node]), sign("!="), number(0.0))
+
+
+def _turned(terms: Sum) -> Sum:
+    return tuple(replace(term, negative=not term.negative) for term in terms)
+
+
+def _one(terms: Sum) -> Term:
+    return terms[0] if len(terms) == 1 else Term(False, (bracket(as_box(terms)),))
+
+
+def _whole(terms: Sum) -> Box:
+    """Return a sum as the base of a power."""
+    simple = len(terms) == 1 and not terms[0].negative and not terms[0].below and len(terms[0].factors) == 1
+    box = as_box(terms)
+    return box if simple and box.kind in ("name", "bracket", "call") else bracket(box)
+
+
+def _square(terms: Sum) -> Term:
+    return Term(False, (power(_whole(terms), number(2.0)),))
+
+
+def _product(a: Term, b: Term) -> Term:
+    factors = sorted(a.factors + b.factors, key=lambda box: not is_number(box))
+    if len(factors) > 1 and factors[0].kind == "number" and factors[0].text == "1":
+        factors = factors[1:]
+    return Term(a.negative != b.negative, tuple(factors), a.below + b.below)
+
+
+def broken(terms: Sum, first: float, others: float) -> list[list[Box]]:
+    """Return the lines of a sum: boxes side by side, signs among them.
+
+    Parameters
+    ----------
+    terms : Sum
+        What is written.
+    first, others : float
+        Widths of the first line and of those that follow.
+    """
+    lines: list[list[Box]] = [[]]
+    left = first
+    for i, term in enumerate(terms):
+        parts = [*leading(term, i == 0), term.box]
+        wide = sum(p.width for p in parts)
+        if lines[-1] and wide > left:
+            lines.append([])
+            left = others
+        lines[-1] += parts
+        left -= wide
+    return lines
+
+
+def columns(entries: Sequence[Sequence[Box]]) -> float:
+    """Return the width of a matrix."""
+    widths = [max([box.width for box in column]) for column in zip(*entries, strict=True)]
+    return sum(widths, 1.5) + len(widths)

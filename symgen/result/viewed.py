@@ -1,0 +1,222 @@
+"""Results as recordings for pages: of this process, or read back from a NetCDF file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from symgen.describe.evaluate import parameter_values
+from symgen.errors import InputError
+from symgen.player.live import Live, live_part
+from symgen.player.page import Page, page
+from symgen.player.recording import Group, Moment, Recording
+from symgen.result.export import need
+from symgen.result.labelled import Array, Labelled
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+
+#: Columns of one plot at most.
+LONGEST_KEY = 14
+
+
+def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
+    """Return the page of a result.
+
+    Parameters
+    ----------
+    result : Result
+        Of this process.
+    beside : Result, optional
+        Another motion of the same mechanism, drawn faintly behind.
+    live : bool
+        Whether the page shall be able to work out other motions.
+
+    Raises
+    ------
+    InputError
+        If the results are of different mechanisms, or have no outputs.
+    """
+    first = recorded(result)
+    second = None if beside is None else recorded(beside)
+    if second is not None and second.q.shape[1] != first.q.shape[1]:
+        raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
+    part, note = _live(result, first) if live else (None, "")
+    return Page(page(first, part, note, second), first.mechanism.name, part is not None)
+
+
+def recorded(result: Result) -> Recording:
+    """Return a result as a page plays it.
+
+    Raises
+    ------
+    InputError
+        If it has no outputs.
+    """
+    if not len(result.t):
+        raise InputError("view", "a result with outputs", f"one of {result.mechanism} without")
+    mechanism = result.measured.mechanism
+    tables: dict[str, Labelled] = {"energy": result.energy, "violations": result.violations}
+    tables |= {"reactions": result.reactions, "elements": result.elements, "outputs": result.outputs}
+    moments = [
+        Moment(e.t_in, e.t_out, "rank", f"rank {e.rank}, smallest pivot {e.smallest_pivot:.1e}")
+        for e in result.rank_events
+    ]
+    moments += [Moment(e.t, e.t, "event", e.name) for e in result.events]
+    facts = [("", result.method), ("", result.integrator), ("status", result.status)]
+    if result.reason:
+        facts.append(("", result.reason))
+    values = parameter_values(mechanism) | dict(result.parameters)
+    return _recording(mechanism, values, result.t, result.q.values, tables, facts, moments)
+
+
+def _recording(
+    mechanism: Mechanism,
+    values: Mapping[str, float],
+    t: Array,
+    q: Array,
+    tables: Mapping[str, Labelled],
+    facts: list[tuple[str, str]],
+    moments: list[Moment],
+) -> Recording:
+    reactions, pushed = _reactions(mechanism, tables["reactions"])
+    pulls = [name for name in tables["elements"].names if name.endswith(".force")]
+    pulling = tuple(name.removesuffix(".force") for name in pulls)
+    return Recording(
+        mechanism,
+        dict(values),
+        *(t, q),
+        facts=tuple(facts),
+        status=dict(facts).get("status", "ok"),
+        groups=tuple(_groups(mechanism, q, tables)),
+        reactions=reactions,
+        pushed=pushed,
+        pulls=np.stack([tables["elements"][name] for name in pulls], axis=1) if pulls else None,
+        pulling=pulling,
+        moments=tuple(moments),
+    )
+
+
+def _reactions(mechanism: Mechanism, table: Labelled) -> tuple[Array | None, tuple[str, ...]]:
+    labels = ("Fx", "Fy", "Fz") if mechanism.space == "spatial" else ("Fx", "Fy")
+    names = dict.fromkeys(name.rpartition(".")[0] for name in table.names)
+    owners = tuple(name for name in names if all(f"{name}.{label}" in table.names for label in labels))
+    if not owners:
+        return None, ()
+    return np.stack([[table[f"{name}.{label}"] for label in labels] for name in owners]).transpose(2, 0, 1), owners
+
+
+def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> list[Group]:
+    """Return what can be plotted: outputs of the file first, then energy, violations and positions of few bodies."""
+    found: list[Group] = []
+    outputs = tables["outputs"]
+    for unit in dict.fromkeys(outputs.units):
+        chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
+        found.append(Group("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
+    names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
+    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
+        if chosen:
+            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    energy, violations = tables["energy"], tables["violations"]
+    found.append(Group("energy", "J", energy.names[:3], energy.values[:, :3]))
+    found.append(Group("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
+    found.append(Group("violation", "", violations.names, violations.values, logarithmic=True))
+    return found
+
+
+def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
+    """Return the live part of a page of a result: with its coordinates, its start and its parameters."""
+    from symgen.plan import make_plan
+    from symgen.run_setup import ready
+    from symgen.settings import Settings
+    from symgen.tree_run import tree_run
+
+    mechanism = recording.mechanism
+    step = result.step or mechanism.defaults.step
+    asked = Settings(shape="straight", coordinates=result.coordinates, parameters=dict(result.parameters), step=step)
+    plan = make_plan(mechanism, asked)
+    if result.coordinates == "joint":
+        tree = tree_run(mechanism, plan, dict(result.parameters))
+        return live_part(mechanism, tree.compiled, tree.start, step)
+    compiled, start = ready(mechanism, plan, dict(result.parameters))
+    return live_part(mechanism, compiled, start, step)
+
+
+def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None) -> Page:
+    """Return the page of a result in a NetCDF file.
+
+    Raises
+    ------
+    InputError
+        If the file is none of a result of the mechanism.
+    """
+    first = _of_file(option, path, mechanism)
+    second = None if beside is None else _of_file(option, beside, mechanism)
+    note = "the page has no live part, as it was made of a file"
+    return Page(page(first, None, note, second), mechanism.name, False)
+
+
+def mechanism_name(option: str, path: Path) -> str:
+    """Return of which mechanism a NetCDF file holds a result."""
+    return str(_dataset(option, path).attrs["mechanism"])
+
+
+def _dataset(option: str, path: Path) -> xr.Dataset:
+    need(option, "xarray", "h5netcdf", "h5py")
+    import xarray as xr
+
+    if not path.is_file():
+        raise InputError(option, "a file of a result", f"'{path}', which is none")
+    try:
+        found = xr.load_dataset(path, engine="h5netcdf")
+        if not {"q", "energy", "violations", "reactions"} <= set(found.data_vars) or "mechanism" not in found.attrs:
+            raise ValueError("it has not the tables of a result")
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        why = " ".join(str(error).split())[:80]
+        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
+    return found
+
+
+_COLUMNS = {
+    "energy": "kind_of_energy",
+    "violations": "level",
+    "reactions": "reaction",
+    "elements": "element_quantity",
+    "outputs": "output",
+}
+
+
+def _of_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
+    data = _dataset(option, path)
+    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
+    if [str(n) for n in data["coordinate"].values] != names:
+        raise InputError(
+            option, f"a result of {mechanism.name}", f"'{path}', which is one of {data.attrs['mechanism']}"
+        )
+    tables = {}
+    for name, of in _COLUMNS.items():
+        known = [str(n) for n in data[of].values] if of in data.coords else []
+        units = tuple(str(u) for u in data[f"{of}_unit"].values) if known else ()
+        values = np.asarray(data[name].values, dtype=np.float64) if known else np.zeros((data.sizes["time"], 0))
+        tables[name] = Labelled(values, tuple(known), units)
+    run: dict[str, Any] = json.loads(data.attrs["run"])
+    facts = [
+        ("", str(data.attrs["method"])),
+        ("", str(data.attrs["integrator"])),
+        ("status", str(data.attrs["status"])),
+    ]
+    if data.attrs["reason"]:
+        facts.append(("", str(data.attrs["reason"])))
+    known_values = {p.name for p in mechanism.parameters}
+    given = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known_values}
+    return _recording(
+        mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts, []
+    )

@@ -1,0 +1,307 @@
+"""Pages in a real browser, from their files and without a network; ``make browser`` runs these."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import types
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from symgen import catalogue
+from symgen.api import Model, load
+from symgen.describe.builder import MechanismBuilder
+from tests.browser.chromium import Chromium
+
+pytestmark = pytest.mark.browser
+
+NAMES = [e.name for e in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))]
+#: Where pictures and figures of a run of these tests are kept; nowhere unless it is set.
+KEPT = os.environ.get("SYMGEN_BROWSER_PICTURES")
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Chromium]:
+    with Chromium() as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
+    return {}
+
+
+def page_of(name: str, pages: dict[str, Path], folder: Path, **changes: object) -> Path:
+    if name not in pages:
+        model = load(name)
+        until = min(10.0, model.mechanism.defaults.until)
+        made = model.simulate(until=until, **changes).view()  # type: ignore[arg-type]
+        pages[name] = made.save(folder / f"{name}.html")
+    return pages[name]
+
+
+def note(what: str, figures: object) -> None:
+    if KEPT:
+        with (Path(KEPT) / "figures.jsonl").open("a") as file:
+            file.write(json.dumps([what, figures]) + "\n")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_pages_of_the_catalogue(
+    name: str, chromium: Chromium, pages: dict[str, Path], tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    """Nothing is said on the console, nothing asked of a network, something is drawn, at both widths."""
+    path = page_of(name, pages, tmp_path_factory.mktemp("pages"))
+    spatial = load(name).mechanism.space == "spatial"
+    size = len(path.read_bytes())
+    assert size <= (500_000 if spatial else 150_000)
+    for width, height in ((1280, 800), (390, 800)):
+        chromium.open(path, width, height)
+        for box in ("forces", "gaps", "labels"):
+            chromium.run(f"document.getElementById('{box}').click()")
+        chromium.run("document.getElementById('play').click()")
+        chromium.frame()
+        assert chromium.said == []
+        assert chromium.run("document.documentElement.scrollWidth <= window.innerWidth")
+        if KEPT:
+            chromium.picture(Path(KEPT) / f"{name}-{width}.png")
+        colours = chromium.run(
+            "(() => { const c = document.getElementById('view'), d = c.getContext('2d').getImageData(0, 0, c.width, "
+            "c.height).data; const s = new Set(); for (let i = 0; i < d.length; i += 4) s.add(d[i] * 65536 + d[i + 1] "
+            "* 256 + d[i + 2]); return s.size; })()"
+        )
+        assert colours > 5
+    pace = chromium.run("window.symgen.live ? window.symgen.pace() : null")
+    drawn = sorted(chromium.run("window.symgen.frames(60)"))
+    note(name, {"bytes": size, "pace": pace, "frame": [drawn[30], drawn[57]]})
+
+
+def plainly_python(function: Any) -> Any:
+    """Return an emitted function, and all that it calls, as plain Python, where nothing is fused."""
+    inner = function.py_func
+    known, called = dict(inner.__globals__), set(inner.__code__.co_names)
+    known |= {name: plainly_python(known[name]) for name in called if hasattr(known.get(name), "py_func")}
+    return types.FunctionType(inner.__code__, known)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", NAMES)
+def test_rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
+    """On 1000 random states with pivots above 1e-2, by the largest entry of each vector: 1e-12.
+
+    Compiled code fuses multiplication and addition. Where numbers cancel, that alone changes more than this: the same
+    source as plain Python shows by how much, and four times as much is allowed.
+    """
+    from symgen.plan import make_plan
+    from symgen.player.live import live_part
+    from symgen.player.page import page
+    from symgen.player.recording import Recording
+    from symgen.run_setup import ready
+    from symgen.settings import Settings
+    from symgen.tree_run import tree_run
+
+    mechanism = load(name).mechanism
+    plan = make_plan(mechanism, Settings(coordinates=coordinates, shape="straight"))
+    if coordinates == "joint":
+        tree = tree_run(mechanism, plan)
+        compiled, start, q = tree.compiled, tree.start, tree.body_start.y[: tree.bodies.info.nq]
+    else:
+        compiled, start = ready(mechanism, plan)
+        q = start.y[: compiled.info.nq]
+    live, why = live_part(mechanism, compiled, start, 1e-3)
+    if live is None:
+        assert "operations are more than" in why
+        return
+    recording = Recording(mechanism, load(name).parameters(), np.zeros(1), q[None, :])
+    path = tmp_path / "page.html"
+    path.write_text(page(recording, live, why))
+    random, info = np.random.default_rng(7), compiled.info
+    states, expected, plainly, w = [], [], [], start.w.copy()
+    plain = plainly_python(compiled.law_module.rhs)
+    pivots = range(info.sections["pivot"][0], info.sections["pivot"][0] + info.m)
+    tried = 0
+    while len(states) < 1000 and tried < 20000:
+        tried += 1
+        y = start.y.copy()
+        y[: info.nq] += 0.2 * random.standard_normal(info.nq)
+        y[info.nq : info.work] += random.standard_normal(info.nv)
+        w[:] = start.w
+        ydot, iw = np.zeros(info.ny), np.zeros(16, dtype=np.int64)
+        compiled.law_module.geometry(0.1, y, start.p, w)
+        kept = [w[i] for i in pivots if np.isfinite(w[i])]
+        if min(kept, default=1.0) < 1e-2:
+            continue
+        w[:] = start.w
+        if compiled.law_module.rhs(0.1, y, start.p, w, iw, ydot) == 0 and np.all(np.isfinite(ydot)):
+            states.append(y.tolist())
+            expected.append(ydot)
+            plainly.append(ydot.copy())
+            plain(0.1, y, start.p, start.w.copy(), np.zeros(16, dtype=np.int64), plainly[-1])
+    assert len(states) > 100
+    chromium.open(path)
+    found = np.array(chromium.run(f"{json.dumps(states)}.map((y) => window.symgen.rates(0.1, y))"), dtype=np.float64)
+    largest = np.abs(expected).max(axis=1, keepdims=True)
+    off, fused = (float(np.max(np.abs(x - expected) / largest)) for x in (found, np.array(plainly)))
+    note(f"rates {name} {coordinates}", {"states": len(states), "worst": off, "of plain Python": fused})
+    assert off <= max(1e-12, 4.0 * fused)
+
+
+@pytest.mark.parametrize(
+    ("name", "values"),
+    [
+        ("pendulum", {"bob_mass": 3.0, "length": 1.3}),
+        ("slider-crank", None),
+        ("wiper", None),
+        ("spatial-slider-crank", None),
+        ("heavy-top", None),
+    ],
+)
+def test_a_slider_does_what_set_does(
+    name: str, values: dict[str, float] | None, chromium: Chromium, tmp_path: Path
+) -> None:
+    """The page's state at the end of 1 s with changed parameters, and that of a run by the same steps."""
+    model = load(name)
+    known = model.parameters()
+    if values is None or not set(values) <= set(known):
+        values = {p: 1.1 * x for p, x in list(known.items())[:2]}
+    step = model.mechanism.defaults.step
+    until = round(min(1.0, model.mechanism.defaults.until) / step) * step
+    kind: dict[str, object] = {"integrator": "rk4", "step": step, "until": until, "times": (0.0, until)}
+    path = model.simulate(**kind).view().save(tmp_path / "page.html")  # type: ignore[arg-type]
+    result = model.simulate(parameters=values, **kind)  # type: ignore[arg-type]
+    chromium.open(path)
+    found = np.array(chromium.run(f"window.symgen.run({json.dumps(values)}, {until!r}, {step!r})"))
+    expected = np.concatenate([result.q.values[-1], result.v.values[-1]])
+    scale = np.abs(expected).max()
+    worst = np.max(np.abs(found[: len(expected)] - expected)) / scale
+    note(f"slider {name}", {"values": values, "worst": worst})
+    # rounding of both grows with the motion: a thousand steps of a regular motion keep nine digits
+    assert worst <= 1e-9
+
+
+def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], tmp_path: Path) -> None:
+    path = page_of("slider-crank", pages, tmp_path)
+    chromium.open(path)
+    clock = "document.getElementById('clock').textContent"
+    before = chromium.run(clock)
+    chromium.run("window.dispatchEvent(new KeyboardEvent('keydown', {key: 'End'}))")
+    chromium.frame()
+    assert chromium.run(clock) != before
+    slide = (
+        "(() => { const i = document.querySelectorAll('#live input')[0]; i.value = 300; "
+        "i.dispatchEvent(new Event('input')); })()"
+    )
+    chromium.run(slide)
+    for _ in range(200):
+        chromium.frame()
+        if not chromium.run(clock).startswith("0.000"):
+            break
+    assert not chromium.run(clock).startswith("0.000")
+    chromium.run("document.querySelector('#live button').click()")
+    chromium.frame()
+    assert chromium.said == []
+
+
+def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
+    """Script time a frame: median and 95 %; the bound of 8 ms is that of the median."""
+    chain = MechanismBuilder("long", gravity=(0.0, -9.81))
+    for i in range(200):
+        chain.body(f"b{i}", mass=1.0, inertia=0.1, points={"a": (-0.5, 0.0), "b": (0.5, 0.0)}, position=(i + 0.5, 0.0))
+        before = ("ground", f"b{i}") if i == 0 else (f"b{i - 1}", f"b{i}")
+        chain.joint(f"j{i}", "revolute", between=before, at=((0.0, 0.0), "a") if i == 0 else ("b", "a"))
+    mechanism = chain.build()
+    from symgen.player.page import page
+    from symgen.player.recording import Recording
+
+    t = np.linspace(0.0, 10.0, 200)
+    q = np.zeros((200, 600))
+    for k, time in enumerate(t):
+        angle, x, y = 0.0, 0.0, 0.0
+        for i in range(200):
+            angle = 0.3 * math.sin(time + 0.1 * i)
+            q[k, 3 * i : 3 * i + 3] = x + 0.5 * math.cos(angle), y + 0.5 * math.sin(angle), angle
+            x, y = x + math.cos(angle), y + math.sin(angle)
+    path = tmp_path / "long.html"
+    path.write_text(page(Recording(mechanism, {}, t, q)))
+    chromium.open(path)
+    chromium.run("window.symgen.frames(20)")
+    found = np.array(chromium.run("window.symgen.frames(200)"))
+    note(
+        "200 bodies",
+        {"median": float(np.median(found)), "95 %": float(np.quantile(found, 0.95)), "bytes": path.stat().st_size},
+    )
+    assert np.median(found) <= 8.0
+    if KEPT:
+        chromium.picture(Path(KEPT) / "long.png")
+
+
+def test_names_of_a_file_stay_text(chromium: Chromium, tmp_path: Path) -> None:
+    """A title and a note that would be scripts, and a script's end inside the data."""
+    title = "</script><script>window.canary = 1</script><img src=x onerror='window.canary = 2'>"
+    builder = MechanismBuilder("arm", title=title).parameter("m", 1.0, unit="</script><b>", note=title)
+    model = Model(builder.body("a", type="point", mass="m").build())
+    path = model.simulate(until=0.1, step=0.01).view().save(tmp_path / "page.html")
+    chromium.open(path)
+    assert chromium.run("typeof window.canary") == "undefined"
+    assert chromium.run("document.querySelector('h1').textContent") == title
+    assert chromium.said == []
+
+
+def random_mechanism(seed: int) -> Model:
+    """Return an open chain in space of random joints and bodies, with springs between some of them."""
+    random = np.random.default_rng(seed)
+    builder = MechanismBuilder(f"random-{seed}", space="spatial", gravity=(0.0, 0.0, -9.81)).run(until=1.0, step=1e-3)
+    count = int(random.integers(2, 6))
+    for i in range(count):
+        length = float(random.uniform(0.3, 1.2))
+        at = tuple(random.uniform(-1.0, 1.0, 3).tolist())
+        builder.body(
+            f"b{i}",
+            mass=1.0,
+            inertia=(0.02, 0.1, 0.1),
+            points={"a": (-length / 2, 0.0, 0.0), "b": (length / 2, 0.0, 0.0)},
+            position=at,
+            orientation={"rotation_vector": tuple(random.uniform(-1.0, 1.0, 3).tolist())},
+        )
+        kind = ["spherical", "revolute", "universal", "cylindrical"][int(random.integers(4))]
+        keys: dict[str, object] = {}
+        axis = tuple(random.standard_normal(3).tolist())
+        if kind in ("revolute", "cylindrical"):
+            keys["axis"] = axis
+        elif kind == "universal":
+            keys["axes"] = (axis, tuple(np.cross(axis, random.standard_normal(3)).tolist()))
+        before = "ground" if i == 0 else f"b{i - 1}"
+        try:
+            builder.joint(
+                f"j{i}", kind, between=(before, f"b{i}"), at=((0.0, 0.0, 0.0) if i == 0 else "b", "a"), **keys
+            )
+            builder.build()
+        except Exception:
+            builder._raw["joints"][f"j{i}"] = {
+                "type": "spherical",
+                "between": [before, f"b{i}"],
+                "at": [[0.0, 0.0, 0.0] if i == 0 else "b", "a"],
+            }
+    builder.force(
+        "pull", "spring-damper", between=("ground", f"b{count - 1}"), at=((0.0, 0.0, 1.0), "b"), stiffness=5.0
+    )
+    return Model(builder.build())
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_random_mechanisms_in_space(seed: int, chromium: Chromium, tmp_path: Path) -> None:
+    result = random_mechanism(seed).simulate(until=0.5)
+    path = result.view().save(tmp_path / "page.html")
+    assert len(path.read_bytes()) <= 500_000
+    for width in (1280, 390):
+        chromium.open(path, width)
+        chromium.run("document.getElementById('play').click()")
+        chromium.frame()
+        assert chromium.said == []
+    if KEPT and seed < 4:
+        chromium.picture(Path(KEPT) / f"random-{seed}.png")

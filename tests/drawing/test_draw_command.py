@@ -1,0 +1,188 @@
+"""``symgen draw``, ``model.draw`` and shapes of a file."""
+
+from __future__ import annotations
+
+import json
+import pickle
+import tomllib
+import xml.etree.ElementTree as ET
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from symgen.api import load
+from symgen.cli import main
+from symgen.describe.validate import validate
+from symgen.drawing import build_scene
+from symgen.drawing.paper import Path as Stroke
+from symgen.drawing.paper import View, axes, on_paper
+from symgen.drawing.scene import Dot, Poses, Solid
+from symgen.errors import AssemblyError, InputError
+
+#: A four-bar whose links are too short to meet: at best each of the three open gaps is a third of what is missing.
+FILE = """
+[mechanism]
+name = "short"
+[bodies.crank]
+mass = 1.0
+inertia = 0.1
+points = {{ b = [0.3, 0.0] }}
+[bodies.coupler]
+mass = 1.0
+inertia = 0.1
+points = {{ b = [0.6, 0.0] }}
+position = [0.3, 0.1]
+[bodies.rocker]
+mass = 1.0
+inertia = 0.1
+points = {{ b = [0.4, 0.0] }}
+position = [{base}, 0.0]
+angle = 2.0
+[joints.O]
+type = "revolute"
+between = ["ground", "crank"]
+at = [[0.0, 0.0], [0.0, 0.0]]
+[joints.A]
+type = "revolute"
+between = ["crank", "coupler"]
+at = ["b", [0.0, 0.0]]
+[joints.B]
+type = "revolute"
+between = ["coupler", "rocker"]
+at = ["b", "b"]
+[joints.C]
+type = "revolute"
+between = ["ground", "rocker"]
+at = [[{base}, 0.0], [0.0, 0.0]]
+"""
+
+
+def test_what_does_not_close_is_drawn_with_the_fault_marked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, picture = tmp_path / "short.toml", tmp_path / "short.svg"
+    file.write_text(FILE.format(base=2.0))
+    assert main(["draw", str(file), "-o", str(picture), "--json"]) == 2
+    told = capsys.readouterr()
+    assert "cannot be assembled" in told.err
+    marked = json.loads(told.out)["open"]
+    assert marked and set(marked) <= {"O", "A", "B", "C"}
+    root = ET.parse(picture).getroot()
+    assert {g.attrib["data-name"] for g in root.iter() if g.attrib.get("class") == "fault"} == set(marked)
+    assert any("cannot be assembled" in (t.text or "") for t in root.iter())
+
+
+def test_the_error_says_where_closing_stopped() -> None:
+    raw = tomllib.loads(FILE.format(base=2.0))
+    model = load(validate(raw, "short.toml"))
+    with pytest.raises(AssemblyError) as caught:
+        model.assemble(model.compile())
+    error = caught.value
+    assert error.joints and len(error.q) == 9
+    again = pickle.loads(pickle.dumps(error))
+    assert (str(again), again.joints, again.q) == (str(error), error.joints, error.q)
+
+
+@pytest.mark.parametrize("ending", ["svg", "png", "pdf"])
+def test_pictures_are_the_same_bytes_each_time(ending: str, tmp_path: Path) -> None:
+    files = [tmp_path / f"{i}.{ending}" for i in range(2)]
+    for file in files:
+        assert main(["draw", "four-bar", "-o", str(file)]) == 0
+    assert files[0].read_bytes() == files[1].read_bytes()
+    assert len(files[0].read_bytes()) > 2000
+
+
+def test_check_draws_on_request(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["check", "pendulum", "--draw", str(tmp_path / "x.svg")]) == 0
+    assert (tmp_path / "x.svg").read_text().startswith("<svg")
+    file = tmp_path / "short.toml"
+    file.write_text(FILE.format(base=3.0))
+    assert main(["check", str(file), "--draw", str(tmp_path / "y.svg")]) == 2
+    assert 'class="fault"' in (tmp_path / "y.svg").read_text()
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["-o", "x.gif"], "ends in .svg"),
+        (["-o", "no/x.svg"], "folder that exists"),
+        (["--at", "yesterday"], "start, described or a time"),
+        (["--at", "-1"], "start, described or a time"),
+        (["--view", "1"], "two angles"),
+    ],
+)
+def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["draw", "pendulum", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_at_a_time_it_is_where_the_run_is(tmp_path: Path) -> None:
+    model = load("pendulum")
+    result = model.simulate(until=0.3, times=(0.0, 0.3), step=1e-3)
+    assert main(["draw", "pendulum", "--at", "0.3", "-o", str(tmp_path / "x.svg")]) == 0
+    assert (tmp_path / "x.svg").read_text() == model.draw(q=result.q.values[-1]).svg
+
+
+# -- shapes ------------------------------------------------------------------------------------------------------------
+
+
+def shaped(shape: Any, spatial: bool = True) -> Any:
+    body: dict[str, Any] = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0] if spatial else 1.0, "shape": shape}
+    body["centre_of_mass"] = [0.5, 0.0, 0.0] if spatial else [0.5, 0.0]
+    head = {"name": "shaped", "space": "spatial" if spatial else "planar"}
+    return validate({"mechanism": head, "parameters": {"r": 0.25}, "bodies": {"b": body}}, "f")
+
+
+def test_a_box_and_a_sphere_are_where_the_file_has_them() -> None:
+    shapes = [{"type": "box", "size": [2.0, 0.4, "2*r"]}, {"type": "sphere", "radius": "r", "at": [0.0, 1.0, 0.0]}]
+    mechanism = shaped(shapes)
+    scene = build_scene(mechanism)
+    solid, ball = scene.items[0].marks[:2]
+    assert isinstance(solid, Solid) and isinstance(ball, Dot)
+    corners = np.array([p for face in solid.faces for p in face])
+    assert corners.min(axis=0) == pytest.approx([-1.0, -0.2, -0.25])
+    assert corners.max(axis=0) == pytest.approx([1.0, 0.2, 0.25])
+    assert ball.radius == 0.25 and ball.at == (-0.5, 1.0, 0.0)
+    # every face is seen counter-clockwise from outside, so that what is turned away is left out
+    for face in np.array(solid.faces):
+        assert np.cross(face[1] - face[0], face[2] - face[1]) @ face.mean(axis=0) > 0.0
+    seen = on_paper(scene, np.array([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]))[0]
+    assert sum(isinstance(part, Stroke) and len(part.points) == 4 for part in seen.parts) == 3
+
+
+def test_the_motion_does_not_depend_on_a_shape() -> None:
+    from symgen.describe.digest import digest
+
+    plain, drawn = shaped([]), shaped({"type": "sphere", "radius": 1.0, "colour": "#FF0000"})
+    assert digest(plain) == digest(drawn) and drawn.shapes[0][1].colour == "#ff0000"
+
+
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        ({"type": "ball"}, "f: bodies.b.shape.type: expected 'polyline' or 'box'"),
+        ({"type": "box"}, "bodies.b.shape.size: expected a value"),
+        ([{"type": "box", "size": [1.0, 1.0]}], "bodies.b.shape[0].size: expected 3 lengths"),
+        ({"type": "sphere", "radius": -1.0}, "above 0"),
+        ({"type": "sphere", "radius": 1.0, "length": 1.0}, "no such key for a sphere"),
+        ({"type": "sphere", "radius": 1.0, "colour": "red"}, "a colour such as"),
+        ({"type": "polyline", "points": [[0.0, 0.0, 0.0]]}, "2 to 2000 points"),
+        ({"type": "cylinder", "radius": 1.0}, "shape.length: expected a value"),
+        ({"type": "sphere", "radus": 1.0}, "did you mean 'radius'"),
+        ("round", "expected a table"),
+        ([{"type": "sphere", "radius": 1.0}] * 101, "at most 100"),
+    ],
+)
+def test_wrong_shapes_are_refused(shape: Any, told: str) -> None:
+    with pytest.raises(InputError) as caught:
+        shaped(shape)
+    assert told in str(caught.value)
+
+
+def test_space_is_seen_by_an_orthogonal_frame() -> None:
+    scene = build_scene(load("heavy-top").mechanism)
+    eye = axes(scene, View(0.3, 0.7))
+    assert eye @ eye.T == pytest.approx(np.eye(3), abs=1e-15)
+    assert np.linalg.det(eye) == pytest.approx(1.0)
+    assert Poses(scene.frames, [0.0] * 3 + [1.0, 0.0, 0.0, 0.0], True).turns[0] == pytest.approx(np.eye(3))

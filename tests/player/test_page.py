@@ -1,0 +1,122 @@
+"""Pages as files: what they hold, how large they are, that they ask nobody; what they do is seen in a browser."""
+
+from __future__ import annotations
+
+import base64
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from symgen.api import load
+from symgen.cli import main
+from symgen.errors import InputError
+from symgen.player.recording import shorts
+
+
+@pytest.fixture(scope="module")
+def result() -> Any:
+    return load("slider-crank").simulate(until=0.5)
+
+
+def data_of(html: str) -> Any:
+    return json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', html, re.S)[1])  # type: ignore[index]
+
+
+def test_a_page_holds_the_motion_and_asks_nobody(result: Any) -> None:
+    page = result.view()
+    assert page.live and len(page.html.encode()) <= 150_000
+    assert "default-src 'none'" in page.html and page.html.count("<!DOCTYPE html>") == 1
+    assert not re.search(r"https?://(?!www\.w3\.org)", page.html)
+    assert not re.search(r"<(link|img|script|iframe)[^>]*(src|href)=(?!\"data:)", page.html)
+    data = data_of(page.html)
+    assert data["names"] == list(result.q.names)
+    motion = data["motions"][0]
+    columns = np.frombuffer(base64.b64decode(motion["q"]), "<f4").reshape(len(data["names"]), motion["count"])
+    times = np.frombuffer(base64.b64decode(motion["t"]), "<f4")
+    for k, time in enumerate(times):
+        row = int(np.argmin(np.abs(result.t - time)))
+        assert columns[:, k] == pytest.approx(result.q.values[row], rel=1e-7, abs=1e-7)
+
+
+def test_the_same_run_gives_the_same_bytes(result: Any) -> None:
+    again = load("slider-crank").simulate(until=0.5)
+    assert again.view().html == result.view().html
+
+
+def test_sixteen_bits_between_the_smallest_and_the_largest() -> None:
+    values = np.array([[1.0, 5.0], [2.0, 5.0], [4.0, np.nan]])
+    found = shorts(values)
+    numbers = np.frombuffer(base64.b64decode(found["data"]), "<u2").reshape(2, 3)
+    assert found["low"] == [1.0, 5.0] and list(numbers[1]) == [0, 0, 65535]
+    back = found["low"][0] + numbers[0] / 65534.0 * found["span"][0]
+    assert back == pytest.approx([1.0, 2.0, 4.0], abs=3.0 / 65534.0)
+
+
+def test_large_equations_stay_outside_and_the_page_says_so() -> None:
+    page = load("stewart-platform").simulate(until=0.01, step=1e-3).view()
+    assert not page.live and "operations are more than" in data_of(page.html)["note"]
+    assert "function rhs(" not in page.html
+
+
+def test_two_motions_of_one_mechanism(result: Any) -> None:
+    other = load("slider-crank").simulate(until=0.5, parameters={"crank_mass": 2.0})
+    assert len(data_of(result.view(other).html)["motions"]) == 2
+    with pytest.raises(InputError, match="another motion of slider-crank"):
+        result.view(load("pendulum").simulate(until=0.1))
+
+
+def test_notebooks_show_a_page_in_a_frame(result: Any) -> None:
+    page = result.view(live=False)
+    assert not page.live and page._repr_html_().startswith("<iframe srcdoc=") and "<script" not in page._repr_html_()
+    assert len(repr(page)) < 100
+
+
+def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
+    file = tmp_path / "a.nc"
+    result.save(file)
+    assert main(["view", str(file), "-o", str(tmp_path / "a.html"), "--beside", str(file), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["live"] is False and told["bytes"] == (tmp_path / "a.html").stat().st_size
+    data = data_of((tmp_path / "a.html").read_text())
+    assert (
+        len(data["motions"]) == 2
+        and data["motions"][0]["reactions"]["names"] == data["motions"][1]["reactions"]["names"]
+    )
+    assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "b.html")]) == 0
+    assert data_of((tmp_path / "b.html").read_text())["live"] is not None
+
+
+def test_a_gif_has_pictures(tmp_path: Path) -> None:
+    from PIL import Image
+
+    file = tmp_path / "a.gif"
+    assert main(["view", "pendulum", "--until", "0.2", "-o", str(file)]) == 0
+    with Image.open(file) as picture:
+        assert picture.n_frames == 5  # type: ignore[attr-defined]  # 25 a second
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["pendulum", "-o", "x.pdf"], "ends in .html"),
+        (["pendulum", "-o", "no/x.html"], "folder that exists"),
+        (["pendulum", "--beside", "a.nc"], "two saved results"),
+        (["pendulum", "--model", "pendulum"], "a saved result to be viewed"),
+        (["none.nc"], "a file of a result"),
+    ],
+)
+def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["view", *words]) == 2
+    assert told in capsys.readouterr().err
+
+
+def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str], result: Any) -> None:
+    (tmp_path / "x.nc").write_bytes(b"nothing")
+    assert main(["view", str(tmp_path / "x.nc")]) == 2
+    result.save(tmp_path / "a.nc")
+    assert main(["view", str(tmp_path / "a.nc"), "--model", "pendulum", "-o", str(tmp_path / "y.html")]) == 2
+    assert "one of slider-crank" in capsys.readouterr().err

@@ -1,0 +1,111 @@
+"""LaTeX documents: what they hold, and that a real engine sets them without lines over the edge."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from symgen import catalogue
+from symgen.cli import main
+from symgen.describe.load import read_raw
+from symgen.describe.validate import validate
+from symgen.formulate.formulate import formulate
+from symgen.reading.lengths import with_symbols
+
+
+def document(capsys, *arguments):
+    assert main(["inspect", *arguments, "--format", "latex", "--document"]) == 0
+    return capsys.readouterr().out
+
+
+def test_a_document_holds_everything(capsys):
+    text = document(capsys, "four-bar")
+    assert text.startswith(r"\documentclass")
+    assert r"\Phi_{\mathrm{B.x}} &= x_{\mathrm{coupler}} - x_{\mathrm{crank}}" in text
+    assert r"D_{B,\mathrm{crank}}" in text
+    assert r"\lambda &= D {M}^{-1} f - \gamma" in text
+    assert r"crank\_\allowbreak mass & kg & 2" in text
+    assert text.count(r"\begin{align*}") == text.count(r"\end{align*}")
+    assert "the mechanism is planar" in text
+
+
+def test_sections_and_joints_are_selected(capsys):
+    text = document(capsys, "four-bar", "--select", "Phi,joints.D")
+    assert r"\Phi_{\mathrm{D.x}}" in text and r"\Phi_{\mathrm{A.x}}" not in text
+    assert "gamma" not in text.partition("Numbers")[2]
+
+
+def test_lengths_become_symbols(capsys):
+    text = document(capsys, "four-bar", "--symbols", "--select", "nomenclature,Phi")
+    assert r"l_{1} \cos \theta_{\mathrm{crank}}" in text
+    assert r"$l_{2}$ & \raggedright l\_\allowbreak 2 & m & 4" in text
+
+
+def test_symbols_change_names_only():
+    raw, source = read_raw("slider-crank")
+    plain, named = (formulate(validate(r, source)) for r in (raw, with_symbols(raw)))
+    lengths = [p.name for p in named.parameters if p.name.startswith("l_")]
+    assert lengths and len(named.parameters) == len(plain.parameters) + len(lengths)
+    assert [r.name for r in named.rows] == [r.name for r in plain.rows]
+    assert "l_1" not in str(read_raw("slider-crank")[0])  # the description itself is left as it is
+
+
+def test_a_name_that_is_taken_is_left_to_its_owner():
+    raw, _ = read_raw("pendulum")
+    found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l_1": 3.0}})
+    assert found["parameters"]["l_1"] == 3.0
+    assert "l_2" in found["parameters"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["--symbols"], "--document"),
+        (["--select", "Phi"], "--document"),
+        (["--document"], "--format latex"),
+        (["--format", "latex", "--document", "--select", "Psi"], "nomenclature"),
+        (["--format", "latex", "--document", "--shape", "looped"], "looped"),
+    ],
+)
+def test_options_that_mean_nothing_are_refused(arguments, word, capsys):
+    assert main(["inspect", "pendulum", *arguments]) == 2
+    assert word in capsys.readouterr().err
+
+
+def test_a_title_with_markup_is_text(tmp_path, capsys):
+    path = tmp_path / "evil.toml"
+    path.write_text(
+        '[mechanism]\nname = "evil"\ntitle = "50% \\\\input{x} & $y_1$ #{}~^ ∑"\ngravity = [0, -9.81]\n'
+        '[bodies.a]\nmass = 1.0\ninertia = 1.0\n[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\n'
+        "at = [[0, 0], [0.5, 0]]\n"
+    )
+    text = document(capsys, str(path))
+    assert r"50\% \textbackslash{}input\{x\} \& \$y\_1\$ \#\{\}\textasciitilde{}\textasciicircum{} [U+2211]" in text
+
+
+# -- a real engine ----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", sorted(catalogue.known()))
+def test_documents_of_the_catalogue_compile_without_overfull_boxes(name, coordinates, tmp_path, capsys):
+    engine = shutil.which("pdflatex")
+    assert engine is not None, "these tests need pdflatex; .ci/run installs it"
+    symbols = ["--symbols"] if coordinates == "joint" else []
+    (tmp_path / "x.tex").write_text(document(capsys, name, "--coordinates", coordinates, *symbols))
+    done = subprocess.run(
+        [engine, "-interaction=nonstopmode", "-halt-on-error", "x.tex"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        errors="replace",
+        timeout=300,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-1500:]
+    log = (tmp_path / "x.log").read_text(errors="replace")
+    overfull = [float(points) for points in re.findall(r"Overfull \\hbox \(([\d.]+)pt too wide\)", log)]
+    assert max(overfull, default=0.0) <= 10.0, overfull
+    assert "undefined" not in log

@@ -1,0 +1,171 @@
+"""Equations as SymPy objects: the emitted functions' numbers, and what SymPy itself says of them."""
+
+import pickle
+
+import numpy as np
+import pytest
+import sympy as sp
+from support.emitted import Emitted, mechanism_of
+from support.models import EVERYTHING, ROUGH
+
+import symgen
+from symgen import catalogue
+from symgen.compiling.choose_tree import on_tree
+from symgen.describe import load
+from symgen.errors import InputError
+from symgen.reading import equations as reading
+from symgen.reading.equations import SymbolicEquations
+
+SMALL = ["four-bar", "driven-four-bar", "slider-crank", "pendulum", "heavy-top", "spherical-double-pendulum"]
+SMALL += ["rolling-disc", "free-rigid-body"]
+NAMES = ("Phi", "nu", "D", "gamma", "M", "f", "T", "V", "power")
+
+
+def close(found, expected, scale=None):
+    found, expected = np.asarray(found, dtype=float).ravel(), np.asarray(expected, dtype=float).ravel()
+    size = np.abs(expected).max(initial=0.0) if scale is None else scale
+    assert np.abs(found - expected).max(initial=0.0) <= 1e-12 * max(size, 1e-300), (found, expected)
+
+
+def agrees(mechanism, seed=3):
+    """What SymPy computes is what emitted functions do, at a random state."""
+    emitted, equations = Emitted(mechanism), SymbolicEquations(mechanism)
+    rng = np.random.default_rng(seed)
+    q, v = rng.uniform(-1.0, 1.0, emitted.info.nq), rng.uniform(-1.0, 1.0, emitted.info.nv)
+    values = symgen.load(mechanism).parameters()
+    expected = emitted.at(0.3, q, v, emitted.parameters(values))
+    numbers = equations.lambdify(*NAMES)(0.3, q, v)
+    phi, nu, d, gamma, m, f, kinetic, potential, power = numbers
+    lengths = np.abs(q).max() + 1.0 + np.abs(expected.phi).max(initial=0.0)
+    close(phi, expected.phi, lengths)  # of differences of coordinates
+    close(nu, expected.nu)
+    close(d, expected.d)
+    close(gamma, expected.gamma)
+    close(kinetic, expected.status["kinetic"])
+    close(potential, expected.status["potential"], max(1.0, abs(expected.status["potential"])))
+    if mechanism.topology is None:
+        close(np.diag(m), expected.masses)
+    pushed = np.asarray(d).T @ expected.multipliers
+    balance = np.asarray(m) @ expected.acceleration + pushed
+    close(balance, f, max(np.abs(f).max(initial=0.0), np.abs(pushed).max(initial=0.0), 1.0))
+    work = power - expected.multipliers @ np.asarray(nu).ravel()
+    close(work, expected.power, max(1.0, abs(power), np.abs(expected.multipliers).max(initial=0.0)))
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_numbers_are_those_of_the_emitted_functions(name):
+    agrees(load(name))
+
+
+@pytest.mark.parametrize("name", ["four-bar", "spherical-double-pendulum"])
+def test_numbers_are_those_of_the_emitted_functions_in_joint_coordinates(name):
+    agrees(on_tree(load(name)))
+
+
+@pytest.mark.parametrize("raw", [EVERYTHING, ROUGH], ids=["everything", "rough"])
+def test_numbers_of_every_kind_and_of_tables(raw):
+    agrees(mechanism_of(raw))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("name", sorted(catalogue.known()))
+def test_numbers_of_the_whole_catalogue(name, coordinates):
+    mechanism = load(name)
+    agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
+
+
+def differentiated(equations, expression):
+    """d/dt of an expression of t and q along q' = N v."""
+    rates = equations.N * sp.Matrix(list(equations.v.values()))
+    moved = sp.diff(expression, equations.t)
+    return moved + sum((sp.diff(expression, s) * r for s, r in zip(equations.q.values(), rates, strict=True)), sp.S(0))
+
+
+def vanishes(equations, expression, seed=5):
+    rng = np.random.default_rng(seed)
+    symbols = [equations.t, *equations.q.values(), *equations.v.values(), *equations.parameters.values()]
+    values = dict(zip(symbols, rng.uniform(0.4, 1.2, len(symbols)), strict=True))
+    numbers = np.array(sp.lambdify(symbols, sp.Matrix([expression]), "numpy")(*values.values()), dtype=float)
+    assert np.abs(numbers).max(initial=0.0) < 1e-12 * 100  # sums of tens of numbers of order 1 to 10
+
+
+@pytest.mark.parametrize("name", SMALL)
+def test_sympy_itself_finds_the_same_jacobian_gamma_and_masses(name):
+    e = symgen.load(name).equations
+    q, v = (sp.Matrix(list(s.values())) for s in (e.q, e.v))
+    for i, row in enumerate(e.derived.rows):
+        if row.phi is not None:
+            vanishes(e, (sp.Matrix([e.Phi[i]]).jacobian(q) * e.N - e.D[i, :]))
+            vanishes(e, sp.diff(e.Phi[i], e.t) + e.nu[i])
+        level = e.D[i, :].dot(v) - e.nu[i] if e.D[i, :] else sp.S(0)
+        vanishes(e, differentiated(e, level) + e.gamma[i])
+    vanishes(e, sp.hessian(e.T, list(v)) - e.M if e.T != 0 else sp.S(0))
+
+
+def test_symbols_have_the_names_of_the_file():
+    e = symgen.load("four-bar").equations
+    assert list(e.q)[:3] == ["crank.x", "crank.y", "crank.theta"]
+    assert list(e.v)[2] == "crank.omega"
+    assert list(e.parameters) == ["crank_mass", "coupler_mass", "rocker_mass"]
+    assert e.rows[2] == "B.x"
+    assert e.D[2, 2] == sp.sin(e.q["crank.theta"])
+    assert e.M[0, 0] == e.parameters["crank_mass"]
+    assert e.coordinates == "absolute"
+    assert symgen.load("four-bar").equations_in("joint").coordinates == "joint"
+
+
+def test_shared_terms_have_names_and_mean_what_is_written_without_them():
+    e = symgen.load("spherical-double-pendulum").equations
+    shared = e.shared()
+    names = {s.name for s in shared.definitions}
+    assert any(name.endswith(".a00") for name in names)
+    planar = symgen.load("four-bar").equations
+    known = {s.name: value for s, value in planar.shared().definitions.items()}
+    assert known["crank.c"] == sp.cos(planar.q["crank.theta"])
+    written = shared.gamma
+    for symbol, value in reversed(shared.definitions.items()):
+        written = written.subs(symbol, value)
+    vanishes(e, written - e.gamma)
+
+
+def test_values_replace_symbols_everywhere():
+    e = symgen.load("four-bar").equations
+    changed = e.subs({"crank_mass": 2, e.q["crank.theta"]: 0})
+    assert changed.M[0, 0] == 2
+    assert changed.D[2, 2] == 0
+    assert changed.shared().subs({"crank_mass": 3}).M[0, 0] == 3
+    rng = np.random.default_rng(1)
+    q, v = rng.uniform(size=9), rng.uniform(size=9)
+    found = changed.lambdify("D", "f")(0.0, q, v)
+    q[2] = 0.0
+    expected = e.lambdify("D", "f")(0.0, q, v, [2.0, *list(symgen.load("four-bar").parameters().values())[1:]])
+    close(found[0], expected[0])
+    close(found[1], expected[1])
+    with pytest.raises(InputError, match="crank_mass"):
+        e.subs({"crank_mas": 1})
+
+
+def test_what_is_too_large_is_written_with_shared_terms_and_says_so(monkeypatch):
+    monkeypatch.setattr(reading, "LARGEST", 40)
+    e = symgen.load("four-bar").equations
+    assert any(note.startswith("gamma would have 54 operations") for note in e.notes)
+    assert e.definitions
+    assert {s.name for s in e.gamma.free_symbols} & {s.name for s in e.definitions}
+    assert symgen.load("pendulum").equations.notes == ()
+
+
+def test_latex_and_notebooks():
+    e = symgen.load("four-bar").equations
+    assert r"\theta_{\mathrm{crank}}" in e.latex("Phi")
+    assert e._repr_latex_().startswith("$")
+    page = e._repr_html_()
+    assert "<details>" in page and "four-bar" in page
+    with pytest.raises(InputError, match="quantity"):
+        e.quantity("Psi")
+
+
+def test_a_model_with_equations_can_be_pickled():
+    model = symgen.load("pendulum")
+    assert model.equations.T != 0
+    assert pickle.loads(pickle.dumps(model)).equations.M == model.equations.M

@@ -1,0 +1,154 @@
+"""Pages of derived equations: what stands in them, links that lead somewhere, text from files as text."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+
+from symgen.cli import main
+from symgen.describe import load
+from symgen.formulate.formulate import formulate
+from symgen.lower.model import lower_model
+from symgen.reading import page as pages
+from symgen.reading.patterns import of_factor
+
+#: Elements without an end.
+VOID = {"meta", "link"}
+
+
+class Reader(HTMLParser):
+    """Checks nesting, and gathers ids and links."""
+
+    def __init__(self, text):
+        super().__init__(convert_charrefs=True)
+        self.open, self.ids, self.links, self.tags = [], [], [], []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        given = dict(attrs)
+        self.tags.append((tag, given))
+        if "id" in given:
+            self.ids.append(given["id"])
+        if tag == "a":
+            self.links.append(given["href"])
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.handle_starttag(tag, attrs)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag, (tag, self.getpos())
+
+
+def page_of(name, tmp_path, *arguments):
+    path = tmp_path / "page.html"
+    assert main(["inspect", str(name), "-o", str(path), *arguments]) == 0
+    text = path.read_text(encoding="utf-8")
+    return text, Reader(text)
+
+
+@pytest.fixture(scope="module")
+def four_bar(tmp_path_factory):
+    return page_of("four-bar", tmp_path_factory.mktemp("page"))
+
+
+def test_a_page_is_whole_and_its_links_lead_somewhere(four_bar):
+    text, found = four_bar
+    assert len(set(found.ids)) == len(found.ids)
+    assert {link[1:] for link in found.links} <= set(found.ids)
+    assert "default-src 'none'" in text
+    outside = [v for _, given in found.tags for k, v in given.items() if k in ("src", "href") and not v.startswith("#")]
+    assert outside == ["data:,"]
+
+
+def test_a_joint_leads_to_its_rows_its_lines_in_the_file_and_its_emitted_lines(four_bar):
+    text, _ = four_bar
+    part = text[text.index('id="rows-B"') : text.index('id="rows-C"')]
+    file_line = int(re.search(r'href="#file-(\d+)"', part)[1])
+    assert re.search(rf'<span id="file-{file_line}">\[joints\.B\]', text)
+    line = re.search(r'href="#line-(\d+)">crank\.omega: <code>(w\[\d+\] = \w+)</code>', part)
+    assert f'<span id="line-{line[1]}">    {line[2]}  <a href="#row-B.x"># B.x: crank.omega</a></span>' in text
+
+
+def test_everything_that_was_promised_is_there(four_bar):
+    text, found = four_bar
+    for ident in ("sketch", "topology", "coordinates", "rows", "patterns", "motion", "law", "operations", "left-out"):
+        assert ident in found.ids
+    assert text.count("<svg") >= 3  # the sketch and two patterns
+    assert "<mtable>" in text and "the mechanism is planar" in text
+    assert "gyroscopic terms" in text
+
+
+def test_joint_coordinates_have_their_tree(tmp_path):
+    text, _ = page_of("four-bar", tmp_path, "--coordinates", "joint")
+    assert "the tree; loops are closed by" in text
+    assert "It carries a body in the tree: it has no rows." in text
+
+
+def test_text_of_a_file_is_text(tmp_path):
+    path = tmp_path / "evil.toml"
+    path.write_text(
+        '[mechanism]\nname = "evil"\ntitle = "</title><script>alert(1)</script>"\ngravity = [0, -9.81]\n'
+        '# </pre><img src=x onerror="alert(2)">\n'
+        '[parameters]\nm = { value = 1.0, unit = "<b>kg</b>" }\n'
+        '[bodies.a]\nmass = "m"\ninertia = 1.0\n[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\n'
+        "at = [[0, 0], [0.5, 0]]\n"
+    )
+    text, found = page_of(path, tmp_path)
+    assert "<script>alert" not in text and "<img" not in text and "<b>kg" not in text
+    assert [tag for tag, _ in found.tags].count("script") == 2
+
+
+def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatch):
+    monkeypatch.setattr(pages, "LARGEST", 50_000)
+    text, found = page_of("four-bar", tmp_path)
+    assert "is left out, as the page would be larger than 50000 bytes" in text
+    assert {link[1:] for link in found.links} <= set(found.ids)
+
+
+def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_path, capsys):
+    path = tmp_path / "page.html"
+    assert main(["inspect", "n-four-bar:400", "-o", str(path)]) == 2
+    assert "at most 1500 constraint rows and velocities for a page" in capsys.readouterr().err
+    assert not path.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["-o", "x.pdf"], "ends in .html"),
+        (["-o", "x.html", "--json"], "beside it"),
+        (["-o", "x.html", "--format", "latex"], "beside it"),
+        (["-o", "no/such/folder/x.html"], "a folder that exists"),
+    ],
+)
+def test_what_means_nothing_is_refused(arguments, word, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(["inspect", "pendulum", *arguments]) == 2
+    assert word in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_mechanism_that_does_not_close_is_drawn_as_described(tmp_path):
+    path = tmp_path / "open.toml"
+    path.write_text(
+        '[mechanism]\nname = "open"\ngravity = [0, -9.81]\n'
+        "[bodies.a]\nmass = 1.0\ninertia = 1.0\npoints = { P = [0.5, 0.0], Q = [-0.5, 0.0] }\n"
+        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], "P"]\n'
+        '[joints.k]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[9, 0], "Q"]\n'
+    )
+    text, _ = page_of(path, tmp_path)
+    assert "It does not close, and is drawn as described" in text
+
+
+@pytest.mark.parametrize("name", ["four-bar", "andrews", "n-four-bar:3", "bricard"])
+def test_the_factor_that_is_drawn_is_the_one_that_is_compiled(name):
+    equations = formulate(load(name))
+    program = lower_model(equations, "")
+    entries = of_factor(equations, program.order)
+    assert sum(kind == "f" for kind in entries.values()) == program.fill
+    assert len(entries) - equations.m == program.layout.sections["lower"][1]
