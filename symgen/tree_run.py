@@ -147,7 +147,7 @@ class TreeRun:
         return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CarriedOutcome(Outcome):
     """What a run in joint coordinates gave, as the motion of bodies.
 

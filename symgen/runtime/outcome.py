@@ -32,7 +32,7 @@ class RankEvent:
     smallest_pivot: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Outcome:
     """What a run gave; arrays have one row an output.
 
@@ -72,6 +72,9 @@ class Outcome:
     happened: tuple[Happening, ...] = ()
     accumulation: float | None = None
     held: tuple[tuple[float, Array], ...] = field(default=(), repr=False)
+
+    def __repr__(self) -> str:
+        return f"<Outcome of {self.compiled.info.name}: {len(self.times)} outputs until {self.end:g} s>"
 
     @property
     def accelerations(self) -> Array:
