@@ -65,7 +65,7 @@ def simulate(model: str | Path | Mechanism | Model, settings: Settings | None = 
     return load(model).simulate(settings, **changes)  # type: ignore[arg-type]  # names are checked by changed
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Model:
     """A mechanism that can be compiled and run.
 
@@ -268,6 +268,9 @@ class Model:
 
     def _repr_svg_(self) -> str:
         return self.draw().svg
+
+    def __repr__(self) -> str:
+        return repr(self.mechanism).replace("<Mechanism", "<Model", 1)
 
     def simulate(
         self, settings: Settings | None = None, progress: Callable[[float], None] | None = None, **changes: object

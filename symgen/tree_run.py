@@ -148,7 +148,7 @@ class TreeRun:
         return found
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class CarriedOutcome(Outcome):
     """What a run in joint coordinates gave, as the motion of bodies.
 

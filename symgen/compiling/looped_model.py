@@ -27,7 +27,7 @@ _UNITS |= {"wz": "rad/s", "x": "m", "y": "m", "z": "m", "e0": "1", "e1": "1", "e
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LoopedModel(CompiledModel):
     """A compiled model in the looped shape: shared code and tables of its own.
 

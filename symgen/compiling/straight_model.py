@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @final
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class StraightModel(CompiledModel):
     """A compiled model in the straight shape: code for one mechanism alone."""
 

@@ -40,6 +40,12 @@ class MechanismBuilder:
     def __init__(self, name: str, **keys: Any) -> None:
         self._raw: dict[str, dict[str, Any]] = {"mechanism": {"name": name} | _plain(keys)}
 
+    def __repr__(self) -> str:
+        told = ", ".join(
+            f"{len(entries)} {section}" for section, entries in self._raw.items() if section != "mechanism"
+        )
+        return f"<MechanismBuilder {str(self._raw['mechanism']['name'])[:60]}: {told or 'nothing yet'}>"
+
     def run(self, **keys: float) -> Self:
         """Set run defaults: ``until``, ``step``, ``output_step``, ``predictable_until`` [s]."""
         self._raw["run"] = self._raw.get("run", {}) | _plain(keys)

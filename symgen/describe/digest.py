@@ -53,6 +53,19 @@ def digest(mechanism: Mechanism) -> str:
     return hashlib.sha256(canonical(mechanism).encode()).hexdigest()
 
 
+def identity(mechanism: Mechanism) -> str:
+    """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
+
+    Shapes stay outside, as nothing is computed with them.
+    """
+    import hashlib
+
+    plain = msgspec.structs.replace(mechanism, shapes=())
+    # the text of structs, which older folders of sweeps and journals were named by
+    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "")
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def _table(table: Table) -> list[str]:
     """Return what a table is; one of straight lines is what it was when there were no others."""
     how = [] if table.interpolation == "linear" else [table.interpolation, str(table.periodic)]

@@ -352,6 +352,16 @@ class Mechanism(msgspec.Struct, frozen=True):
     shapes: tuple[tuple[str, Shape], ...] = ()  # body -> what it looks like, several entries for several shapes
     topology: Topology | None = None  # where joint coordinates are the state; joints of the tree have no rows then
 
+    def __repr__(self) -> str:
+        counted = (
+            (self.bodies, "body", "bodies"),
+            (self.joints, "joint", "joints"),
+            (self.forces, "force", "forces"),
+            (self.parameters, "parameter", "parameters"),
+        )
+        told = ", ".join(f"{len(each)} {one if len(each) == 1 else more}" for each, one, more in counted)
+        return f"<Mechanism {self.name}, {self.space}: {told}>"
+
     @property
     def inputs(self) -> tuple[str, ...]:
         """Names of the inputs, which stand behind the other parameters."""

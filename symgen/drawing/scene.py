@@ -140,7 +140,7 @@ class Frame:
     size: int
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Scene:
     """What is drawn of a mechanism.
 
@@ -167,6 +167,9 @@ class Scene:
     unit: float
     frames: tuple[Frame, ...]
     items: tuple[Item, ...]
+
+    def __repr__(self) -> str:
+        return f"<Scene of {self.name}: {len(self.items)} items>"
 
 
 class Poses:

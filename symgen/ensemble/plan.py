@@ -15,6 +15,7 @@ from symgen.compiling.choose_shape import LARGEST_STRAIGHT
 from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
+from symgen.describe.digest import identity
 from symgen.describe.holds import ORIENTATION
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
@@ -45,7 +46,7 @@ CHUNK_BYTES_CUDA = 128e6
 _OPERATION, _EVALUATIONS = 4e-10, 1e4
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Ensemble:
     """Many runs of one model, fully resolved.
 
@@ -79,6 +80,9 @@ class Ensemble:
     recipe: Recipe
     notes: tuple[str, ...] = ()
     constant: Mapping[str, Expr] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        return f"<Ensemble of {self.model.name}: {len(self)} runs with {self.plan.choice.method.name}>"
 
     def __len__(self) -> int:
         return len(self.grid)
@@ -131,7 +135,7 @@ class Ensemble:
         settled = sorted(formulas & set(self.settings.parameters))  # these have numbers in place of their formulas
         return {
             **({"settled": settled} if settled else {}),
-            "mechanism": hashlib.sha256(repr(self.model.mechanism).encode()).hexdigest(),
+            "mechanism": identity(self.model.mechanism),
             "varied": found.hexdigest(),
             "parameters": self.parameters,
             "start": {name: repr(value) for name, value in self.constant.items()},

@@ -22,6 +22,7 @@ from symgen.errors import InputError, nearest
 from symgen.files import write_whole
 from symgen.result.contract import finite
 from symgen.result.export import check_path, need, netcdf
+from symgen.result.labelled import html_table
 from symgen.result.result import FAILED, OK, UNVERIFIED
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ NUMBERS: Mapping[str, tuple[str, bool]] = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Sweep:
     """What an ensemble gave; arrays have one row a run, in the order of the grid, whose last axis changes fastest.
 
@@ -81,6 +82,15 @@ class Sweep:
 
     def __len__(self) -> int:
         return len(self.ensemble)
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{count} {status}" for status, count in self.counts.items() if count)
+        return f"<Sweep of {self.ensemble.model.name}: {len(self)} runs, {told}>"
+
+    def _repr_html_(self) -> str:
+        facts = [("mechanism", self.ensemble.model.name), ("runs", str(len(self)))]
+        facts += [(status, str(count)) for status, count in self.counts.items() if count]
+        return html_table((), [*facts, ("seconds", f"{self.seconds:.3g}")])
 
     @cached_property
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from html import escape
 from typing import Any, Protocol
 
 import numpy as np
@@ -90,9 +91,28 @@ class Labelled:
     def __len__(self) -> int:
         return len(self.names)
 
+    def _repr_html_(self) -> str:
+        def extremes(i: int) -> tuple[str, str, str]:
+            column = self.values[:, i]
+            return (f"{column.min():.6g}", f"{column.max():.6g}", f"{column[-1]:.6g}") if len(column) else ("", "", "")
+
+        rows = [(name, self.units[i], *extremes(i)) for i, name in enumerate(self.names)]
+        return html_table(("", "unit", "smallest", "largest", "last"), rows, most=60)
+
     def __repr__(self) -> str:
         shown = ", ".join(self.names[:6]) + (", ..." if len(self.names) > 6 else "")
         return f"Labelled({self.values.shape[0]} outputs of {len(self.names)}: {shown})"
+
+
+def html_table(headings: Sequence[str], rows: Sequence[Sequence[str]], most: int = 200) -> str:
+    """Return a table for notebooks, all of its texts escaped; of more than `most` rows the first ones."""
+
+    def row(cells: Sequence[str], tag: str) -> str:
+        return "<tr>" + "".join(f"<{tag} style='text-align:left'>{escape(cell)}</{tag}>" for cell in cells) + "</tr>"
+
+    head = row(headings, "th") if headings else ""
+    left = [f"<tr><td>... {len(rows) - most} more</td></tr>"] if len(rows) > most else []
+    return f"<table>{head}{''.join([row(cells, 'td') for cells in rows[:most]] + left)}</table>"
 
 
 class Quantity(Protocol):

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from symgen.runtime.outcome import Motion
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Measured:
     """What quantities beside the state are evaluated from.
 
@@ -35,6 +35,9 @@ class Measured:
     mechanism: Mechanism
     outcome: Motion
     multipliers: Callable[[], Array]
+
+    def __repr__(self) -> str:
+        return f"<Measured of {self.mechanism.name} at {len(self.outcome.times)} outputs>"
 
     def columns(self, table: str) -> tuple[Column, ...]:
         """Return the columns of a table of `symgen.describe.outputs`: names, units and formulas."""

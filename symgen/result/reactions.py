@@ -40,7 +40,7 @@ def seats(mechanism: Mechanism, parameters: Mapping[str, float]) -> dict[str, Se
     return found
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Forces:
     """What multipliers and reactions are computed from.
 
@@ -54,6 +54,9 @@ class Forces:
 
     outcome: Motion
     seats: Mapping[str, Seat]
+
+    def __repr__(self) -> str:
+        return f"<Forces of {len(self.seats)} joints at {len(self.outcome.times)} outputs>"
 
     @property
     def compiled(self) -> CompiledModel:

@@ -34,7 +34,7 @@ _START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_
 _LIGHT = e.SUMMARY.index("light")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Start:
     """A consistent start.
 
@@ -76,6 +76,10 @@ class Start:
     t: float = 0.0
     work: float = 0.0
     saved: Mapping[str, NDArray[Any]] | None = None
+
+    def __repr__(self) -> str:
+        told = f", {len(self.warnings)} warnings" if self.warnings else ""
+        return f"<Start at {self.t:g} s: {len(self.y)} numbers of the state, rank {self.rank}{told}>"
 
 
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:

@@ -60,6 +60,9 @@ class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
     inputs: tuple[str, ...] = ()
     integrals: int = 0
 
+    def __repr__(self) -> str:
+        return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
+
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
         result: dict[str, Any] = msgspec.to_builtins(self)
@@ -119,7 +122,7 @@ class LawInfo(msgspec.Struct, frozen=True):
         return result
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CompiledModel(ABC):
     """Emitted functions of one model and one method, ready for the loops, in one of the shapes of code.
 
@@ -142,6 +145,11 @@ class CompiledModel(ABC):
 
     def __deepcopy__(self, memo: dict[int, Any]) -> CompiledModel:
         return self  # nothing of it ever changes
+
+    def __repr__(self) -> str:
+        info = self.info
+        told = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
+        return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {told}>"
 
     @property
     @abstractmethod

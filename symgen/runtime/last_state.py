@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class LastState:
     """The last state of a run.
 
@@ -54,6 +54,9 @@ class LastState:
     made: Mapping[str, Any] | None = None
     failed: str = ""
     arrays: Mapping[str, NDArray[Any]] | None = None
+
+    def __repr__(self) -> str:
+        return f"<LastState of {self.mechanism} at {self.t:g} s: {len(self.q)} coordinates>"
 
     @property
     def last_state(self) -> LastState:

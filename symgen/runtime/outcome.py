@@ -178,7 +178,7 @@ class PrescribedMotion(Motion):
         return status
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Outcome(Motion):
     """What a run gave: its motion at the outputs, and how the loop went.
 
@@ -207,6 +207,9 @@ class Outcome(Motion):
     simulation: Simulation = field(repr=False)
     happened: tuple[Happening, ...] = ()
     accumulation: float | None = None
+
+    def __repr__(self) -> str:
+        return f"<Outcome of {self.compiled.info.name}: {len(self.times)} outputs until {self.end:g} s>"
 
 
 def _rows_of(arrays: Any, first: int, last: int) -> Any:

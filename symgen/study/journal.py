@@ -23,7 +23,8 @@ from symgen.errors import InputError, SimulationError
 if TYPE_CHECKING:
     from filelock import BaseFileLock
 
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.digest import identity
+from symgen.describe.mechanism import Mechanism
 
 #: First line of every journal; the number changes when the form of lines does.
 FORM = 1
@@ -77,7 +78,7 @@ def _canonical(value: Any, depth: int) -> Any:
 
 def mechanism_identity(mechanism: Mechanism) -> str:
     """Return a digest of a whole mechanism: equations, start, values of parameters and defaults."""
-    return hashlib.sha256(repr(mechanism).encode()).hexdigest()
+    return identity(mechanism)
 
 
 @lru_cache(maxsize=1)

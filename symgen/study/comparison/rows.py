@@ -13,6 +13,7 @@ from symgen.arguments import path as argument_path
 from symgen.errors import InputError
 from symgen.files import check_writable, write_csv
 from symgen.result.contract import finite
+from symgen.result.labelled import html_table
 from symgen.result.result import FAILED
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
@@ -155,7 +156,7 @@ def with_ratios(rows: Sequence[Row]) -> tuple[Row, ...]:
     return tuple(found)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Study:
     """Rows of one mechanism against one reference.
 
@@ -202,6 +203,26 @@ class Study:
     parameters: Mapping[str, float] = field(default_factory=dict)
     options: Mapping[str, str | float] = field(default_factory=dict)
     repeat: int = 1
+
+    def __repr__(self) -> str:
+        methods = len({row.label for row in self.rows})
+        return f"<Study of {self.mechanism}, {self.until:g} s: {len(self.rows)} rows of {methods} methods; {self.how}>"
+
+    def _repr_html_(self) -> str:
+        headings = ("method", "integrator", "step or rtol", "status", "error [m]", "run [ms]", "x lagrange", "|Phi|")
+        rows = [
+            (
+                *(row.label, row.integrator),
+                f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s",
+                row.status,
+                "" if row.error is None else f"{row.error:.2e}",
+                f"{1e3 * row.run_seconds:.3f}",
+                "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}",
+                f"{row.position_violation_max:.1e}",
+            )
+            for row in self.rows
+        ]
+        return html_table(headings, rows, most=60)
 
     @property
     def failed(self) -> bool:
