@@ -52,7 +52,9 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case", [pytest.param(c, marks=[pytest.mark.slow] if c.startswith("velocities") else []) for c in CASES]
+)
 def test_what_is_proposed_works(case, folder, capsys):
     words, about = CASES[case]
     assert main(["run", *words, "--json"]) == 1

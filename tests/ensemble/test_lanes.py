@@ -33,12 +33,12 @@ def scale(values):
     ("method", "options"),
     [
         ("lagrange", {}),
-        ("baumgarte", {"method.alpha": 3.0}),
-        ("penalty", {}),
         ("direct-correction", {}),
-        ("direct-correction", {"method.weight": "mass"}),
-        ("post-stabilization", {}),
-        ("velocity-projection", {}),
+        pytest.param("baumgarte", {"method.alpha": 3.0}, marks=pytest.mark.slow),
+        pytest.param("penalty", {}, marks=pytest.mark.slow),
+        pytest.param("direct-correction", {"method.weight": "mass"}, marks=pytest.mark.slow),
+        pytest.param("post-stabilization", {}, marks=pytest.mark.slow),
+        pytest.param("velocity-projection", {}, marks=pytest.mark.slow),
     ],
 )
 def test_planar_rows_are_those_of_single_runs(method, options):

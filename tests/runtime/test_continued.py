@@ -131,7 +131,7 @@ def test_an_end_between_two_steps_begins_a_new_grid():
 @pytest.mark.parametrize(
     ("method", "integrator"),
     [
-        ("lagrange", "radau5"),
+        pytest.param("lagrange", "radau5", marks=pytest.mark.slow),
         pytest.param("ggl", "radau5", marks=pytest.mark.slow),
         pytest.param("lagrange", "sdirk", marks=pytest.mark.slow),
     ],

@@ -349,7 +349,7 @@ def test_a_body_in_space_is_struck_about_one_of_its_axes(shape):
 @pytest.mark.parametrize(
     ("settings", "tolerance"),
     [
-        ({"integrator": "abm4", "step": 2e-4}, 1e-9),
+        pytest.param({"integrator": "abm4", "step": 2e-4}, 1e-9, marks=pytest.mark.slow),
         ({"integrator": "rk4", "step": 2e-4}, 1e-10),
         pytest.param({"integrator": "abm", "rtol": 1e-11, "atol": 1e-11}, 1e-8, marks=pytest.mark.slow),
     ],

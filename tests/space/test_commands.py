@@ -17,7 +17,9 @@ ENTRIES = {
 }
 
 
-@pytest.mark.parametrize("name", ENTRIES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.slow] if n == "flyball-governor" else []) for n in ENTRIES]
+)
 def test_inspect(name, capsys):
     assert main(["inspect", name, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

@@ -18,6 +18,7 @@ def place(mechanism, result, body, name):
     return point(result, body, np.array(local) - [evaluate(e, values) for e in described.centre_of_mass])
 
 
+@pytest.mark.slow
 def test_places_and_loads_of_the_benchmark():
     mechanism = load("front-suspension")
     _, result = run("front-suspension", integrator="rk4", step=1e-3, until=2e-3)

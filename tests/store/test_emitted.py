@@ -143,7 +143,9 @@ class TestCache:
         assert second["y"] == first["y"]
         assert second["load_seconds"] > 0 and second["compile_seconds"] == 0
 
-    @pytest.mark.parametrize("name", ["rhs", "geometry", "table"])
+    @pytest.mark.parametrize(
+        "name", ["table", *(pytest.param(name, marks=pytest.mark.slow) for name in ("rhs", "geometry"))]
+    )
     def test_whatever_is_odd_is_a_miss(self, law, cache, python, name, tmp_path):
         good = python(RUN, law)
         witness = tmp_path / "witness"
