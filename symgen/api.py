@@ -527,6 +527,7 @@ class Model:
         at: str | float = "equilibrium",
         states: Sequence[str] = (),
         cyclic: Sequence[str] = (),
+        count: int | None = None,
         **changes: object,
     ) -> Modes:
         """Return eigenvalues, frequencies, damping and shapes about a state of rest or of steady motion.
@@ -540,6 +541,9 @@ class Model:
             leads to, or the state at a time of a run [s].
         states, cyclic
             As for `linearise`.
+        count : int, optional
+            Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
+            matrices from looped code, for mechanisms of any size.
         **changes
             Single settings.
 
@@ -552,7 +556,7 @@ class Model:
         """
         from symgen.analyses.asked import asked_modes
 
-        return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic)
+        return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
 
     def linearise(
         self,

@@ -222,9 +222,18 @@ def asked_modes(
     run: Callable[[Settings], Result],
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
+    count: int | None = None,
 ) -> Modes:
     """Return the modes at a place; see `symgen.api.Model.modes`."""
     states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    if count is not None:
+        from symgen.analyses.large import lowest_modes
+
+        if states or cyclic or place_of(at) != "equilibrium":
+            raise InputError(
+                "count", "modes about an equilibrium, without states of their own", "another place, or states"
+            )
+        return lowest_modes(mechanism, settings, arguments.whole("count", count, 1, 10_000))
     subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
     return modes(subject, y, None, states)
 

@@ -352,8 +352,13 @@ def reduced_squares(mass: Array, stiffness: Array) -> Array:
         stiffness, mass = a.T @ stiffness @ (a + b @ follow), a.T @ mass @ a
     size = np.abs(stiffness).max(initial=0.0)
     if np.abs(stiffness - stiffness.T).max(initial=0.0) <= 1e-9 * size:
-        return np.asarray(linalg.eigh(symmetric(stiffness), symmetric(mass), eigvals_only=True))
-    return np.sort(np.real(linalg.eigvals(stiffness, mass)))
+        return rounded(np.asarray(linalg.eigh(symmetric(stiffness), symmetric(mass), eigvals_only=True)))
+    return rounded(np.sort(np.real(linalg.eigvals(stiffness, mass))))
+
+
+def rounded(squares: Array) -> Array:
+    """Return squares of frequencies with 0 in the place of those that are nothing but rounding of the others."""
+    return np.where(np.abs(squares) <= 1e-14 * len(squares) * np.abs(squares).max(initial=0.0), 0.0, squares)
 
 
 def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple[Equilibrium, ...]:

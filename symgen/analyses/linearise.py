@@ -87,7 +87,7 @@ class LinearSystem:
 def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
     found = np.asarray(values, dtype=np.complex128) + 0.0
-    grain = 1e-9 * np.abs(found).max(initial=0.0) or 1.0
+    grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
     return found[np.lexsort((-found.imag, -np.round(found.real / grain)))]
 
 
@@ -135,7 +135,7 @@ def named_states(
     resting = at_rest(subject, x)
     if states:
         names = with_rates(subject, states)
-        rows = np.array([x.quantity(name).changes[: x.size] for name in names])
+        rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
         if np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)) < len(names):
             raise InputError("states", "states that do not depend on each other", ", ".join(names))
     elif resting or instantaneous:
@@ -151,7 +151,7 @@ def named_states(
 
 def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
     n, form = x.size, subject.form
-    changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), -1)
+    changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()
     inputs = subject.mechanism.inputs
     numbers = [p.name for p in subject.compiled.info.parameters]

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.equilibrium import rounded
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.steady import at_rest, system
@@ -118,6 +119,9 @@ def modes(
     """
     x = tangent(subject, y, t)
     names = named_states(subject, x, states, False, where)
+    if not x.size:
+        nothing = np.zeros(0, dtype=np.complex128)
+        return Modes(nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t)
     if states or not at_rest(subject, x):
         values, vectors = np.linalg.eig(system(x, names)[0])
         return _sorted(values, vectors.T, names, x, {name: x.quantity(name).value for name in names})
@@ -201,7 +205,7 @@ def _undamped(subject: Subject, x: Tangent) -> tuple[Array, Array] | None:
         values, vectors = linalg.eigh(symmetric(stiffness), mass)
     except linalg.LinAlgError:
         return None
-    return np.asarray(values), np.asarray(vectors)
+    return rounded(np.asarray(values)), np.asarray(vectors)
 
 
 def by_body(x: Tangent, along: Array | Complex) -> dict[str, Array]:

@@ -39,7 +39,7 @@ def at_rest(subject: Subject, x: Tangent) -> bool:
     moving = np.abs(x.y[subject.nq : subject.nq + subject.nv]).max(initial=0.0)
     if moving > STILL * (1.0 + _speed_of_change(subject)):
         return False
-    driven = max(np.abs(x.base.by(g, "t")).max(initial=0.0) for g in ("balance", "velocities", "accelerations"))
+    driven = max(np.abs(x.base.by(g, "t")).max(initial=0.0) for g in ("balance", "velocities", "positions"))
     return bool(np.abs(x.a).max(initial=0.0) <= _limit(subject, x) and driven == 0.0)
 
 
@@ -152,8 +152,9 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     """
     found = [x.quantity(name) for name in names]
     n = x.size
-    states = np.array([q.changes for q in found]).reshape(len(found), -1)
-    rates = np.array([q.rate_changes for q in found]).reshape(len(found), -1)
+    width = n + len(x.inputs)
+    states = np.array([q.changes for q in found]).reshape(len(found), width)
+    rates = np.array([q.rate_changes for q in found]).reshape(len(found), width)
     a = np.linalg.lstsq(states[:, :n].T, rates[:, :n].T, rcond=1e-11)[0].T
     rest = rates[:, :n] - a @ states[:, :n]
     return a, rates[:, n:] - a @ states[:, n:], rest, 1e-300 + np.abs(rates[:, :n]).max(initial=0.0) + np.zeros(len(a))
@@ -197,7 +198,7 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str)
     _check_still(subject, x, names, where)
     a, _, rest, sizes = system(x, names)
     worst = np.abs(rest).max(axis=1, initial=0.0) / sizes
-    if len(names) and worst.max() > CLOSED:
+    if worst.max(initial=0.0) > CLOSED:
         name = names[int(worst.argmax())]
         others = [n for n in quantities_of(subject) if n not in names]
         gains = {n: _explains(x, rest[int(worst.argmax())], n) for n in others}

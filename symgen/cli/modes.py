@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 @click.command("modes", short_help="Find frequencies, damping and shapes about a state.")
 @click.argument("model")
 @place_options
+@click.option("--count", type=int, metavar="N", help="Only that many of the lowest modes, by sparse matrices.")
 @click.option(
     "--over", metavar="NAME=lin(A,B,N)", help="A parameter over which eigenvalues are followed: a root locus."
 )
@@ -30,6 +31,7 @@ def command(
     at: str,
     states: str | None,
     cyclic: str | None,
+    count: int | None,
     over: str | None,
     plot: str | None,
     as_json: bool,
@@ -42,11 +44,13 @@ def command(
     settings = Settings(**asked)
     if plot is not None and over is None:
         raise InputError("--plot", "a root locus, asked for with --over", "no --over")
+    if count is not None and over is not None:
+        raise InputError("--count", "all modes with --over", "both")
     path = output_file("--plot", plot, "plot")
     where = {"at": at, "states": names("--states", states), "cyclic": names("--cyclic", cyclic)}
     loaded = load(model)
     if over is None:
-        found = loaded.modes(settings, **where)  # type: ignore[arg-type]  # of one type each
+        found = loaded.modes(settings, count=count, **where)  # type: ignore[arg-type]  # of one type each
         if as_json:
             write_json({"mechanism": loaded.name, **found.to_dict()})
         else:

@@ -22,6 +22,8 @@ from symgen.vocabulary.measures import Measure
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
 #: What single forces add to the balance follows as ``elements``.
+#: Groups that are differentiated by time as well; the third derivative of a cubic table does not exist.
+TIMED = ("motion", "balance", "velocities", "positions")
 #: Name of the emitted function.
 NAME = "linearised"
 
@@ -95,16 +97,19 @@ def lower_linearised(
     elements, parts = _elements(model)
     values, sizes = values | {"elements": parts}, sizes | {"elements": len(parts)}
     functions, nodes = _functions(model, equations)
+    count = sum(sizes.values())
     outputs = [node for group in sizes for node in values[group]] + nodes
     names = [p.name for p in mechanism.parameters]
     spaces = {"t": "t", "q": "q", "v": "v", "ydot": "a", "multipliers": "lam", "p": "p"}
     nq, nv = equations.nq, equations.nv
-    keys: list[Key] = [("t", 0)]
-    keys += [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
+    keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
     keys += [("p", names.index(name)) for name in by]
+    timed = [node for group in TIMED for node in values[group]]
+    by_time = dict(zip(timed, jacobian(g, timed, [("t", 0)]), strict=True))
     pattern, derivatives = [], []
     for i, slopes in enumerate(jacobian(g, outputs, keys)):
+        slopes = {**slopes, **(by_time.get(outputs[i], {}) if i < count else {})}
         for space, index in sorted(slopes):
             pattern.append((i, spaces[space], index - nq if space == "ydot" else index))
             derivatives.append(slopes[space, index])
@@ -188,6 +193,8 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
             chain += model.rates(chain[-1:])
             if last == "ydot":
                 break
+        if len(chain) == 3 and _has_second_slopes(model, chain[2]):
+            chain.pop()  # it has no derivative
         found.append(Function(name, unit, len(chain)))
         nodes += chain
     return tuple(found), nodes
@@ -196,3 +203,8 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
 def mechanism_bodies(model: SideModel) -> list[str]:
     """Return the names of coordinates and velocities of all bodies."""
     return [f"{b.name}.{c}" for b in model.mechanism.bodies for c in (*b.coordinates, *b.speeds)]
+
+
+def _has_second_slopes(model: SideModel, node: int) -> bool:
+    g = model.graph
+    return any(g.nodes[n].op == "table" and str(g.nodes[n].payload).endswith("''") for n in g.needed([node]))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import sys
+import types
 
 import numpy as np
 import pytest
@@ -111,6 +113,21 @@ def test_four_bar_by_sympy_s_linearizer():
     found = model.linearise(at="start", states=["crank.theta"], start={"crank.theta": rest.q["crank.theta"]})
     assert_allclose(found.A, matrix, rtol=1e-9, atol=1e-9)  # the start is closed to rounding of its positions
     assert_allclose(-found.A[1, 0], 22.57021890188508, rtol=1e-9)
+
+
+def test_a_library_that_is_missing_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "control", None)
+    with pytest.raises(InputError, match="pip install control"):
+        rods.mass_spring_damper().linearise().to_control()
+
+
+def test_names_are_handed_on_to_control(monkeypatch):
+    def ss(*matrices, **names):
+        return [m.shape for m in matrices], names
+
+    monkeypatch.setitem(sys.modules, "control", types.SimpleNamespace(ss=ss))
+    shapes, names = rods.mass_spring_damper().linearise().to_control()
+    assert shapes == [(2, 2), (2, 1), (3, 2), (3, 1)] and names["inputs"] == ["push"]
 
 
 @pytest.mark.parametrize(
