@@ -28,6 +28,7 @@ NAVIGATION = {
     "Start": ("docs/tutorial", "docs/tutorial-space", "docs/tutorials/README", "docs/gallery/README", "docs/findings"),
     "Guides": ("docs/howto/README", "docs/results", "docs/stress", "docs/sweeps"),
     "Theory": ("docs/theory/README", "docs/methods", "docs/integrators", "docs/pairs", "docs/joint-coordinates"),
+    "Analyses": ("docs/equilibrium", "docs/modes", "docs/linearise", "docs/kinematics", "docs/inverse"),
     "Reference": (
         "docs/file-format",
         "docs/drawing",

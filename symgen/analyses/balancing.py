@@ -19,7 +19,9 @@ from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest, quoted
+from symgen.lower.windings import winding_order
 from symgen.plan import make_plan
+from symgen.result.export import PREFIX
 from symgen.result.recorded import Recorded, accelerations
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -28,6 +30,8 @@ from symgen.runtime.outcome import PrescribedMotion
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.runtime.compiled import CompiledModel
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
@@ -152,7 +156,7 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
     still = PrescribedMotion(
         times=np.array(found.t),  # of files it is read-only
         states=states,
-        status_columns=np.zeros((len(found.t), abi.N_STATUS + info.windings)),
+        status_columns=_turned(mechanism, compiled, found),
         compiled=compiled,
         start=start,
         p=start.p,
@@ -179,6 +183,18 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
             if not np.abs(twice - 2.0 * once).max() <= LINEAR * np.abs(once).max(initial=1e-300):
                 raise InputError(WHERE, "inputs that efforts are proportional to", quoted(actuator.name))
     return motions
+
+
+def _turned(mechanism: Mechanism, compiled: CompiledModel, found: Recorded) -> Array:
+    """Return room for the status of a motion, with those angles that count turns that joints have reported."""
+    status = np.full((len(found.t), abi.N_STATUS + compiled.info.windings), np.nan)
+    prefix = PREFIX["joint_coordinates"]
+    names = {m: f"{prefix}{joint.name}.{label}" for joint in mechanism.joints for label, m in joint.coordinates}
+    for i, measure in enumerate(winding_order(mechanism, compiled.shape)):
+        known = found.columns.get(names.get(measure, ""))
+        if known is not None:
+            status[:, abi.N_STATUS + i] = known
+    return status
 
 
 def _solved(

@@ -318,9 +318,10 @@ def checked_times(where: str, given: Any) -> Array:
     InputError
         If they are anything else.
     """
-    found = np.atleast_1d(
-        np.asarray(given if hasattr(given, "dtype") else arguments.numbers(where, given), dtype=float)
-    )
+    kind = getattr(getattr(given, "dtype", None), "kind", "")
+    if kind and kind not in "iuf":
+        raise InputError(where, "a list of finite times", arguments.shown(given))
+    found = np.atleast_1d(np.asarray(given if kind else arguments.numbers(where, given), dtype=np.float64))
     if found.ndim != 1 or not 1 <= len(found) <= MOST_TIMES or not np.all(np.isfinite(found)):
         raise InputError(where, "a list of finite times", arguments.shown(given))
     if not np.all(np.diff(found) > 0.0):

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
-from symgen.result.export import SAVED, need
+from symgen.result.export import PREFIX, SAVED, need
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +33,8 @@ class Recorded:
     t : Array, shape (k,)
         Times [s].
     columns : mapping of str to Array
-        Coordinates, velocities and accelerations by name, each of shape (k,).
+        Coordinates, velocities and accelerations by name, each of shape (k,); coordinates of joints behind ``joint.``,
+        where they are known: angles of these count turns.
     parameters : mapping of str to float
         Values that are known to have held.
     inputs : mapping of str to float or str
@@ -79,6 +80,9 @@ def recorded(motion: Any) -> Recorded:
         raise InputError("motion", "a result of a run, or a motion of kinematics", f"a {type(motion).__name__}")
     tables = motion.q, motion.v, motion.a
     columns = {name: table.values[:, i] for table in tables for i, name in enumerate(table.names)}
+    if hasattr(motion, "joint_coordinates"):
+        joints, prefix = motion.joint_coordinates, PREFIX["joint_coordinates"]
+        columns |= {f"{prefix}{name}": joints[name] for name in joints.names}
     parameters, inputs = getattr(motion, "parameters", {}), getattr(motion, "inputs", {})
     return Recorded("motion", np.asarray(motion.t, dtype=np.float64), columns, dict(parameters), dict(inputs))
 
@@ -115,9 +119,10 @@ def _of_dataset(option: str, path: Path) -> Recorded:
     import xarray as xr
 
     dataset, columns = xr.load_dataset(path, engine="h5netcdf"), dict[str, Array]()
-    for table, labels in (("q", "coordinate"), ("v", "velocity"), ("a", "acceleration")):
-        values = np.asarray(dataset[table].values, dtype=np.float64)
-        columns |= {str(name): values[:, i] for i, name in enumerate(dataset[labels].values)}
+    tables = ("q", "coordinate"), ("v", "velocity"), ("a", "acceleration"), ("joint_coordinates", "joint_coordinate")
+    for table, labels in tables:
+        values, prefix = np.asarray(dataset[table].values, dtype=np.float64), PREFIX[table]
+        columns |= {f"{prefix}{name}": values[:, i] for i, name in enumerate(dataset[labels].values)}
     run = json.loads(dataset.attrs["run"])
     t = np.asarray(dataset["time"].values, dtype=np.float64)
     return Recorded(f"{option} '{path.name}'", t, columns, run["parameters"], run["inputs"])

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from symgen.arguments import path as argument_path
 from symgen.arguments import words
-from symgen.errors import InputError, nearest
+from symgen.errors import MOST_LISTED, InputError, nearest
 from symgen.result.export import PLOTTED, PREFIX, check_path, need
 from symgen.result.labelled import Labelled
 
@@ -88,6 +88,8 @@ class Tables(ABC):
             if group:
                 return group
             known += columns
+        if len(known) > MOST_LISTED and "." not in name:
+            known = [*self.names, *dict.fromkeys(column.partition(".")[0] for column in known)]
         raise InputError(
             f"quantity '{name}'", f"a quantity of {self.mechanism}", "none of that name", nearest(name, known)
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from numba import types
@@ -111,13 +112,16 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
     sizes, p, w
         As for `observe_rates`; the scratch holds the angles before the first state.
     outputs : Outputs
-        Holds states; receives their status.
+        Holds states, and of angles that count turns those that are known, nan for others; receives the status.
     y : Array, shape (ny,)
         Working memory.
     """
     for k in range(outputs.times.shape[0]):
         for i in range(sizes.ny):
             y[i] = outputs.states[k, i]
+        for i in range(outputs.status.shape[1] - _N_STATUS):
+            if math.isfinite(outputs.status[k, _N_STATUS + i]):
+                w[_WINDING + i] = outputs.status[k, _N_STATUS + i]
         geometry(outputs.times[k], y, p, w)
         measure(outputs.times[k], y, p, w)
         for i in range(_N_STATUS):

@@ -166,11 +166,14 @@ class PrescribedMotion(Motion):
         return super()._rates
 
     def measured(self) -> Array:
-        """Return the status of all states, as `status_columns` are, with angles that count turns followed through."""
+        """Return the status of all states, shape of `status_columns`.
+
+        Angles that count turns are those that stand there, and followed from state to state where nan does.
+        """
         from symgen.runtime.observe import observe_status
 
         (sizes, outputs, _), w = self._seen, self.start.w.copy()
-        status = np.zeros((len(self.times), abi.N_STATUS + self.compiled.info.windings))
+        status = self.status_columns.copy()
         model = self.compiled.model
         observe_status(
             model.geometry, model.measure, sizes, outputs._replace(status=status), self.p, w, np.zeros(sizes.ny)

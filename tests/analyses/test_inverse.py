@@ -150,6 +150,7 @@ def test_andrews_gives_its_torque_back():
         assert np.abs(found.reactions[name] - run.reactions[name]).max() < 1e-10 * np.abs(run.reactions.values).max()
 
 
+@pytest.mark.slow
 def test_the_platform_gives_the_efforts_of_its_legs_back():
     platform = symgen.load("stewart-platform")
     run = platform.simulate(until=0.3, step=1e-3, output_step=0.05, shape="looped")
@@ -159,6 +160,36 @@ def test_the_platform_gives_the_efforts_of_its_legs_back():
         efforts = run[f"drive{i}.effort"]
         for other in (found, followed):
             assert np.abs(other.efforts[f"drive{i}"] - efforts).max() < 1e-10 * np.abs(efforts).max()
+
+
+def test_a_rotor_in_space_gives_its_torque_back():
+    """On a pin across its axes of inertia, from more than a turn away: the torque is one of t and of its angle."""
+    rotor = model(
+        {
+            "mechanism": {"name": "rotor", "space": "spatial", "gravity": [0.0, 0.0, -9.81]},
+            "bodies": {
+                "rotor": {"mass": 2.0, "inertia": [0.1, 0.2, 0.3], "centre_of_mass": [0.1, 0.0, 0.2]},
+            },
+            "joints": {
+                "pin": {
+                    "type": "revolute",
+                    "between": ["ground", "rotor"],
+                    "at": [[0.0, 0.0, 0.0], [0.0, 0.0, 0.0]],
+                    "axis": [0.0, 0.6, 0.8],
+                },
+            },
+            "forces": {"turned": {"type": "torque", "joint": "pin", "torque": "20*cos(t) - 0.5*angle - 0.1*rate"}},
+        }
+    )
+    run = rotor.simulate(until=1.5, step=1e-3, output_step=0.1)
+    assert np.abs(run["pin.angle"]).max() > 2.0 * math.pi
+    exact = 20.0 * np.cos(run.t) - 0.5 * run["pin.angle"] - 0.1 * run["pin.angle.rate"]
+    for actuator in ("turned", "pin"):
+        found = rotor.inverse(run, actuators=[actuator])
+        expected = exact if actuator == "turned" else 0.0
+        assert np.abs(found.efforts[actuator] - expected).max() < 1e-10 * np.abs(exact).max()
+        assert np.abs(found.rates[actuator] - run["pin.angle.rate"]).max() < 1e-10
+        assert np.abs(found.reactions["pin.Fz"] - run.reactions["pin.Fz"]).max() < 1e-9
 
 
 def test_inputs_forces_and_joints_of_a_recorded_run(pendulum, tmp_path):
@@ -179,6 +210,21 @@ def test_inputs_forces_and_joints_of_a_recorded_run(pendulum, tmp_path):
         run.save(tmp_path / name)
         again = pendulum.inverse(tmp_path / name, actuators=["push", "held"])
         assert np.abs(again.efforts["push"] - exact).max() < 1e-11
+
+
+def test_a_motion_of_kinematics_comes_back_from_a_file(linkage, tmp_path, capsys):
+    times = np.linspace(0.0, 0.5, 6)
+    path = linkage.kinematics(times).save(tmp_path / "motion.csv")
+    motor = linkage.inverse(times=times).efforts["motor"]
+    again = linkage.inverse(path)
+    assert np.abs(again.efforts["motor"] - motor).max() < 1e-10 * np.abs(motor).max()
+    driven = symgen.load("driven-four-bar")
+    run = driven.simulate(until=0.2, step=1e-3, output_step=0.1, parameters={"crank_speed": 3.0})
+    run.save(tmp_path / "run.nc")
+    assert main(["inverse", "driven-four-bar", "--from", str(tmp_path / "run.nc"), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["parameters"]["crank_speed"] == 3.0
+    assert np.allclose(found["efforts"]["motor"], run["motor.effort"], rtol=1e-10, atol=1e-9)
 
 
 def test_a_motion_that_the_actuators_cannot_give_is_said(pendulum):

@@ -13,6 +13,7 @@ from symgen.describe.validate import validate
 from symgen.errors import InputError
 from tests.analyses.linkages import four_bar, meeting
 from tests.support.models import parallelogram
+from tests.support.twin import spatial_twin
 
 CRANK = "start + 2*pi*t"
 
@@ -227,6 +228,21 @@ def test_redundant_links_go_through_flat_positions(times):
     assert np.abs(found["bar.theta"]).max() < 1e-13 and np.abs(found["link1.alpha"]).max() < 1e-9
     assert np.abs(np.array([p.t for p in found.passages]) - [0.25, 0.75]).max() < 1e-12
     assert found.non_unique_reactions == ("A0", "B0", "A1", "B1", "A2", "B2")
+
+
+@pytest.mark.slow
+def test_a_rhombus_in_space_does_the_same(rhombus):
+    """With a revolute joint at every pin three rows depend on others; angles of pins begin at 0 there."""
+    raw = spatial_twin(four_bar((1.0, 1.0, 1.0, 1.0), 0.7, None), {})
+    raw["joints"]["motor"] = {"type": "driver", "joint": "A", "value": "2*pi*t"}
+    times = np.linspace(0.0, 1.2, 7)
+    found, flat = model(raw).kinematics(times), rhombus.kinematics(times)
+    for own, other in (("coupler.x", "coupler.x"), ("rocker.y", "rocker.y"), ("rocker.wz", "rocker.omega")):
+        assert np.abs(found[own] - flat[other]).max() < 1e-11
+    assert np.abs(found["rocker.alphaz"]).max() < 1e-9
+    assert np.abs(np.array([p.t for p in found.passages]) - [p.t for p in flat.passages]).max() < 1e-12
+    assert np.abs(found.efforts["motor"] - flat.efforts["motor"]).max() < 1e-8
+    assert found.non_unique_reactions == ("A", "B", "C", "D")
 
 
 def test_a_crank_that_cannot_go_round_stops_at_its_dead_centre():

@@ -158,6 +158,19 @@ def rows():
             "compare": lambda x, v: symgen.compare(x.model, progress=v),
         }.items():
             yield f"progress of {name} {value!r}", lambda x, v=value, c=call: c(x, v), "progress: expected a function"
+    # analyses: the pendulum is not driven, but what is wrong with an argument is said first
+    for shown, value in {"'x'": "x", "True": True, "a dict of 1": {"a": 1}, "a Thing": Thing(), "1j": 1j}.items():
+        yield f"kinematics {shown}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected a"
+        yield f"inverse times {shown}", lambda x, v=value: x.model.inverse(times=v), "kinematics: times: expected a"
+    for value in (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0]):
+        yield f"kinematics {value!r:.19}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected"
+    for shown, value in {"3": 3, "a list of 1": [3], "a dict of 0": {}}.items():
+        yield f"pins {shown}", lambda x, v=value: x.model.kinematics([0.0], transmission=v), "a list of names, got"
+        yield f"actuators {shown}", lambda x, v=value: x.model.inverse(x.result, actuators=v), "a list of names"
+        yield f"motion {shown}", lambda x, v=value: x.model.inverse(v), "a result of a run, or a motion of kinematics"
+    yield "kinematics setting", lambda x: x.model.kinematics([0.0], speed=1.0), "the name of a setting, got 'speed'"
+    yield "inverse file", lambda x: x.model.inverse("nothing.nc"), "expected a file of a result, got 'nothing.nc'"
+    yield "inverse of nothing", lambda x: x.model.inverse(x.result), "names of what exerts the motion, got none"
     # models
     for shown, value in NO_MAPPING.items():
         yield f"parameters {shown}", lambda x, v=value: x.model.parameters(v), f"got {shown}"
@@ -444,7 +457,7 @@ def test_no_function_with_arguments_is_left_out():
             "Mechanism.joint_named",
         ),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
-        *("Sweep.save", "Sweep.reasons", "Model.start"),
+        *("Sweep.save", "Sweep.reasons", "Model.start", "Model.kinematics", "Model.inverse"),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
         *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),
