@@ -8,10 +8,14 @@ from typing import Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 
 
-@click.command("check", short_help="Validate and assemble a mechanism; say its degrees of freedom.")
+@click.command(
+    "check",
+    epilog=examples("symgen check four-bar", "symgen check crane.toml --set length=2 --draw crane.svg"),
+    short_help="Validate and assemble a mechanism; say its degrees of freedom.",
+)
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
 @click.option("--draw", "picture", metavar="FILE", help="Draw it into FILE as well: .svg, .png or .pdf.")

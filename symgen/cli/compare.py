@@ -11,14 +11,21 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import jobs_option, json_option, number_list, output_file, setting_options, words
+from symgen.cli._options import examples, jobs_option, json_option, number_list, output_file, setting_options, words
 from symgen.cli._report import command_again, report_file
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
 
 
-@click.command("compare", short_help="Compare methods and integrators: error against run time.")
+@click.command(
+    "compare",
+    epilog=examples(
+        "symgen compare four-bar",
+        "symgen compare four-bar --methods lagrange,baumgarte --steps 1e-3,1e-4 -o report.html",
+    ),
+    short_help="Compare methods and integrators: error against run time.",
+)
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
 @click.option("--methods", metavar="A,B", help="Methods, or all; unless given, the six of the source.")
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 unless given.")
