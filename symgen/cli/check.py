@@ -48,7 +48,8 @@ def command(
     click.echo(f"{facts['mechanism']}: valid, and it closes")
     click.echo(f"  {sizes['bodies']} bodies, {sizes['joints']} joints, {sizes['forces']} forces")
     click.echo(f"  {sizes['coordinates']} coordinates, {sizes['rows']} constraint rows of rank {facts['rank']}")
-    click.echo(f"  {facts['degrees_of_freedom']} degrees of freedom at the start")
+    degrees = facts["degrees_of_freedom"]
+    click.echo(f"  {degrees} {'degree' if degrees == 1 else 'degrees'} of freedom at the start")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         if rows:
             click.echo(f"  rows {label}: {', '.join(rows)}")

@@ -12,7 +12,7 @@ import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
 from symgen.cli._options import examples, jobs_option, json_option, number_list, output_file, setting_options, words
-from symgen.cli._report import command_again, report_file
+from symgen.cli._report import command_again, report_file, sketches_of
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -134,7 +134,8 @@ def command(
         from symgen.report.comparison import comparison
         from symgen.report.write import write
 
-        write(comparison(studies, command_again(), _asked(step_list, rtol_list)), file)
+        sketches = sketches_of(loaded, asked["parameters"])
+        write(comparison(studies, command_again(), _asked(step_list, rtol_list), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     files = {path: lambda file: save_csv(studies, file), report: write_report}

@@ -59,7 +59,7 @@ def command(
         write_json({"file": str(file), "at": at, "open": marked, "note": drawing.caption})
     else:
         click.echo(f"written: {file}")
-    if marked or (drawing.caption and not drawing.ghost):
+    if marked or (drawing.caption and not drawing.ghosts):
         return complain(drawing.caption, BAD_INPUT)
     if drawing.caption:
         return complain(f"warning: {drawing.caption}", OK)
