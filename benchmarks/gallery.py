@@ -126,12 +126,19 @@ def measure(entry: Entry) -> None:
 
 def draw(entry: Entry) -> None:
     """Draw an entry in motion, from a run in the shape of code that all mechanisms share."""
-    from benchmarks.skeleton import picture
+    from symgen.drawing import Drawing
 
     own, model = choice(entry.name), load(model_name(entry))
     window = own.window * (own.until or model.mechanism.defaults.until)
     result = model.simulate(method="direct-correction", until=window, shape="looped")
-    drawn = picture(model.mechanism, result, entry.name, window)
+    picture = Drawing.of_motion(model.mechanism, result.q.values, result.parameters)
+    times = ", ".join(f"{k / 3.0 * window:.3g}" for k in range(4))
+    caption = (
+        f"`{entry.name}` at {times} s, the start darkest; thin lines: ways of the centres of mass until then. Symbols "
+        "are those of [drawings](../drawing.md)."
+    )
+    words_for_it = f"{model.mechanism.title}, drawn at four times."
+    drawn = Picture(entry.name, caption, words_for_it, picture.svg.encode(), "svg")
     put(drawn, FOLDER)
     keep(entry, caption=drawn.caption, rank=result.rank.rank)
 
@@ -254,7 +261,7 @@ def _measured(measured: Mapping[str, Any]) -> list[str]:
     made = ", ".join(f"{name} {number}" for name, number in measured["versions"].items())
     lines += [
         f"Made with {made}, on {measured['machine']}. Run times are those of the integration loop; other",
-        "work was running on the machine, so read ratios. Made again by",
+        "work was running on the machine, so read ratios. Reproduce with",
         "",
         *("```sh", measured["command"], "```", ""),
     ]

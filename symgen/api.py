@@ -244,7 +244,8 @@ class Model:
             q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)
             return Drawing.of(self.mechanism, q, values, view=view)
         try:
-            found = self.assemble(self.compile(), parameters, held=start)
+            asked = make_plan(self.mechanism, Settings(start=start or {}))
+            _, found = self.ready(asked, parameters)
         except AssemblyError as error:
             q = error.q or described
             scene = Drawing.of(self.mechanism, q, values).scene
@@ -261,7 +262,7 @@ class Model:
             return Drawing.of(
                 *(self.mechanism, closed, values),
                 view=view,
-                ghost=described.tolist(),
+                ghosts=[described.tolist()],
                 caption="; ".join(found.warnings),
             )
         return Drawing.of(self.mechanism, closed, values, view=view)

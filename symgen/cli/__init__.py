@@ -74,7 +74,12 @@ class LazyGroup(click.Group):
             formatter.write_dl([(name, line) for name, (_, line) in COMMANDS.items()])
 
 
-@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]}, no_args_is_help=True)
+@click.group(
+    cls=LazyGroup,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    no_args_is_help=True,
+    epilog="\b\nExamples:\n  symgen run four-bar\n  symgen view four-bar -o four-bar.html\n  symgen new crane",
+)
 @click.version_option(__version__, message="symgen %(version)s")
 def group() -> None:
     """Compile constrained multibody mechanisms into code and run them.

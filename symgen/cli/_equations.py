@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 #: A wider Jacobian is listed entry by entry only.
 WIDEST = 150
+
+
+def _degrees(facts: Mapping[str, Any]) -> str:
+    count = facts["degrees_of_freedom"]
+    return f"{count} {'degree' if count == 1 else 'degrees'}"
 
 
 def _cut(facts: dict[str, Any]) -> str:
@@ -23,7 +29,7 @@ def as_text(facts: dict[str, Any]) -> str:
     lines.append(f"{facts['mechanism']}: {facts['title']}")
     lines.append(
         f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, {sizes['rows']} constraint rows "
-        f"of rank {facts['rank']}, {facts['degrees_of_freedom']} degrees of freedom at the start"
+        f"of rank {facts['rank']}, {_degrees(facts)} of freedom at the start"
     )
     lines += [f"note: {note}" for note in facts["notes"]]
     shape = facts["shape"]
@@ -121,7 +127,7 @@ def as_latex(facts: dict[str, Any]) -> str:
     sizes = facts["sizes"]
     head = [
         f"% {facts['mechanism']}: {sizes['coordinates']} coordinates, {sizes['rows']} rows of rank {facts['rank']}, "
-        f"{facts['degrees_of_freedom']} degrees of freedom",
+        f"{_degrees(facts)} of freedom",
         *(
             f"% {name}: {n['before']} operations, {n['after']} with shared subexpressions"
             for name, n in facts["operations"].items()

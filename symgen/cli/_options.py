@@ -19,6 +19,11 @@ F = TypeVar("F", bound=Callable[..., Any])
 MOST_JOBS = 4096
 
 
+def examples(*lines: str) -> str:
+    """Return what the help of a command ends with: lines that can be typed as they stand."""
+    return "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])
+
+
 def setting_options(
     *names: str, text: Mapping[str, str] | None = None, otherwise: Mapping[str, Any] | None = None
 ) -> Callable[[F], F]:

@@ -3,10 +3,17 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+if TYPE_CHECKING:
+    from symgen.api import Model
+
+#: Larger mechanisms have no sketch in reports.
+MOST_BODIES = 200
 #: Options that say where or how fast to work, not what to do.
 _WORKING = ("--resume", "--journal", "--jobs")
 
@@ -40,3 +47,9 @@ def command_again() -> str:
             # where the file lies is nobody's business
             found += [flag, Path(item).name if flag in ("--output", "--csv") else str(item).removesuffix(".0")]
     return shlex.join(found)
+
+
+def sketches_of(models: Sequence[Model], parameters: Mapping[str, float] | None = None) -> dict[str, str]:
+    """Return sketches for the head of a report, by the names of mechanisms; changed parameters are known ones."""
+    small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
+    return {model.name: model.draw(parameters).svg for model in small}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 from rich.text import Text
 
+from symgen.cli._columns import Column, fitting, show
 from symgen.cli._tables import console
 
 if TYPE_CHECKING:
@@ -37,24 +39,24 @@ def show_stress(study: Stress) -> None:
         out.print(table)
         out.print(f"accurate cells of those judged; {LEGEND}", style="dim")
     if study.limits:
-        out.print(_steps(study))
+        out.print("largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m")
+        show(out, fitting(_steps(study), out.width))
     for sentence in findings(study):
         out.print(sentence)
 
 
-def _steps(study: Stress) -> Table:
-    table = Table(
-        title="largest constant step [s] that follows the motion, and that keeps the error below 1e-3 m",
-        title_justify="left",
-        box=None,
-        header_style="dim",
-        pad_edge=False,
-    )
-    for heading in ("model", "case", "method", "integrator"):
-        table.add_column(heading, no_wrap=True)
-    for heading in ("stable", "accurate"):
-        table.add_column(heading, justify="right")
-    for limit in study.limits:
-        steps = ("none" if x is None else f"{x:.3g}" for x in (limit.stable_step, limit.accurate_step))
-        table.add_row(limit.model, f"{limit.family} {limit.case}", limit.method, limit.integrator, *steps)
-    return table
+def _steps(study: Stress) -> list[Column]:
+    def column(heading: str, cell: Callable[[Any], str], left: bool = True, weight: int = 0) -> Column:
+        return Column(heading, tuple(map(cell, study.limits)), left, weight)
+
+    def step(x: float | None) -> str:
+        return "none" if x is None else f"{x:.3g}"
+
+    return [
+        column("model", lambda limit: limit.model, weight=1),
+        column("case", lambda limit: f"{limit.family} {limit.case}"),
+        column("method", lambda limit: limit.method),
+        column("integrator", lambda limit: limit.integrator, weight=2),
+        column("stable", lambda limit: step(limit.stable_step), left=False),
+        column("accurate", lambda limit: step(limit.accurate_step), left=False),
+    ]

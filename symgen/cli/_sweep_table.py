@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from rich.table import Table
 from rich.text import Text
 
+from symgen.cli._columns import Column, in_parts, show
 from symgen.cli._tables import COLOURS, console
 
 if TYPE_CHECKING:
@@ -40,15 +41,16 @@ def show_sweep(found: Sweep, written: Path | None) -> None:
         table.add_row("written", Text(str(written)))
     out = console()
     out.print(table)
-    ends = Table(title="at the last output", title_justify="left", box=None, header_style="dim", pad_edge=False)
-    for heading in ("quantity", "unit"):
-        ends.add_column(heading)
-    for heading in ("least", "mean", "largest"):
-        ends.add_column(heading, justify="right")
+    cells: list[tuple[str, ...]] = []
     for i, q in enumerate(ensemble.recipe.quantities[:24]):
         last = found.values[:, i, -1]
         last = last[np.isfinite(last)]
         if len(last):
-            ends.add_row(q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max())))
-    if ends.row_count:
-        out.print(ends)
+            cells.append((q.name, q.unit, *(f"{x:.6g}" for x in (last.min(), last.mean(), last.max()))))
+    if cells:
+        headings = ("quantity", "unit", "least", "mean", "largest")
+        columns = [
+            Column(h, c, left=k < 2) for k, (h, c) in enumerate(zip(headings, zip(*cells, strict=True), strict=True))
+        ]
+        for part in in_parts(columns, out.width):
+            show(out, part, "at the last output")

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from symgen.cli._columns import Column, fitting, in_parts, show
+
 if TYPE_CHECKING:
     from symgen.result.result import Result
     from symgen.study.comparison.compare import Study
+    from symgen.study.comparison.rows import Row
 
 COLOURS = {"ok": "green", "unverified": "yellow", "failed": "red"}
 
@@ -34,92 +37,71 @@ def show_result(result: Result) -> None:
     out = console()
     out.print(table)
     if len(result.t):
-        out.print(_final(result))
+        for k, part in enumerate(in_parts(_final(result), out.width)):
+            show(out, part, "" if k else "final state")
 
 
 def show_quantities(found: Mapping[str, Mapping[str, Any]]) -> None:
     """Print last, smallest and largest values of quantities."""
-    table = Table(box=None, header_style="dim", pad_edge=False)
-    table.add_column("quantity")
-    for heading in ("final", "smallest", "largest", "unit"):
-        table.add_column(heading, justify="left" if heading == "unit" else "right")
-    for name, entry in found.items():
-        numbers = ("" if entry[key] is None else f"{entry[key]:.6g}" for key in ("final", "min", "max"))
-        table.add_row(name, *numbers, entry["unit"])
-    console().print(table)
+    columns = [Column("quantity", tuple(found), left=True)]
+    for heading, key in (("final", "final"), ("smallest", "min"), ("largest", "max")):
+        numbers = ("" if entry[key] is None else f"{entry[key]:.6g}" for entry in found.values())
+        columns.append(Column(heading, tuple(numbers)))
+    columns.append(Column("unit", tuple(str(entry["unit"]) for entry in found.values()), left=True))
+    out = console()
+    for part in in_parts(columns, out.width):
+        show(out, part)
 
 
 def show_summary(found: Mapping[str, Mapping[str, Any]]) -> None:
     """Print what sizes each actuator: its largest effort and when, root mean square, peak power and energy."""
-    table = Table(box=None, header_style="dim", pad_edge=False)
-    table.add_column("effort")
-    for heading in ("largest", "rms", "unit", "at [s]", "peak power [W]", "energy [J]"):
-        table.add_column(heading, justify="left" if heading == "unit" else "right")
-    for name, entry in found.items():
-        power = (f"{entry[key]:.6g}" if key in entry else "" for key in ("peak_power", "energy"))
-        table.add_row(name, f"{entry['max']:.6g}", f"{entry['rms']:.6g}", entry["unit"], f"{entry['at']:.6g}", *power)
-    console().print(table)
+    columns = [Column("effort", tuple(found), left=True)]
+    for heading, key in (("largest", "max"), ("rms", "rms")):
+        columns.append(Column(heading, tuple(f"{entry[key]:.6g}" for entry in found.values())))
+    columns.append(Column("unit", tuple(str(entry["unit"]) for entry in found.values()), left=True))
+    for heading, key in (("at [s]", "at"), ("peak power [W]", "peak_power"), ("energy [J]", "energy")):
+        columns.append(Column(heading, tuple(f"{entry[key]:.6g}" if key in entry else "" for entry in found.values())))
+    out = console()
+    for part in in_parts(columns, out.width):
+        show(out, part)
 
 
-def _final(result: Result, most: int = 12) -> Table:
+def _final(result: Result, most: int = 12) -> list[Column]:
     """Return the last positions and velocities, of the first bodies where there are many."""
-    table = Table(title="final state", title_justify="left", box=None, header_style="dim", pad_edge=False)
-    table.add_column("body")
-    rows: dict[str, list[str]] = {}
-    labels: list[str] = []
+    rows: dict[str, dict[str, str]] = {}
+    labels: dict[str, None] = {}
     for values in (result.q.row(), result.v.row()):
         for name, value in values.items():
             body, _, label = name.rpartition(".")
-            rows.setdefault(body, []).append(f"{value:.6g}")
-            if label not in labels:
-                labels.append(label)
-    for label in labels:
-        table.add_column(label, justify="right")
-    point = ["x", "y", "vx", "vy"]
-    for body, numbers in list(rows.items())[:most]:
-        shown = dict(zip(labels if len(numbers) == len(labels) else point, numbers, strict=True))
-        table.add_row(body, *(shown.get(label, "") for label in labels))
-    if len(rows) > most:
-        table.add_row(f"... {len(rows) - most} more", *([""] * len(labels)))
-    return table
+            rows.setdefault(body, {})[label] = f"{value:.6g}"
+            labels[label] = None
+    order = sorted(labels, key=_LABELS.index)
+    shown = list(rows.items())[:most]
+    bodies = [body for body, _ in shown] + ([f"... {len(rows) - most} more"] if len(rows) > most else [])
+    columns = [Column("body", tuple(bodies), left=True)]
+    for label in order:
+        cells = [row.get(label, "") for _, row in shown] + [""] * (len(bodies) - len(shown))
+        columns.append(Column(label, tuple(cells)))
+    return columns
+
+
+#: Coordinates and velocities of bodies in the order in which they are shown.
+_LABELS = ("x", "y", "z", "theta", "e0", "e1", "e2", "e3", "vx", "vy", "vz", "omega", "wx", "wy", "wz")
 
 
 def show_study(study: Study) -> None:
-    """Print the rows of a study."""
+    """Print the rows of a study, every number whole: on a narrow terminal columns are left out by importance."""
     out = console()
     off = "" if study.how == "none" else f" (off by about {study.estimated_error:.1g} m)"
     out.print(f"{study.mechanism}, {study.until:g} s; reference: {study.how}{off}")
     if study.note:
         out.print(study.note)
-    table = Table(box=None, header_style="dim", pad_edge=False)
-    for heading in ("method", "integrator", "step or rtol", "status"):
-        table.add_column(heading, no_wrap=True)
-    for heading in (
-        "error [m]",
-        "run [ms]",
-        "spread",
-        "x lagrange",
-        "evaluations",
-        "|Phi|",
-        "|D v - nu|",
-        "energy [J]",
-    ):
-        table.add_column(heading, justify="right", no_wrap=True)
-    for row in study.rows:
-        error = "" if row.error is None else f"{row.error:.2e}" + (" *" if row.below_reference else "")
-        table.add_row(
-            row.label,
-            row.integrator,
-            f"rtol {row.rtol:g}" if row.rtol is not None else f"{row.step:g} s",
-            Text(row.status, style=COLOURS[row.status]),
-            error,
-            f"{1e3 * row.run_seconds:.3f}",
-            f"{1e3 * row.run_seconds_spread:.3f}",
-            "" if row.cost_ratio is None else f"{row.cost_ratio:.2f}",
-            str(row.evaluations),
-            *(f"{x:.1e}" for x in (row.position_violation_max, row.velocity_violation_max, row.energy_drift_max)),
-        )
-    out.print(table)
+    columns = _of_study(study)
+    kept = fitting(columns, out.width)
+    show(out, kept, colours=COLOURS)
+    if len(kept) < len(columns):
+        missing = ", ".join(column.heading for column in columns if column not in kept)
+        out.print(f"left out for want of room: {missing} (--csv has them)", style="dim")
     if any(row.below_reference for row in study.rows):
         out.print("* below what the reference itself may be off")
     spreads = study.ratio_spreads
@@ -131,3 +113,25 @@ def show_study(study: Study) -> None:
         steps = f"rtol {row.rtol:g}" if row.rtol is not None else f"step {row.step:g} s"
         for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *row.warnings):
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
+
+
+def _of_study(study: Study) -> list[Column]:
+    def column(heading: str, cell: Callable[[Row], str], weight: int = 0, **more: Any) -> Column:
+        return Column(heading, tuple(map(cell, study.rows)), weight=weight, **more)
+
+    return [
+        column("method", lambda r: r.label, left=True),
+        column("integrator", lambda r: r.integrator, left=True),
+        column("step, rtol", lambda r: f"rtol {r.rtol:g}" if r.rtol is not None else f"{r.step:g} s", left=True),
+        column("status", lambda r: r.status, 8, left=True, style="status"),
+        column(
+            "error [m]", lambda r: "" if r.error is None else f"{r.error:.2e}" + (" *" if r.below_reference else "")
+        ),
+        column("run [ms]", lambda r: f"{1e3 * r.run_seconds:.3f}", 9),
+        column("spread", lambda r: f"{1e3 * r.run_seconds_spread:.3f}", 1),
+        column("x lagrange", lambda r: "" if r.cost_ratio is None else f"{r.cost_ratio:.2f}", 7),
+        column("evaluations", lambda r: str(r.evaluations), 3),
+        column("|Phi|", lambda r: f"{r.position_violation_max:.1e}", 6),
+        column("|D v - nu|", lambda r: f"{r.velocity_violation_max:.1e}", 2),
+        column("energy [J]", lambda r: f"{r.energy_drift_max:.1e}", 5),
+    ]

@@ -5,22 +5,26 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option
+from symgen.cli._options import examples, json_option
 
 
-@click.group("cache", short_help="Show or empty the cache of generated and compiled code.")
+@click.group(
+    "cache",
+    epilog=examples("symgen cache info", "symgen cache clear"),
+    short_help="Show or empty the cache of generated and compiled code.",
+)
 def command() -> None:
     """Show or empty the cache of generated and compiled code; SYMGEN_CACHE_DIR says where it is."""
 
 
-@command.command("info")
+@command.command("info", epilog=examples("symgen cache info --json"))
 @json_option
 def info(as_json: bool) -> int:
     """Say where the cache is and what it holds."""
     return _show(as_json, "")
 
 
-@command.command("clear")
+@command.command("clear", epilog=examples("symgen cache clear"))
 @json_option
 def clear(as_json: bool) -> int:
     """Remove everything that symgen wrote into the cache."""

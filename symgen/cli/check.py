@@ -8,10 +8,14 @@ from typing import Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 
 
-@click.command("check", short_help="Validate and assemble a mechanism; say its degrees of freedom.")
+@click.command(
+    "check",
+    epilog=examples("symgen check four-bar", "symgen check crane.toml --set length=2 --draw crane.svg"),
+    short_help="Validate and assemble a mechanism; say its degrees of freedom.",
+)
 @click.argument("model")
 @setting_options("parameters", "start", "strict")
 @click.option("--draw", "picture", metavar="FILE", help="Draw it into FILE as well: .svg, .png or .pdf.")
@@ -44,7 +48,8 @@ def command(
     click.echo(f"{facts['mechanism']}: valid, and it closes")
     click.echo(f"  {sizes['bodies']} bodies, {sizes['joints']} joints, {sizes['forces']} forces")
     click.echo(f"  {sizes['coordinates']} coordinates, {sizes['rows']} constraint rows of rank {facts['rank']}")
-    click.echo(f"  {facts['degrees_of_freedom']} degrees of freedom at the start")
+    degrees = facts["degrees_of_freedom"]
+    click.echo(f"  {degrees} {'degree' if degrees == 1 else 'degrees'} of freedom at the start")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         if rows:
             click.echo(f"  rows {label}: {', '.join(rows)}")

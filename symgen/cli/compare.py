@@ -11,14 +11,21 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import jobs_option, json_option, number_list, output_file, setting_options, words
-from symgen.cli._report import command_again, report_file
+from symgen.cli._options import examples, jobs_option, json_option, number_list, output_file, setting_options, words
+from symgen.cli._report import command_again, report_file, sketches_of
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
 
 
-@click.command("compare", short_help="Compare methods and integrators: error against run time.")
+@click.command(
+    "compare",
+    epilog=examples(
+        "symgen compare four-bar",
+        "symgen compare four-bar --methods lagrange,baumgarte --steps 1e-3,1e-4 -o report.html",
+    ),
+    short_help="Compare methods and integrators: error against run time.",
+)
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
 @click.option("--methods", metavar="A,B", help="Methods, or all; unless given, the six of the source.")
 @click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 unless given.")
@@ -127,7 +134,8 @@ def command(
         from symgen.report.comparison import comparison
         from symgen.report.write import write
 
-        write(comparison(studies, command_again(), _asked(step_list, rtol_list)), file)
+        sketches = sketches_of(loaded, asked["parameters"])
+        write(comparison(studies, command_again(), _asked(step_list, rtol_list), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     files = {path: lambda file: save_csv(studies, file), report: write_report}

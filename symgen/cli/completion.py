@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, group
+from symgen.cli._options import examples
 
 _HOW = {
     "bash": '# put into ~/.bashrc:  eval "$(symgen completion bash)"',
@@ -13,7 +14,11 @@ _HOW = {
 }
 
 
-@click.command("completion", short_help="Print the shell's completion script.")
+@click.command(
+    "completion",
+    epilog=examples("symgen completion bash >> ~/.bashrc"),
+    short_help="Print the shell's completion script.",
+)
 @click.argument("shell", type=click.Choice(list(_HOW)))
 def command(shell: str) -> int:
     """Print the completion script of bash, zsh or fish."""

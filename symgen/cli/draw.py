@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import BAD_INPUT, OK, complain, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError, quoted
 
 if TYPE_CHECKING:
@@ -17,7 +17,13 @@ if TYPE_CHECKING:
     from symgen.drawing import Drawing, View
 
 
-@click.command("draw", short_help="Draw a mechanism.")
+@click.command(
+    "draw",
+    epilog=examples(
+        "symgen draw four-bar -o four-bar.svg", "symgen draw crane.toml --at described --set length=2 -o crane.png"
+    ),
+    short_help="Draw a mechanism.",
+)
 @click.argument("model")
 @click.option("-o", "--output", metavar="FILE", help="The picture: .svg, or with matplotlib .png or .pdf.  [MODEL.svg]")
 @click.option(
@@ -39,12 +45,7 @@ def command(
 
     A mechanism that cannot be assembled is drawn where that stopped, with the joints that stay open marked; the exit
     code is 2 then.
-
-    \b
-    Examples:
-      symgen draw four-bar -o four-bar.svg
-      symgen draw crane.toml --at described --set length=2 -o crane.png
-    """  # noqa: D301  # the escape is Click's
+    """
     from symgen.api import load
     from symgen.drawing.drawing import check_picture
 
@@ -58,7 +59,7 @@ def command(
         write_json({"file": str(file), "at": at, "open": marked, "note": drawing.caption})
     else:
         click.echo(f"written: {file}")
-    if marked or (drawing.caption and not drawing.ghost):
+    if marked or (drawing.caption and not drawing.ghosts):
         return complain(drawing.caption, BAD_INPUT)
     if drawing.caption:
         return complain(f"warning: {drawing.caption}", OK)

@@ -10,12 +10,16 @@ from typing import Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
 from symgen.ir.program import PART, TARGETS
 
 
-@click.command("generate", short_help="Write the emitted code of a mechanism.")
+@click.command(
+    "generate",
+    epilog=examples("symgen generate four-bar --output code", "symgen generate pendulum --target cuda --output code"),
+    short_help="Write the emitted code of a mechanism.",
+)
 @click.argument("model")
 @click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
 @setting_options("options", "coordinates", text={"options": "Such as direct-correction.weight=mass."})

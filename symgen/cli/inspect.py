@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import setting_options
+from symgen.cli._options import examples, setting_options
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -17,7 +17,11 @@ if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
 
 
-@click.command("inspect", short_help="Show the equations of a mechanism, and what was left out.")
+@click.command(
+    "inspect",
+    epilog=examples("symgen inspect pendulum", "symgen inspect slider-crank --method lagrange --format latex"),
+    short_help="Show the equations of a mechanism, and what was left out.",
+)
 @click.argument("model")
 @click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")

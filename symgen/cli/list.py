@@ -5,10 +5,17 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option
+from symgen.cli._options import examples, json_option
+
+#: Terminals of so many characters show sources beside.
+WIDE = 120
 
 
-@click.command("list", short_help="Show the mechanisms that come with symgen.")
+@click.command(
+    "list",
+    epilog=examples("symgen list", "symgen list --json"),
+    short_help="Show the mechanisms that come with symgen.",
+)
 @json_option
 def command(as_json: bool) -> int:
     """Show the mechanisms that come with symgen, with their sources and what a run of them uses by default."""
@@ -38,11 +45,19 @@ def command(as_json: bool) -> int:
 
     from symgen.cli._tables import console
 
+    out = console()
+    names = [f"{row['name']}:{row['default_size']}" if row["sized"] else str(row["name"]) for row in rows]
     table = Table(box=None, header_style="dim", pad_edge=False)
-    for heading in ("name", "what", "until [s]", "step [s]", "source"):
-        table.add_column(heading, justify="right" if heading.endswith("[s]") else "left")
-    for row in rows:
-        name = f"{row['name']}:{row['default_size']}" if row["sized"] else row["name"]
-        table.add_row(name, row["title"], f"{row['until']:g}", f"{row['step']:g}", row["source"])
-    console().print(table)
+    # names are what one types: they stay whole, and sentences take what room is left
+    table.add_column("name", no_wrap=True, min_width=max(map(len, names)))
+    table.add_column("what", ratio=1, overflow="fold")
+    for heading in ("until [s]", "step [s]"):
+        table.add_column(heading, justify="right", no_wrap=True, min_width=len(heading))
+    wide = out.width >= WIDE
+    if wide:
+        table.add_column("source", ratio=1, overflow="fold")
+    for name, row in zip(names, rows, strict=True):
+        more = (row["source"],) if wide else ()
+        table.add_row(name, row["title"], f"{row['until']:g}", f"{row['step']:g}", *more)
+    out.print(table)
     return OK

@@ -7,9 +7,14 @@ from pathlib import Path
 import click
 
 from symgen.cli import OK
+from symgen.cli._options import examples
 
 
-@click.command("new", short_help="Write a commented mechanism file to start from.")
+@click.command(
+    "new",
+    epilog=examples("symgen new crane", "symgen new robot --space spatial"),
+    short_help="Write a commented mechanism file to start from.",
+)
 @click.argument("name")
 @click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml unless given, - for standard output.")
 @click.option(

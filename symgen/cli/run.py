@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import json_option, output_file, setting_options
+from symgen.cli._options import examples, json_option, output_file, setting_options
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -23,7 +23,15 @@ if TYPE_CHECKING:
 FIRST_LOOP = 20.0
 
 
-@click.command("run", short_help="Simulate a mechanism.")
+@click.command(
+    "run",
+    epilog=examples(
+        "symgen run four-bar",
+        "symgen run slider-crank --method baumgarte --step 1e-3 --until 5 --save a.nc --plot a.svg",
+        "symgen run pendulum --set bob_mass=2 --start bob.vx=0.5 --json",
+    ),
+    short_help="Simulate a mechanism.",
+)
 @click.argument("model")
 @setting_options(
     *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "parameters", "inputs", "start"),

@@ -5,9 +5,14 @@ from __future__ import annotations
 import click
 
 from symgen.cli import OK
+from symgen.cli._options import examples
 
 
-@click.command("schema", short_help="Print the JSON schema of mechanism files.")
+@click.command(
+    "schema",
+    epilog=examples("symgen schema > symgen.schema.json"),
+    short_help="Print the JSON schema of mechanism files.",
+)
 def command() -> int:
     """Print the JSON schema (draft 2020-12) of mechanism files; editors complete and check files with it."""
     import json

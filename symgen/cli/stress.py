@@ -11,15 +11,19 @@ import click
 
 from symgen import arguments
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import jobs_option, json_option, output_file, setting_options, words
-from symgen.cli._report import command_again, report_file
+from symgen.cli._options import examples, jobs_option, json_option, output_file, setting_options, words
+from symgen.cli._report import command_again, report_file, sketches_of
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
     from symgen.study.stress.rows import Stress
 
 
-@click.command("stress", short_help="Find where methods stop being stable: stiff and extreme cases.")
+@click.command(
+    "stress",
+    epilog=examples("symgen stress four-bar --quick", "symgen stress --cases mass-ratio,stiffness -o stress.html"),
+    short_help="Find where methods stop being stable: stiff and extreme cases.",
+)
 @click.argument("models", metavar="[MODEL...]", nargs=-1)
 @click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all unless given.")
 @click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto unless given.")
@@ -85,10 +89,12 @@ def command(
         report = None
 
     def write_report(file: Path) -> None:
+        from symgen.api import load
         from symgen.report.stress import stress_report
         from symgen.report.write import write
 
-        write(stress_report(study, command_again()), file)
+        known = [load(name) for name in dict.fromkeys(models)]
+        write(stress_report(study, command_again(), sketches_of(known)), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     files = {path: lambda file: save_csv(study, file), report: write_report}

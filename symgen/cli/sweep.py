@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import jobs_option, json_option, setting_options
+from symgen.cli._options import examples, jobs_option, json_option, setting_options
 from symgen.errors import InputError, quoted
 from symgen.ir.program import TARGETS
 from symgen.settings import Settings
@@ -17,7 +17,14 @@ if TYPE_CHECKING:
     from symgen.ensemble.study import Sweep
 
 
-@click.command("sweep", short_help="Run a mechanism for many parameters and starts.")
+@click.command(
+    "sweep",
+    epilog=examples(
+        'symgen sweep pendulum --vary "bob_mass=lin(1,2,11)" --until 1',
+        'symgen sweep four-bar --vary "crank.omega=uniform(0,5,100,1)" -o sweep',
+    ),
+    short_help="Run a mechanism for many parameters and starts.",
+)
 @click.argument("model")
 @click.option(
     "--vary",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -16,7 +16,15 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
 
-@click.command("view", short_help="Make a page that plays a motion, or a GIF.")
+@click.command(
+    "view",
+    epilog=examples(
+        "symgen view four-bar -o four-bar.html",
+        "symgen run four-bar --save a.nc && symgen view a.nc -o a.html",
+        "symgen view pendulum --until 3 -o pendulum.gif",
+    ),
+    short_help="Make a page that plays a motion, or a GIF.",
+)
 @click.argument("what", metavar="MODEL|RESULT.nc")
 @click.option("-o", "--output", metavar="FILE", help="The page: .html; or .gif, with matplotlib.  [MODEL.html]")
 @click.option("--beside", metavar="RESULT.nc", help="Another motion of the same mechanism, drawn faintly behind.")
@@ -42,13 +50,7 @@ def command(
 
     The page is one file without anything from elsewhere: play, scrub, loop, traces of points, forces, plots with a
     cursor. Where the equations are not too large it holds them, so that sliders of parameters change the motion.
-
-    \b
-    Examples:
-      symgen view four-bar -o four-bar.html
-      symgen run four-bar --save a.nc && symgen view a.nc -o a.html
-      symgen view pendulum --until 3 -o pendulum.gif
-    """  # noqa: D301  # the escape is Click's
+    """
     from symgen.api import load
     from symgen.player.page import check_page
 

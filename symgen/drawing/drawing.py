@@ -16,8 +16,9 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.start import described_start
 from symgen.drawing.build import build_scene
-from symgen.drawing.paper import Drawn, View, on_paper
-from symgen.drawing.scene import Array, Item, Poses, Scene
+from symgen.drawing.paper import Drawn, View, axes, on_paper
+from symgen.drawing.paper import Path as Stroke
+from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Poses, Scene
 from symgen.drawing.svg import svg
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, write_whole
@@ -30,6 +31,8 @@ ENDINGS = (".svg", ".png", ".pdf")
 #: Joints whose two points are one point.
 PINS = frozenset(("revolute", "spherical", "universal", "constant-velocity", "rigid"))
 
+#: Positions in a picture of a motion, and points of a way.
+POSES, PATH = 4, 300
 #: From where scenes in space are seen.
 ABOVE = View()
 
@@ -64,8 +67,10 @@ class Drawing:
         Where it is.
     view : View
         From where it is seen, where it is spatial.
-    ghost : tuple of float
-        Other positions that are drawn faintly behind, none unless given.
+    ghosts : tuple of tuple of float
+        Other positions that are drawn faintly behind, the first one faintest; none unless given.
+    paths : tuple of tuple of Point
+        Lines of the ground frame behind everything, such as the ways of points.
     labels : bool or None
         Whether bodies have their names beside them; where they are few unless given.
     caption : str
@@ -75,7 +80,8 @@ class Drawing:
     scene: Scene
     q: tuple[float, ...]
     view: View = ABOVE
-    ghost: tuple[float, ...] = ()
+    ghosts: tuple[tuple[float, ...], ...] = ()
+    paths: tuple[tuple[Point, ...], ...] = ()
     labels: bool | None = None
     caption: str = ""
 
@@ -88,7 +94,7 @@ class Drawing:
         *,
         open_joints: Sequence[str] = (),
         view: View | None = None,
-        ghost: Sequence[float] = (),
+        ghosts: Sequence[Sequence[float]] = (),
         labels: bool | None = None,
         caption: str = "",
     ) -> Drawing:
@@ -97,7 +103,33 @@ class Drawing:
             q = described_start(mechanism, scalars(parameter_values(mechanism, values)))[0]
         scene = build_scene(mechanism, q, values, open_joints)
         where = tuple(float(x) for x in np.asarray(q, dtype=np.float64).ravel())
-        return cls(scene, where, view or ABOVE, tuple(map(float, ghost)), labels, caption)
+        behind = tuple(tuple(map(float, ghost)) for ghost in ghosts)
+        return cls(scene, where, view or ABOVE, behind, (), labels, caption)
+
+    @classmethod
+    def of_motion(
+        cls, mechanism: Mechanism, q: Array, values: Mapping[str, float] | None = None, view: View | None = None
+    ) -> Drawing:
+        """Return the picture of a mechanism in motion: its start, a few later positions, the ways of its bodies.
+
+        Parameters
+        ----------
+        mechanism : Mechanism
+            Any.
+        q : Array, shape (k, nq)
+            Coordinates of all bodies over time.
+        values : mapping of str to float, optional
+            Parameters that differ from the described ones.
+        view : View, optional
+            From where a spatial mechanism is seen.
+        """
+        scene = build_scene(mechanism, q, values)
+        later = np.unique(np.linspace(0, len(q) - 1, POSES).round().astype(int))[1:]
+        ghosts = tuple(tuple(q[k].tolist()) for k in reversed(later))
+        rows = [Poses(scene.frames, row, scene.spatial).centres for row in q[:: max(1, len(q) // PATH)]]
+        ways = np.stack(rows)[:, :-1].transpose(1, 0, 2)
+        paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
+        return cls(scene, tuple(q[0].tolist()), view or ABOVE, ghosts, paths, labels=False)
 
     @cached_property
     def svg(self) -> str:
@@ -108,10 +140,16 @@ class Drawing:
         return on_paper(self.scene, np.array(self.q), self.view)
 
     def _behind(self) -> list[Drawn]:
-        if not self.ghost:
-            return []
-        found = on_paper(self.scene, np.array(self.ghost), self.view)
-        return [each for each in found if each.item.role == "body"]
+        found: list[Drawn] = []
+        eye = axes(self.scene, self.view)
+        for i, path in enumerate(self.paths):
+            points = np.array(path) @ eye.T
+            look = Look(COLOURS[i % len(COLOURS)], "", 0.8)
+            way = Item("path", "", "", ())
+            found.append(Drawn(way, (Stroke(points[:, :2], look, False),), 0.0, None))
+        for ghost in self.ghosts:
+            found += on_paper(self.scene, np.array(ghost), self.view, bodies=True)
+        return found
 
     def save(self, path: str | PathLike[str]) -> Path:
         """Write the picture to ``.svg``, or with matplotlib to ``.png`` or ``.pdf``; whole or not at all.

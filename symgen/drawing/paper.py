@@ -47,7 +47,7 @@ class Drawn:
     label: tuple[float, float] | None
 
 
-def on_paper(scene: Scene, q: Array, view: View | None = None) -> list[Drawn]:
+def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = False) -> list[Drawn]:
     """Return a scene's items on paper in the order in which they are drawn.
 
     Parameters
@@ -58,13 +58,27 @@ def on_paper(scene: Scene, q: Array, view: View | None = None) -> list[Drawn]:
         Where it is.
     view : View, optional
         From where it is seen, where it is spatial.
+    bodies : bool
+        Whether bodies alone are drawn, bars in space as lines, for what stands behind.
     """
     eye = axes(scene, view or View())
     poses = Poses(scene.frames, q, scene.spatial)
-    found = [_drawn(item, poses, eye) for item in scene.items]
+    items = [_plainly(item) for item in scene.items if item.role == "body"] if bodies else scene.items
+    found = [_drawn(item, poses, eye) for item in items]
     if scene.spatial:  # faults stay in front
         found.sort(key=lambda d: (d.item.role == "fault", d.depth))
     return found
+
+
+def _plainly(item: Item) -> Item:
+    """Return an item with its bars as lines, and without its centre of mass."""
+    marks: list[Mark] = []
+    for mark in item.marks:
+        if isinstance(mark, Tube):
+            marks.append(Line(mark.body, (mark.a, mark.b), replace(mark.look, width=3.0)))
+        elif not (isinstance(mark, Dot) and mark.mass):
+            marks.append(mark)
+    return replace(item, marks=tuple(marks))
 
 
 def axes(scene: Scene, view: View) -> Array:

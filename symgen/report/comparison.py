@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
 from symgen.report.figures import pictures
 from symgen.report.findings import costs, findings
+from symgen.report.picture import sketched
 from symgen.report.select import methods, representatives, settings_text
 from symgen.report.source import beside_the_source
 from symgen.study.comparison.rows import YARDSTICK, Row, Study
@@ -23,7 +24,12 @@ _LEAD = (
 )
 
 
-def comparison(studies: Sequence[Study], command: str = "", settings: Sequence[tuple[str, str]] = ()) -> Document:
+def comparison(
+    studies: Sequence[Study],
+    command: str = "",
+    settings: Sequence[tuple[str, str]] = (),
+    sketches: Mapping[str, str] | None = None,
+) -> Document:
     """Return the report of studies.
 
     Parameters
@@ -34,6 +40,8 @@ def comparison(studies: Sequence[Study], command: str = "", settings: Sequence[t
         The command that makes it again.
     settings : sequence of (str, str), optional
         What was asked for, by label, beside what the studies say themselves.
+    sketches : mapping of str to str, optional
+        SVG of mechanisms by their names, for the head of the report.
     """
     names = [study.mechanism for study in studies]
     lead = [_LEAD]
@@ -46,7 +54,7 @@ def comparison(studies: Sequence[Study], command: str = "", settings: Sequence[t
         *settings,
         *((f"Digest of {study.mechanism}", study.digest) for study in studies if study.digest),
     ]
-    sections = [_across(studies)] if len(studies) > 1 else []
+    sections = [*sketched(sketches or {}), *([_across(studies)] if len(studies) > 1 else [])]
     sections += [_one(study) for study in studies]
     source = beside_the_source(list(studies))
     if source is not None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from symgen.report.document import Picture
+from symgen.report.document import Picture, Section
 from symgen.result.export import need
 
 if TYPE_CHECKING:
@@ -24,6 +24,8 @@ GREY = "#5b6470"
 WIDTH = 5.0
 #: A vector file above this becomes pixels [bytes].
 LARGEST_SVG = 200_000
+#: Sketches at the head of a report at most.
+MOST_SKETCHES = 12
 #: Pixels an inch of those.
 DPI = 200
 
@@ -117,3 +119,18 @@ def below(figure: Figure, entries: int, columns: int = 2, handles: Any = None) -
     figure.set_size_inches(width, height + 0.17 * rows)
     arguments = {} if handles is None else {"handles": handles}
     figure.legend(loc="outside lower center", ncols=columns, columnspacing=1.4, **arguments)
+
+
+def sketched(sketches: Mapping[str, str]) -> list[Section]:
+    """Return the section at the head of a report that shows its mechanisms, none where there are no sketches.
+
+    Parameters
+    ----------
+    sketches : mapping of str to str
+        SVG by the names of mechanisms; further ones than `MOST_SKETCHES` are left out.
+    """
+    pictures = [
+        Picture(f"sketch-{name}", f"{name} at its start", f"A sketch of {name}.", text.encode(), "svg")
+        for name, text in list(sketches.items())[:MOST_SKETCHES]
+    ]
+    return [Section("Mechanism" if len(pictures) == 1 else "Mechanisms", pictures=tuple(pictures))] if pictures else []

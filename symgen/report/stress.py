@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from symgen.auto import AUTO
 from symgen.report import words
 from symgen.report.document import Cell, Document, Section, Table
+from symgen.report.picture import sketched
 from symgen.report.stress_figures import maps, overview, regions
 from symgen.study.machine import machine_class, versions
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
@@ -35,7 +38,7 @@ _MEANINGS = {
 }
 
 
-def stress_report(study: Stress, command: str = "") -> Document:
+def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] | None = None) -> Document:
     """Return the report of a stress study.
 
     Parameters
@@ -44,6 +47,8 @@ def stress_report(study: Stress, command: str = "") -> Document:
         What was found.
     command : str, optional
         The command that makes it again.
+    sketches : mapping of str to str, optional
+        SVG of mechanisms by their names, for the head of the report.
     """
     lead = ["This study was interrupted: cells are missing.", _LEAD] if study.interrupted else [_LEAD]
     facts = (
@@ -53,6 +58,7 @@ def stress_report(study: Stress, command: str = "") -> Document:
         ("Extent", "quick: fewer cases, one integrator a method" if study.quick else "all cases"),
     )
     sections = [
+        *sketched(sketches or {}),
         Section("Findings", findings=findings(study)),
         _map_section(study),
         *_limits_section(study),

@@ -121,7 +121,7 @@ def markdown(document: Document, folder: str) -> str:
     lines += _table(Table("", ("made with", ""), document.facts, words=2))
     if document.command:
         fence = "`" * max(3, 1 + max(map(len, re.findall("`+", document.command)), default=0))
-        lines += ["Made again by", "", f"{fence}sh", document.command, fence, ""]
+        lines += ["Reproduce with", "", f"{fence}sh", document.command, fence, ""]
     for section in document.sections:
         lines += _section(section, 2, folder)
     return "\n".join(lines).rstrip() + "\n"

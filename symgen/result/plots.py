@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 #: Okabe and Ito's colours, told apart with every kind of colour vision; dashes tell repeats apart.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000", "#F0E442")
 DASHES = ("-", "--", ":", "-.")
-#: More lines than this have no legend.
+#: Lines of a panel at most: those that change most are drawn, all of them with a key.
 LONGEST_LEGEND = 14
 #: Label of the axis, lines, and whether their sizes are drawn on a logarithmic scale.
 Panel = tuple[str, Labelled, bool]
@@ -98,7 +98,21 @@ def paths(curves: Mapping[str, Any], title: str) -> Any:
     return figure
 
 
+def _most_moving(table: Labelled) -> tuple[Labelled, int]:
+    """Return the columns that change most, in their own order, as many as a key holds, and how many are left out."""
+    left = len(table.names) - LONGEST_LEGEND
+    if left <= 0 or not len(table.values):
+        return table, 0
+    change = np.nan_to_num(np.ptp(table.values, axis=0))
+    chosen = sorted(np.argsort(-change, kind="stable")[:LONGEST_LEGEND].tolist())
+    names, units = (tuple(of[i] for i in chosen) for of in (table.names, table.units))
+    return Labelled(table.values[:, chosen], names, units), left
+
+
 def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:
+    table, left = _most_moving(table)
+    if left:
+        ax.set_title(f"the {len(table.names)} that change most; {left} more are left out", fontsize=8, loc="left")
     for i, name in enumerate(table.names):
         values = table.values[:, i]
         if logarithmic:
@@ -107,8 +121,10 @@ def _lines(ax: Any, t: Any, table: Labelled, logarithmic: bool) -> None:
         ax.plot(t, values, style, color=COLOURS[i % len(COLOURS)], linewidth=1.2, label=name)
     if logarithmic:
         ax.set_yscale("log")
-    if 1 < len(table.names) <= LONGEST_LEGEND:
-        ax.legend(fontsize=7, ncols=2, loc="best")
+    if len(table.names) > 1:
+        ax.legend(fontsize=7, ncols=1, loc="upper left", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.2)
+    elif table.names:
+        ax.legend(fontsize=7, loc="best")
 
 
 def by_unit(table: Labelled, what: str) -> list[Panel]:
@@ -126,7 +142,7 @@ def _positions(result: Result) -> list[Panel]:
 
 
 def _quantity(label: str) -> str:
-    return label.replace("position [rad]", "angle [rad]")
+    return label.replace("position [rad]", "angle [rad]").replace("position [1]", "Euler parameter [1]")
 
 
 def _energy(result: Result) -> list[Panel]:

@@ -18,13 +18,13 @@ from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
 from symgen import __version__
+from symgen.describe.digest import identity
 from symgen.errors import InputError, SimulationError
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
 
-    from symgen.describe.digest import identity
-from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Mechanism
 
 #: First line of every journal; the number changes when the form of lines does.
 FORM = 1

@@ -72,7 +72,7 @@ def test_new_gives_a_file_that_runs_and_never_overwrites(cli, tmp_path, monkeypa
 
 def test_check(cli):
     code, out, _ = cli("check", "four-bar")
-    assert code == 0 and "1 degrees of freedom" in out and "8 constraint rows of rank 8" in out
+    assert code == 0 and "1 degree of freedom" in out and "8 constraint rows of rank 8" in out
     found = json.loads(cli("check", "n-four-bar:3", "--json")[1])
     assert found["rank"] == 20 and found["degrees_of_freedom"] == 1 and found["sizes"]["coordinates"] == 21
 

@@ -75,7 +75,7 @@ def test_text(capsys):
     assert main(["inspect", "four-bar", "--method", "lagrange"]) == 0
     text = capsys.readouterr().out
     for part in (
-        "9 coordinates, 9 velocities, 8 constraint rows of rank 8, 1 degrees of freedom",
+        "9 coordinates, 9 velocities, 8 constraint rows of rank 8, 1 degree of freedom",
         "A.x [m]: crank.x - cos(crank.theta)",
         "A.x  1.x......",
         "D[B.x, coupler.omega] = 4*sin(coupler.theta)",

@@ -1,0 +1,121 @@
+"""What a terminal of 80 characters shows: whole numbers and names; and examples in every help."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Iterator
+from typing import Any
+
+import click
+import pytest
+from rich.console import Console
+
+from symgen.api import load
+from symgen.cli import COMMANDS, _columns, _tables, group, main
+from symgen.cli import list as list_command
+from symgen.study.comparison.rows import Row, Study
+
+
+@pytest.fixture
+def narrow(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make standard output a terminal of 80 characters."""
+    monkeypatch.setattr(
+        _tables,
+        "console",
+        lambda: Console(width=80, force_terminal=True, color_system=None, markup=False, highlight=False),
+    )
+
+
+def study() -> Study:
+    rows = tuple(
+        Row(
+            *(method, integrator, 1.25e-3, None, "ok", None, 1.23456e-10 * k, False, 0.0123456 * k, 0.1, 123456789),
+            *(1.234e-11, 2.345e-12, 3.456e-13),
+        )
+        for k, (method, integrator) in enumerate(
+            [("lagrange", "rk4"), ("index1-augmented-lagrangian", "generalized-alpha"), ("udwadia-kalaba", "dop853")], 1
+        )
+    )
+    return Study("four-bar", "a reference", 1e-12, 5.0, rows)
+
+
+def test_a_comparison_has_whole_numbers(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
+    _tables.show_study(study())
+    lines = capsys.readouterr().out.splitlines()
+    assert all(len(line) <= 80 for line in lines) and not any("…" in line for line in lines)
+    text = "\n".join(lines)
+    for k in (1, 2, 3):
+        assert f"{1.23456e-10 * k:.2e}" in text and f"{12.3456 * k:.3f}" in text
+    assert "index1-augmented-lagrangian" in text and "generalized-alpha" in text
+    assert "left out for want of room" in text
+
+
+def test_a_wide_terminal_has_all_columns(capsys: pytest.CaptureFixture[str]) -> None:
+    _tables.show_study(study())
+    text = capsys.readouterr().out
+    assert "left out" not in text and "123456789" in text and "3.5e-13" in text
+
+
+def test_the_last_state_of_a_large_mechanism_is_whole(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
+    result = load("bricard").simulate(until=0.01, step=1e-3)
+    _tables.show_result(result)
+    text = capsys.readouterr().out
+    assert all(len(line) <= 80 for line in text.splitlines())
+    for name, value in {**result.q.row(), **result.v.row()}.items():
+        assert re.search(rf"(^|\s){re.escape(f'{value:.6g}')}(\s|$)", text, re.M), name
+
+
+def test_names_of_the_list_are_whole(narrow: None, capsys: pytest.CaptureFixture[str]) -> None:
+    from symgen import catalogue
+
+    assert main(["list"]) == 0
+    words = capsys.readouterr().out.split()
+    for entry in (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES)):
+        assert entry.name in words or any(word.startswith(f"{entry.name}:") for word in words)
+    assert list_command.WIDE > 80
+
+
+def test_columns_go_by_importance_or_into_parts() -> None:
+    columns = [_columns.Column(f"c{k}", ("x" * 20,), weight=k) for k in range(5)]
+    assert [c.heading for c in _columns.fitting(columns, 70)] == ["c0", "c3", "c4"]
+    assert [[c.heading for c in part] for part in _columns.in_parts(columns, 70)] == [
+        ["c0", "c1", "c2"],
+        ["c0", "c3", "c4"],
+    ]
+    assert _columns.room(columns) == 108
+
+
+def commands(command: click.Command, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], click.Command]]:
+    yield path, command
+    if isinstance(command, click.Group):
+        context = click.Context(command)
+        for name in command.list_commands(context):
+            inner = command.get_command(context, name)
+            assert inner is not None
+            yield from commands(inner, (*path, name))
+
+
+def test_every_help_has_examples_that_can_be_typed() -> None:
+    found = dict(commands(group))
+    assert len(found) > len(COMMANDS)
+    for path, command in found.items():
+        text = command.get_help(click.Context(command, info_name="symgen"))
+        examples = re.findall(r"^ +(symgen .*)$", text.partition("Examples:")[2], re.M)
+        assert examples, path
+        for line in (part.strip() for example in examples for part in re.split(r"&&|>+", example)):
+            words = shlex.split(line)
+            if words[0] == "symgen":
+                check(found, words[1:])
+
+
+def check(found: dict[tuple[str, ...], click.Command], words: list[str]) -> None:
+    """Words are a command, its arguments and options that it has."""
+    path = tuple(words[:2]) if tuple(words[:2]) in found else tuple(words[:1])
+    command: Any = found[path]
+    flags = {flag for parameter in command.params for flag in (*parameter.opts, *parameter.secondary_opts)}
+    given = [word for word in words if word.startswith("-")]
+    assert all(word in flags for word in given), words
+    for word in words[len(path) :]:
+        if word in ("four-bar", "slider-crank", "pendulum"):
+            load(word)
