@@ -51,7 +51,8 @@ def command(
 ) -> int:
     """Write the emitted modules of MODEL, and their metadata as JSON, into a folder, and list them.
 
-    The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes.
+    The modules need nothing but math, numpy and numba. The same mechanism always gives the same bytes. Straight code
+    for processors is a package that runs: simulate.py starts where start.json says.
     """
     from symgen.compiling.choose_coordinates import choose_coordinates, weighed
     from symgen.compiling.choose_tree import on_tree
@@ -83,7 +84,14 @@ def command(
     if target == "cuda" and not methods:
         choices = [c for c in choices if not c.implicit]
     generated = generate(mechanism, tuple(choices), shape, target)
-    written = write_modules(folder, generated.modules)
+    beside: dict[str, str] = {}
+    if shape == "straight" and target == "cpu":
+        from symgen.api import Model
+        from symgen.cli._package import may_write, package
+
+        found = package(Model(load(model)), choices, chosen.coordinates)
+        beside = {name: text for name, text in found.items() if may_write(folder / name)}
+    written = write_modules(folder, generated.modules, beside)
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in written]
         seconds = {"derive": generated.derive_seconds, "emit": generated.emit_seconds}
@@ -94,8 +102,10 @@ def command(
     return OK
 
 
-def write_modules(folder: Path, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> list[Path]:
-    """Write modules and metadata, all of them or none; return the files in order.
+def write_modules(
+    folder: Path, modules: Mapping[str, tuple[str, Mapping[str, Any]]], beside: Mapping[str, str] | None = None
+) -> list[Path]:
+    """Write modules and metadata, and files `beside` them, all of them or none; return the files in order.
 
     Parts of laws are named by what they hold: those that no law of the folder names any more are removed.
 
@@ -110,6 +120,7 @@ def write_modules(folder: Path, modules: Mapping[str, tuple[str, Mapping[str, An
     for stem, (source, metadata) in modules.items():
         files[folder / f"{stem}.py"] = source
         files[folder / f"{stem}.json"] = json.dumps(metadata, allow_nan=False, indent=1, sort_keys=True) + "\n"
+    files |= {folder / name: text for name, text in (beside or {}).items()}
     made = [f for f in (folder, *folder.parents) if not f.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)

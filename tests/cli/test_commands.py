@@ -116,8 +116,9 @@ def test_generate_writes_modules_that_stand_alone(cli, tmp_path):
     assert code == 0 and err == ""
     laws = {name: json.loads((folder / f"{name}.json").read_text()) for name in ("lagrange", "direct_correction")}
     names = {"model", *laws, *(part for law in laws.values() for part in law["modules"])}
-    assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")}
-    assert len(out.splitlines()) == 2 * len(names)
+    package = {"__init__.py", "README.md", "simulate.py", "start.json"}
+    assert {p.name for p in folder.iterdir()} == {f"{n}{e}" for n in names for e in (".py", ".json")} | package
+    assert len(out.splitlines()) == 2 * len(names) + len(package)
     first = {p.name: p.read_bytes() for p in folder.iterdir()}
     assert cli("generate", "four-bar", "--method", "lagrange", "--method", "direct-correction", "-o", folder)[0] == 0
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == first

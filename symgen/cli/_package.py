@@ -1,0 +1,170 @@
+"""What ``symgen generate`` writes beside emitted modules, so that they run by themselves: a package with its start."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from symgen.emit.text import harmless
+
+if TYPE_CHECKING:
+    from symgen.api import Model
+    from symgen.cli._reading import Started
+    from symgen.compiling.pipeline import MethodChoice
+
+#: Sections of ``w`` that a start settles; all others are written before they are read.
+_SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
+
+#: What each file of a package has that symgen wrote; others of these names are somebody else's and stay as they are.
+_OURS = {"start.json": '"step_at"', "simulate.py": "Written by symgen", "__init__.py": "Written by symgen"}
+_OURS |= {"README.md": "Written by symgen"}
+
+_SIMULATE = '''"""Simulate this mechanism: python simulate.py [METHOD [UNTIL [STEP]]]. Written by symgen.
+
+Needs numpy and numba alone.
+"""
+
+import importlib
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+START = json.loads((HERE / "start.json").read_text(encoding="utf-8"))
+
+
+def simulate(method=START["method"], until=START["until"], step=START["step"]):
+    """Return times and states (q, v, work) of a run with the classical Runge-Kutta scheme and constant steps."""
+    sys.path.insert(0, str(HERE.parent))
+    model, law = (importlib.import_module(f"{HERE.name}.{stem}") for stem in ("model", method))
+    told = json.loads((HERE / f"{method}.json").read_text(encoding="utf-8"))
+    own, first = [default for _, default in told["parameters"]], told["parameter_offset"]
+    p = np.zeros(first + len(own) + told["hoisted"])
+    p[: len(START["parameters"])], p[first : first + len(own)] = list(START["parameters"].values()), own
+    model.prepare(p), law.prepare(p)
+    y, w, iw, k = np.array(START["y"]), np.zeros(told["nw"]), np.zeros(START["counters"], np.int64), {}
+    for at, numbers in START["w"].values():
+        w[at : at + len(numbers)] = [float(number) for number in numbers]
+    law.accept(0.0, y, p, w, iw)
+    times, states, w[START["step_at"]] = [0.0], [y.copy()], step
+    for i in range(round(until / step)):
+        for stage, share in enumerate((0.0, 0.5, 0.5, 1.0)):
+            x = y + share * step * k[stage - 1] if stage else y.copy()
+            t, k[stage] = (i + share) * step, np.zeros(len(y))
+            if law.rhs(t, x, p, w, iw, k[stage]):  # a pivot is suspicious: which rows depend on others is decided anew
+                law.confirm(t, x, p, w, iw, k[stage])
+        y += step / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3])
+        if law.accept((i + 1) * step, y, p, w, iw) & 1:
+            raise ArithmeticError(f"the state at t = {(i + 1) * step} cannot be corrected")
+        times.append((i + 1) * step), states.append(y.copy())
+    return np.array(times), np.array(states)
+
+
+if __name__ == "__main__":
+    times, states = simulate(*sys.argv[1:2], *map(float, sys.argv[2:4]))
+    print(json.dumps({"t": times[-1], **dict(zip(START["names"], states[-1].tolist()))}, indent=1))
+'''
+
+
+def may_write(path: Path) -> bool:
+    """Whether a file of a package may be written: it is not there, or symgen wrote it."""
+    try:
+        return not path.exists() or _OURS[path.name] in path.read_text(encoding="utf-8")
+    except (OSError, ValueError):
+        return False
+
+
+def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, str]:
+    """Return the files that make emitted modules a package that runs, by name.
+
+    Where no method is for explicit integrators, or the mechanism does not close, there is no start and nothing to
+    simulate, and the README says why.
+
+    Parameters
+    ----------
+    model : Model
+        What was generated.
+    choices : sequence of MethodChoice
+        The methods, as they were generated.
+    coordinates : {"absolute", "joint"}
+        Whose coordinates the state has.
+    """
+    from symgen.cli._reading import Started
+    from symgen.errors import AssemblyError
+
+    explicit = [choice for choice in choices if not choice.implicit]
+    usual = next((c for c in explicit if c.method.name == "direct-correction"), explicit[0] if explicit else None)
+    why, files = "no method here is for explicit integrators", dict[str, str]()
+    if usual is not None:
+        try:
+            started = Started.of(model, usual.method.name, usual.options, {}, "straight", coordinates)
+            settled = _start(model, started, usual)
+            files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
+        except AssemblyError as error:
+            why = harmless(error)
+    name = harmless(model.name)
+    files["__init__.py"] = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
+    files["README.md"] = _readme(model, explicit, why if "start.json" not in files else "")
+    return files
+
+
+def _start(model: Model, started: Started, choice: MethodChoice) -> dict[str, Any]:
+    """Return parameters and a consistent start, as functions of the package take them."""
+    import numpy as np
+
+    from symgen.ir.program import COUNTERS, STATUS
+    from symgen.runtime.simulation import Simulation
+
+    info, plan = started.compiled.info, started.plan
+    run = Simulation(started.compiled, plan.tableau, started.start, plan.spec)
+    run.enter(run.outputs(np.zeros(0)), until=0.0)
+    state, defaults = run.state, model.mechanism.defaults
+    kept = {name: info.sections[name] for name in _SETTLED if name in info.sections}
+    return {
+        "mechanism": model.name,
+        "method": choice.stem,
+        "until": defaults.until,
+        "step": defaults.step,
+        "parameters": model.parameters(),
+        "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
+        "y": state.y[: info.nq + info.nv + 1].tolist(),
+        "counters": len(COUNTERS),
+        "step_at": info.sections["status"][0] + STATUS.index("step"),
+        "w": {name: [at, [_json(x) for x in state.w[at : at + size]]] for name, (at, size) in kept.items()},
+    }
+
+
+def _json(x: float) -> float | str:
+    """Return a number as JSON has it: the mask of a row that depends on others is ``inf``."""
+    return float(x) if math.isfinite(x) else str(float(x))
+
+
+def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
+    title, name = harmless(model.mechanism.title or model.name), harmless(model.name)
+    lines = [
+        f"# {name}",
+        "",
+        f"{title}. Written by symgen; the same mechanism gives the same bytes.",
+        "",
+        "`model.py` holds what all methods share, and one module a method its law; each begins with what its arrays"
+        " mean. The JSON file beside a module says the same for programs.",
+        "",
+    ]
+    if why:
+        return "\n".join([*lines, f"There is no `simulate.py`: {why}.", ""])
+    methods = ", ".join(f"`{choice.stem}`" for choice in choices)
+    return "\n".join(
+        [
+            *lines,
+            "    python simulate.py [METHOD [UNTIL [STEP]]]",
+            "",
+            f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. The start"
+            " closes the mechanism with the parameters that stand there; with others it has to be generated anew.",
+            "",
+        ]
+    )

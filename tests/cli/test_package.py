@@ -1,0 +1,141 @@
+"""Folders of emitted modules are packages: they run with NumPy and Numba alone and give the numbers of a run."""
+
+import json
+import os
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen import catalogue
+from symgen.cli import main
+
+#: What numpy and numba consist of.
+ALONE = ("numpy", "numpy.libs", "numba", "llvmlite", "numba.libs", "llvmlite.libs")
+RUN = """
+import sys, runpy
+sys.path.insert(0, sys.argv.pop(1))
+found = {}
+for name in ("symgen", "sympy", "scipy", "msgspec", "jinja2"):
+    try:
+        __import__(name)
+    except ImportError:
+        continue
+    raise SystemExit(name + " is there")
+sys.argv = sys.argv[1:]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory):
+    """A folder that holds numpy and numba and nothing else."""
+    folder = tmp_path_factory.mktemp("alone")
+    site = Path(find_spec("numpy").origin).parents[1]
+    for name in ALONE:
+        if (site / name).exists():
+            (folder / name).symlink_to(site / name)
+    return folder
+
+
+def simulated(folder, alone, tmp_path, *arguments, compiled=False):
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "NUMBA", "SYMGEN"))}
+    environment |= {"NUMBA_CACHE_DIR": str(tmp_path / "numba")} | ({} if compiled else {"NUMBA_DISABLE_JIT": "1"})
+    command = [sys.executable, "-I", "-S", "-c", RUN, str(alone), str(folder / "simulate.py"), *map(str, arguments)]
+    done = subprocess.run(
+        command, cwd=tmp_path, capture_output=True, text=True, timeout=600, check=False, env=environment
+    )
+    assert done.returncode == 0, done.stderr[-2000:]
+    return json.loads(done.stdout)
+
+
+def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=False):
+    """A few steps of the package are those of a run."""
+    folder = tmp_path / "emitted"
+    arguments = ["--method", "direct-correction", "--coordinates", coordinates]
+    assert main(["generate", name, "-o", str(folder), *arguments]) == 0
+    start = json.loads((folder / "start.json").read_text())
+    until = steps * start["step"]
+    found = simulated(folder, alone, tmp_path, start["method"], until, compiled=compiled)
+    settings = {"integrator": "rk4", "step": start["step"], "until": until, "coordinates": coordinates}
+    result = symgen.load(name).simulate(method="direct-correction", shape="straight", **settings)
+    assert result.status == "ok", result.reason
+    final = result.to_json()["final"]
+    joints = dict(zip(result.joint_coordinates.names, np.asarray(result.joint_coordinates)[-1].tolist(), strict=True))
+    expected = {**final["q"], **final["v"], **joints}
+    known = [key for key in found if key in expected]
+    assert known
+    numbers, others = np.array([found[k] for k in known]), np.array([expected[k] for k in known])
+    # the same operations in another order, twenty times: a few units in the last place of the largest numbers
+    assert np.abs(numbers - others).max() <= 1e-11 * max(1.0, np.abs(others).max())
+    return found
+
+
+def test_a_package_gives_the_numbers_of_a_run(alone, tmp_path):
+    found = agrees("four-bar", alone, tmp_path)
+    assert next(iter(found)) == "t" and list(found)[-1] == "work"
+
+
+def test_a_package_says_what_it_is(tmp_path, capsys):
+    folder = tmp_path / "emitted"
+    assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(folder), "--json"]) == 0
+    listed = {Path(f["path"]).name for f in json.loads(capsys.readouterr().out)["files"]}
+    assert {"__init__.py", "README.md", "simulate.py", "start.json", "model.py", "lagrange.py"} <= listed
+    assert "python simulate.py" in (folder / "README.md").read_text()
+    start = json.loads((folder / "start.json").read_text())
+    assert start["parameters"] == symgen.load("pendulum").parameters()
+    assert start["names"] == ["bob.x", "bob.y", "bob.vx", "bob.vy", "work"]
+    first = {path.name: path.read_bytes() for path in folder.iterdir()}
+    assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(folder)]) == 0
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == first
+
+
+def test_what_does_not_close_is_generated_without_a_start(tmp_path):
+    path = tmp_path / "open.toml"
+    path.write_text(
+        '[mechanism]\nname = "open"\ntitle = "a \\"\\"\\" title"\ngravity = [0, -9.81]\n'
+        "[bodies.a]\nmass = 1.0\ninertia = 1.0\npoints = { P = [0.5, 0.0], Q = [-0.5, 0.0] }\n"
+        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], "P"]\n'
+        '[joints.k]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[9, 0], "Q"]\n'
+    )
+    folder = tmp_path / "emitted"
+    assert main(["generate", str(path), "--method", "lagrange", "-o", str(folder)]) == 0
+    assert not (folder / "simulate.py").exists()
+    assert "There is no `simulate.py`" in (folder / "README.md").read_text()
+    compile((folder / "__init__.py").read_text(), "x", "exec")
+
+
+def test_files_of_other_people_stay_as_they_are(tmp_path):
+    folder = tmp_path / "emitted"
+    folder.mkdir()
+    (folder / "README.md").write_text("mine")
+    assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(folder)]) == 0
+    assert (folder / "README.md").read_text() == "mine"
+    assert (folder / "simulate.py").exists()
+
+
+def test_methods_for_implicit_integrators_alone_have_nothing_to_simulate(tmp_path):
+    folder = tmp_path / "emitted"
+    assert main(["generate", "pendulum", "--method", "ggl", "-o", str(folder)]) == 0
+    assert "no method here is for explicit integrators" in (folder / "README.md").read_text()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(catalogue.known()))
+def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_path):
+    agrees(name, alone, tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["bricard", "cam-follower", "flyball-governor", "spatial-slider-crank"])
+def test_packages_in_joint_coordinates_give_the_numbers_of_runs(name, alone, tmp_path):
+    agrees(name, alone, tmp_path, "joint")
+
+
+@pytest.mark.slow
+def test_a_package_is_compiled_by_numba_alone(alone, tmp_path):
+    agrees("pendulum", alone, tmp_path, compiled=True)
