@@ -33,6 +33,8 @@ CONTINUED = 0.1
 PIECE = 500_000
 #: The shortest step beside the time that a motion takes.
 LEAST = 1e-13
+#: A row that opens by more than this in the shortest step jumps [rad, or the length of the mechanism].
+JUMP = 1e-6
 #: Coordinates named of those that could move at a singular position, and the part of the largest from which one counts.
 MOST_NAMED, COUNTS = 3, 0.3
 
@@ -350,4 +352,5 @@ class Tracer:
         w = self.w.copy()
         later = float(self.clock[f.TIME]) + self.sign * self.course.least
         Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
-        return bool(abs(self.found.compiled.section(w, "residual")[row]) > 1e-6)
+        size = float(w[abi.LENGTH]) if self.info.rows[row].unit == "m" else 1.0
+        return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * size)
