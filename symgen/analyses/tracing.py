@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
 from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
 from symgen.runtime import abi, decisions
-from symgen.runtime import following as f
+from symgen.runtime import following_records as f
 from symgen.runtime.exact import compiled_form
+from symgen.runtime.following import follow
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, velocity_of
 from symgen.runtime.probe import Ready
@@ -33,6 +34,8 @@ CONTINUED = 0.1
 PIECE = 500_000
 #: The shortest step beside the time that a motion takes.
 LEAST = 1e-13
+#: A row that opens by more than this in the shortest step jumps [rad, or the length of the mechanism].
+JUMP = 1e-6
 #: Coordinates named of those that could move at a singular position, and the part of the largest from which one counts.
 MOST_NAMED, COUNTS = 3, 0.3
 
@@ -127,7 +130,7 @@ class Tracer:
 
     @property
     def clock(self) -> Array:
-        """Time, sine and the like, see `symgen.runtime.following`."""
+        """Time, sine and the like, see `symgen.runtime.following_records`."""
         clock: Array = self.stand.clock
         return clock
 
@@ -166,7 +169,7 @@ class Tracer:
     def follow(self, times: Array, seen: Any) -> int:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
-        return int(f.follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
+        return int(follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
 
     def _shortened(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""
@@ -350,4 +353,5 @@ class Tracer:
         w = self.w.copy()
         later = float(self.clock[f.TIME]) + self.sign * self.course.least
         Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
-        return bool(abs(self.found.compiled.section(w, "residual")[row]) > 1e-6)
+        size = float(w[abi.LENGTH]) if self.info.rows[row].unit == "m" else 1.0
+        return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * size)
