@@ -19,7 +19,7 @@ from statistics import median
 import numpy as np
 
 from benchmarks.against_gcc import _repeat_emitted
-from benchmarks.robots import Limb, _limb, mechanism
+from benchmarks.trees import Limb, limb_of, mechanism
 from symgen.api import Model
 from symgen.compiling.choose_tree import on_tree, operations
 from symgen.compiling.pipeline import choose_method, compile_model
@@ -37,7 +37,7 @@ def chain(links: int) -> list[Limb]:
     found = list[Limb]()
     for k in range(links):
         parent = "" if k == 0 else f"link{k - 1 if k % 3 else max(0, k // 2 - 1)}"
-        found.append(_limb(f"link{k}", parent, "zyx"[k % 3], (0.3, 0.0, 0.1), 100 + k))
+        found.append(limb_of(f"link{k}", parent, "zyx"[k % 3], (0.3, 0.0, 0.1), 100 + k))
     return found
 
 

@@ -22,7 +22,7 @@ PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 #: Top-level folder or module of symgen -> libraries from outside the standard library that it may import.
 ALLOWED = {
     "__init__": set(),
-    "analyses": {"msgspec", "numpy", "scipy"},
+    "analyses": {"control", "matplotlib", "msgspec", "numpy", "scipy"},
     "api": {"numpy"},
     "arguments": set(),
     "auto": {"numpy"},
@@ -56,7 +56,7 @@ ALLOWED = {
     "stepping": {"numpy"},
     "store": {"filelock", "llvmlite", "numba", "numpy", "platformdirs"},
     "study": {"numpy", "pandas", "scipy"},
-    "tree_run": {"numpy"},
+    "tree_run": {"msgspec", "numpy"},
     "vocabulary": {"msgspec"},
 }
 #: What single files may import beyond that: the references of studies rest on a second, independent derivation.

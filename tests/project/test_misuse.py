@@ -104,7 +104,7 @@ def settings_rows():
     yield "inputs", {3: 1.0}, "named by texts, got 3"
     yield "inputs", {"x": 1.0}, "input 'x': expected an input of pendulum, got none of that name; it declares none"
     yield "options", {"alpha": 1.0}, "option alpha: expected method.NAME or integrator.NAME"
-    yield "options", {"method.weight": "long"}, "expected one of identity, mass, got 'long'"
+    yield "options", {"method.weight": "long"}, "expected one of identity, mass, body, got 'long'"
     for name in ("strict", "verify"):
         for shown, value in NO_SWITCH.items():
             yield name, value, f"{name}: expected True or False, got {shown}"
@@ -171,6 +171,30 @@ def rows():
     yield "kinematics setting", lambda x: x.model.kinematics([0.0], speed=1.0), "the name of a setting, got 'speed'"
     yield "inverse file", lambda x: x.model.inverse("nothing.nc"), "expected a file of a result, got 'nothing.nc'"
     yield "inverse of nothing", lambda x: x.model.inverse(x.result), "names of what exerts the motion, got none"
+    for shown, value in {"3": 3, "'x'": "x", "a list": [1.0]}.items():
+        yield (
+            f"scan {shown}",
+            lambda x, v=value: x.model.equilibria(v),
+            "scan: expected a pair of a name and its values",
+        )
+        yield f"locus {shown}", lambda x, v=value: x.model.locus(v), "over: expected a pair of a name and its values"
+    yield "scan text", lambda x: x.model.equilibria(("bob.x", "x")), "scan bob.x: expected"
+    yield "scan of nothing", lambda x: x.model.equilibria(("nope", [0.0])), "a coordinate of pendulum, got none"
+    yield "equilibrium setting", lambda x: x.model.equilibrium(nope=1), "the name of a setting, got 'nope'"
+    for value in ("never", None, [1.0], NAN, -1.0):
+        yield f"modes at {value!r}", lambda x, v=value: x.model.modes(at=v), "at: expected"
+        yield f"linearise at {value!r}", lambda x, v=value: x.model.linearise(at=v), "at: expected"
+    for value in (4, {"x": 1}):
+        yield f"states {value!r}", lambda x, v=value: x.model.modes(states=v), "states: expected a list of names"
+        yield f"cyclic {value!r}", lambda x, v=value: x.model.steady(cyclic=v), "cyclic: expected a list of names"
+    yield (
+        "states by name",
+        lambda x: x.model.linearise(states=("nope",)),
+        "state 'nope': expected a coordinate, velocity",
+    )
+    for value in (0, -1, "x", 1.5, True):
+        yield f"count {value!r}", lambda x, v=value: x.model.modes(count=v), "count: expected a whole number"
+    yield "instantaneous", lambda x: x.model.linearise(instantaneous="x"), "instantaneous: expected True or False"
     # models
     for shown, value in NO_MAPPING.items():
         yield f"parameters {shown}", lambda x, v=value: x.model.parameters(v), f"got {shown}"
@@ -458,6 +482,7 @@ def test_no_function_with_arguments_is_left_out():
         ),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
         *("Sweep.save", "Sweep.reasons", "Model.start", "Model.kinematics", "Model.inverse"),
+        *(f"Model.{name}" for name in ("equilibrium", "equilibria", "steady", "modes", "linearise", "locus")),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
         *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),

@@ -1,10 +1,8 @@
 """Trees of joints beside Pinocchio's `aba` and MuJoCo's `mj_forward`: accelerations at random states, and time.
 
-    python -m benchmarks.robots [--states 100]
+    python -m benchmarks.peers.trees [--states 100]
 
-Trees written here, of the sizes of Pinocchio's samples: an arm of six hinges and a free body with two legs, two arms, a
-torso and a neck (34 velocities), each with limbs of any shape and with rods as the samples have, and a tree of balls
-and hinges. The coordinates of all three programs are angles of
+The trees are those of `benchmarks.trees`. The coordinates of all three programs are angles of
 hinges, and position, quaternion, velocity and angular velocity in own axes of a free body, so accelerations are
 compared number by number. Time is of one evaluation called through a pointer: symgen's emitted function, the same
 equations by gcc, and `aba` from Pinocchio's headers by g++ with the same flags, in the faster of its two conventions,
@@ -20,17 +18,14 @@ import subprocess
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from benchmarks.against_gcc import FLAGS, REPEATS, _repeat_emitted, c_function
-from benchmarks.mechanisms.toml import text
-from symgen.api import load
+from benchmarks.trees import AXES, GRAVITY, TREES, Array, Limb, mechanism
 from symgen.compiling.choose_tree import on_tree
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.formulate import formulate
@@ -41,130 +36,6 @@ from symgen.plan import make_plan
 from symgen.runtime import abi
 from symgen.settings import Settings
 from symgen.tree_run import TreeRun, tree_run
-
-Array = NDArray[np.float64]
-
-GRAVITY = 9.81
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-
-
-@dataclass(frozen=True)
-class Limb:
-    """A body and the joint that carries it.
-
-    Attributes
-    ----------
-    name, parent : str
-        The body, and what carries it, ``""`` for the ground.
-    joint : str
-        ``x``, ``y``, ``z`` for a hinge about that axis, ``ball``, ``free``.
-    at : tuple of float
-        The joint in the frame of what carries it [m]; all frames are parallel where angles are 0.
-    mass : float
-        [kg]
-    centre : tuple of float
-        [m]
-    inertia : tuple of float
-        About the centre of mass: xx, yy, zz, xy, xz, yz [kg m^2].
-    """
-
-    name: str
-    parent: str
-    joint: str
-    at: tuple[float, float, float]
-    mass: float
-    centre: tuple[float, float, float]
-    inertia: tuple[float, ...]
-
-
-def _limb(name: str, parent: str, joint: str, at: tuple[float, float, float], index: int) -> Limb:
-    """Return a limb with masses and inertias of no symmetry, the same ones at every call."""
-    rng = np.random.default_rng(1000 + index)
-    mass = round(0.5 + 3.0 * rng.random(), 6)
-    centre = (0.0, 0.0, 0.0) if joint == "free" else tuple(np.round(0.2 * rng.standard_normal(3), 6))
-    root = rng.standard_normal((3, 3))
-    spread = root @ root.T / 3.0 + np.eye(3)  # second moments of mass, so that no axis has more than the other two
-    shape = 0.01 * mass * (np.trace(spread) * np.eye(3) - spread)
-    own = tuple(round(float(shape[i, j]), 9) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)))
-    return Limb(name, parent, joint, at, mass, (float(centre[0]), float(centre[1]), float(centre[2])), own)
-
-
-def arm() -> list[Limb]:
-    """Return an arm of six hinges."""
-    chain, parent = list[Limb](), ""
-    places = ((0.0, 0.0, 0.3), (0.0, 0.0, 0.1), (0.4, 0.0, 0.0), (0.3, 0.0, 0.0), (0.1, 0.0, 0.0), (0.1, 0.0, 0.0))
-    for k, (axis, at) in enumerate(zip("zyyxyx", places, strict=True)):
-        chain.append(_limb(f"link{k}", parent, axis, at, k))
-        parent = f"link{k}"
-    return chain
-
-
-def humanoid() -> list[Limb]:
-    """Return a free body with 28 hinges: 34 velocities."""
-    found = [_limb("pelvis", "", "free", (0.0, 0.0, 0.0), 20)]
-
-    def chain(stem: str, root: str, at: tuple[float, float, float], axes: str, step: tuple[float, float, float]) -> str:
-        parent = root
-        for k, axis in enumerate(axes):
-            place = at if k == 0 else (step if k in (3, 4) else (0.0, 0.0, 0.0))
-            found.append(_limb(f"{stem}{k}", parent, axis, place, 20 + len(found)))
-            parent = f"{stem}{k}"
-        return parent
-
-    for side, y in (("left", 0.1), ("right", -0.1)):
-        chain(f"{side}leg", "pelvis", (0.0, y, -0.1), "zxyyyx", (0.0, 0.0, -0.4))
-    chest = chain("chest", "pelvis", (0.0, 0.0, 0.3), "zy", (0.0, 0.0, 0.0))
-    for side, y in (("left", 0.2), ("right", -0.2)):
-        chain(f"{side}arm", chest, (0.0, y, 0.3), "yxzyzy", (0.0, 0.0, -0.3))
-    chain("head", chest, (0.0, 0.0, 0.4), "zy", (0.0, 0.0, 0.0))
-    return found
-
-
-def balls() -> list[Limb]:
-    """Return a tree of balls and hinges on a free body."""
-    return [
-        _limb("base", "", "free", (0.0, 0.0, 0.0), 60),
-        _limb("upper", "base", "ball", (0.2, 0.1, -0.3), 61),
-        _limb("lower", "upper", "y", (0.0, 0.0, -0.5), 62),
-        _limb("foot", "lower", "ball", (0.1, 0.0, -0.4), 63),
-        _limb("mast", "base", "x", (-0.1, 0.0, 0.4), 64),
-        _limb("bob", "mast", "ball", (0.0, 0.0, 0.5), 65),
-    ]
-
-
-def plain(limbs: list[Limb]) -> list[Limb]:
-    """Return limbs that are rods along their own z, as those of Pinocchio's samples are."""
-    return [replace(x, centre=(0.0, 0.0, x.centre[2]), inertia=(*x.inertia[:3], 0.0, 0.0, 0.0)) for x in limbs]
-
-
-TREES = {
-    **{"arm": arm(), "arm of rods": plain(arm()), "humanoid": humanoid(), "humanoid of rods": plain(humanoid())},
-    "balls": balls(),
-}
-
-
-# -- the three descriptions --------------------------------------------------------------------------------------------
-
-
-def mechanism(name: str, limbs: list[Limb]) -> Mechanism:
-    """Return a tree as symgen reads it from a file."""
-    placed: dict[str, Array] = {"": np.zeros(3)}
-    bodies, joints = dict[str, Any](), dict[str, Any]()
-    for limb in limbs:
-        placed[limb.name] = placed[limb.parent] + limb.at
-        bodies[limb.name] = {
-            **{"mass": limb.mass, "inertia": list(limb.inertia), "centre_of_mass": list(limb.centre)},
-            "position": placed[limb.name].tolist(),
-        }
-        if limb.joint != "free":
-            kind = {"type": "spherical"} if limb.joint == "ball" else {"type": "revolute", "axis": AXES[limb.joint]}
-            ends = {"between": [limb.parent or "ground", limb.name], "at": [list(limb.at), [0.0, 0.0, 0.0]]}
-            joints[f"j_{limb.name}"] = {**kind, **ends}
-    raw = {"mechanism": {"name": name, "space": "spatial", "gravity": [0.0, 0.0, -GRAVITY]}, "bodies": bodies}
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / f"{name}.toml"
-        path.write_text(text({**raw, "joints": joints}), encoding="utf-8")
-        return load(path).mechanism
 
 
 def mjcf(limbs: list[Limb]) -> str:
@@ -481,7 +352,7 @@ def times(
 
 def main() -> None:
     """Print agreement and times of every tree."""
-    parser = argparse.ArgumentParser(prog="benchmarks.robots")
+    parser = argparse.ArgumentParser(prog="benchmarks.peers.trees")
     parser.add_argument("--states", type=int, default=100)
     count = parser.parse_args().states
     for name, limbs in TREES.items():
