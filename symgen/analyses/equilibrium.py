@@ -25,6 +25,8 @@ MOST_STEPS, MOST_HALVINGS = 60, 12
 ATTEMPTS, SINKING, REACH = 4, 12, 0.3
 #: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to.
 NEAR = 0.15
+#: Lengths of the mechanism by which a step downhill may open it.
+OPENED = 0.05
 #: Forces and violations below this fraction of what they are compared with count as zero.
 TOLERANCE = 1e-10
 #: A stiffness below this fraction of the largest one is none.
@@ -133,7 +135,8 @@ def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, fl
 def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> tuple[Array, Array, int]:
     """Return a position where all forces balance, the multipliers of all rows, and the steps taken.
 
-    Where Newton's method gets nowhere the mechanism first sinks for some steps, whatever becomes of the balance.
+    Where that gets nowhere it is tried again behind some steps downhill, whatever becomes of the balance; then Newton's
+    method alone, from both.
 
     Parameters
     ----------
@@ -149,17 +152,18 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
     AnalysisError
         If none is found.
     """
-    begun = 0
+    lower = None
     for attempt in range(ATTEMPTS):
+        sinking, again = attempt < 2, attempt % 2 == 1
+        if again and lower is None:
+            lower = _sunk(subject, y, held)
         try:
-            at, lam, steps = _search(subject, y, held)
+            at, lam, steps = _search(subject, y if lower is None or not again else lower, held, sinking)
         except AnalysisError:
             if attempt == ATTEMPTS - 1:
                 raise
-            y = _sunk(subject, y, held)
-            begun += SINKING
         else:
-            return at, lam, begun + steps
+            return at, lam, steps + SINKING * again
     raise AssertionError("the last attempt returns or raises")
 
 
@@ -184,7 +188,7 @@ def _all_rows(subject: Subject, multipliers: Array) -> Array:
     return whole
 
 
-def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tuple[Array, Array, int]:
+def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinking: bool) -> tuple[Array, Array, int]:
     count = int(np.sum(~subject.redundant)) + len(held)
     now = balance(subject, y, _all_rows(subject, np.zeros(count)), held)
     lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
@@ -197,7 +201,7 @@ def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tu
         if good and (error >= 0.5 * left or error == 0.0):
             return y, _all_rows(subject, lam), step
         left = error if good else np.inf
-        found = _stepped(subject, y, lam, now, held, size, good)
+        found = _stepped(subject, y, lam, now, held, size, good, sinking)
         if found is None and good:
             return y, _all_rows(subject, lam), step
         if found is None:
@@ -217,6 +221,7 @@ def _stepped(
     held: Sequence[tuple[str, float]],
     size: float,
     good: bool,
+    sinking: bool,
 ) -> tuple[Array, Array, Balance] | None:
     """Return what a step leads to: as long a one as makes forces, or the next step of Newton's method, smaller.
 
@@ -226,7 +231,10 @@ def _stepped(
     if matrix is None:
         return None
     error, natural = _error(subject, now, lam, size), np.linalg.norm(_correction(now, lam, matrix))
-    for change, multipliers in _steps(subject, now, lam, matrix)[: 1 if good else 2]:
+    far, steps = _steps(subject, now, lam, matrix)
+    if not sinking:
+        far, steps = False, sorted(steps, key=lambda step: step is not steps[far])
+    for way, (change, multipliers) in enumerate(steps[: 1 if good else 2]):
         longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
         part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
         for _ in range(MOST_HALVINGS):
@@ -237,6 +245,8 @@ def _stepped(
                 return tried, new, then
             if np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part) and not good:
                 return tried, new, then
+            if far and way == 0 and _sinks(subject, change, now, then, multipliers):
+                return tried, new, then
             part *= 0.5
     return None
 
@@ -246,15 +256,24 @@ def _error(subject: Subject, now: Balance, lam: Array, size: float) -> float:
     return float(np.hypot(unbalanced, np.linalg.norm(now.open) / subject.length))
 
 
-def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> list[tuple[Array, Array]]:
-    """Return Newton's step and one downhill, that first which is to be tried first.
+def _sinks(subject: Subject, change: Array, now: Balance, then: Balance, multipliers: Array) -> bool:
+    """Whether a step downhill has not gone far beyond the lowest point of its way, and opens little."""
+    before = float(change @ (now.force + now.rows.T @ multipliers))
+    after = float(change @ (then.force + then.rows.T @ multipliers))
+    opened = np.linalg.norm(then.open) <= max(OPENED * subject.length, float(np.linalg.norm(now.open)))
+    return bool(before < 0.0 and after <= 0.5 * abs(before) and opened)
+
+
+def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> tuple[bool, list[tuple[Array, Array]]]:
+    """Return whether the equilibrium is far, Newton's step and one downhill, that first which is to be tried first.
 
     Newton's method finds equilibria of any kind. That is what is wanted near one; from further away it is left to
     chance which, so that the mechanism sinks.
     """
     newton, downhill = _newton(now, lam, matrix), _downhill(now)
     longest = np.abs(now.motion @ newton[0]) / lengths(subject)
-    return [newton, downhill] if longest.max(initial=0.0) < NEAR else [downhill, newton]
+    far = bool(longest.max(initial=0.0) >= NEAR)
+    return far, [downhill, newton] if far else [newton, downhill]
 
 
 def lengths(subject: Subject) -> Array:

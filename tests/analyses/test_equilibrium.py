@@ -22,6 +22,8 @@ STARTS = {
     "down": lambda i: -1.0,
     "two arms": lambda i: -0.9 if i < 5 else 0.7,
     "slope": lambda i: -0.3 + 0.1 * i,
+    "zigzag": lambda i: 1.2 * (-1) ** i,
+    "roof": lambda i: 1.0 if i < 5 else -1.0,
 }
 
 
