@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, settle
+from symgen.analyses.equilibrium import Equilibrium, equilibria, judged
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
+from symgen.analyses.settle import settle
 from symgen.analyses.subject import Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
