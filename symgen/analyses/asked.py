@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, settle
+from symgen.analyses.equilibrium import Equilibrium, equilibria, judged
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
+from symgen.analyses.settle import settle
 from symgen.analyses.subject import Subject, subject_of
-from symgen.errors import AnalysisError, InputError, nearest, quoted
+from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -181,7 +182,11 @@ def scanned(
 
 def asked_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
-    subject = subject_of(mechanism, settings)
+    try:
+        subject = subject_of(mechanism, settings)
+    except AssemblyError:  # a tree is put together from bodies that close
+        settings = replace(settings, coordinates="absolute")
+        subject = subject_of(mechanism, settings)
     return _of_bodies(mechanism, settings, subject, equilibria(subject))[0]
 
 

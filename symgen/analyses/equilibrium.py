@@ -1,4 +1,4 @@
-"""Equilibria: Newton's method with a line search on f(q, 0) = D^T lambda, Phi(q) = 0.
+"""Equilibria: positions where forces balance, whether a mechanism stays there, and all of them over a range.
 
 Time stands still, so drivers hold what they drive where it is. Rows that depend on others are left out of the search
 and share the load afterwards, by the smallest multipliers.
@@ -6,7 +6,6 @@ and share the load afterwards, by the smallest multipliers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,19 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.settle import settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
 Array = NDArray[np.float64]
 
-#: Steps at most, and halvings of one.
-MOST_STEPS, MOST_HALVINGS = 60, 12
-#: Times that a search is begun, the steps that a mechanism sinks before it is begun again, and how long these are.
-ATTEMPTS, SINKING, REACH = 4, 12, 0.3
-#: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to.
-NEAR = 0.15
-#: Forces and violations below this fraction of what they are compared with count as zero.
-TOLERANCE = 1e-10
 #: A stiffness below this fraction of the largest one is none.
 FLAT = 1e-9
 STABLE, UNSTABLE, INDIFFERENT = "stable", "unstable", "indifferent"
@@ -79,221 +71,6 @@ class Equilibrium:
             "multipliers": self.multipliers,
             "not_unique": list(self.not_unique),
         }
-
-
-@dataclass(frozen=True)
-class Balance:
-    """The static problem at one position.
-
-    Attributes
-    ----------
-    force : Array, shape (nv,)
-        -f, and M v' where velocities are kept: what multipliers have to balance.
-    rows : Array, shape (k, nv)
-        D without rows that depend on others, then rows that hold coordinates.
-    open : Array, shape (k,)
-        By how much each of them is violated.
-    stiffness : Array, shape (nv, nv)
-        Derivative of the balance along changes of position, that of D^T lambda among it.
-    motion : Array, shape (nq, nv)
-        N.
-    """
-
-    force: Array
-    rows: Array
-    open: Array
-    stiffness: Array
-    motion: Array
-
-    @property
-    def scale(self) -> float:
-        """The largest stiffness."""
-        return float(np.abs(self.stiffness).max(initial=0.0)) or 1.0
-
-
-def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, float]] = ()) -> Balance:
-    """Return the static problem; `lam` holds multipliers of all rows, then of what is held."""
-    m, kept = subject.m, ~subject.redundant
-    e = subject.evaluated(y, lam=lam[:m])
-    motion = e.by("motion", "v")
-    d = e.by("velocities", "v")
-    stiffness = e.by("balance", "q") @ motion
-    rows, gaps = [d[kept]], [e.value("positions")[kept]]
-    for name, value in held:
-        space, at = subject.position(name)
-        if space == "q":
-            row, now = motion[at], float(y[at])
-        else:
-            row, now = e.by("functions", "q")[at] @ motion, float(e.value("functions")[at])
-        rows.append(row[None, :])
-        gaps.append(np.array([now - value]))
-    return Balance(e.value("balance") - d.T @ lam[:m], np.vstack(rows), np.concatenate(gaps), stiffness, motion)
-
-
-def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> tuple[Array, Array, int]:
-    """Return a position where all forces balance, the multipliers of all rows, and the steps taken.
-
-    Where Newton's method gets nowhere the mechanism first sinks for some steps, whatever becomes of the balance.
-
-    Parameters
-    ----------
-    subject : Subject
-        The mechanism.
-    y : Array
-        A state; its velocities are kept.
-    held : sequence of (str, float)
-        Coordinates that are held at a value by a force of their own, whose multiplier stands last.
-
-    Raises
-    ------
-    AnalysisError
-        If none is found.
-    """
-    begun = 0
-    for attempt in range(ATTEMPTS):
-        try:
-            at, lam, steps = _search(subject, y, held)
-        except AnalysisError:
-            if attempt == ATTEMPTS - 1:
-                raise
-            y = _sunk(subject, y, held)
-            begun += SINKING
-        else:
-            return at, lam, begun + steps
-    raise AssertionError("the last attempt returns or raises")
-
-
-def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> Array:
-    """Return where a few bounded steps downhill lead that also close what is open."""
-    lam = np.zeros(subject.m + len(held))
-    for _ in range(SINKING):
-        now = balance(subject, y, lam, held)
-        change, multipliers = _downhill(now)
-        lam = _all_rows(subject, multipliers)
-        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
-        y = subject.moved(y, now.motion @ (min(1.0, REACH / max(longest, 1e-300)) * change))
-    return y
-
-
-def _all_rows(subject: Subject, multipliers: Array) -> Array:
-    """Return multipliers of all rows from those of the rows that are kept; what is held stands last."""
-    kept = np.flatnonzero(~subject.redundant)
-    whole = np.zeros(subject.m + len(multipliers) - len(kept))
-    whole[kept] = multipliers[: len(kept)]
-    whole[subject.m :] = multipliers[len(kept) :]
-    return whole
-
-
-def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tuple[Array, Array, int]:
-    count = int(np.sum(~subject.redundant)) + len(held)
-    now = balance(subject, y, _all_rows(subject, np.zeros(count)), held)
-    lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
-    now = balance(subject, y, _all_rows(subject, lam), held)
-    left, step, error, size = np.inf, 0, np.inf, 0.0
-    for step in range(MOST_STEPS):
-        size = max(size, np.abs(now.force).max(initial=0.0), 1e-3 * now.scale * subject.length)
-        error = _error(subject, now, lam, size)
-        good = error < TOLERANCE
-        if good and (error >= 0.5 * left or error == 0.0):
-            return y, _all_rows(subject, lam), step
-        left = error if good else np.inf
-        found = _stepped(subject, y, lam, now, held, size, good)
-        if found is None and good:
-            return y, _all_rows(subject, lam), step
-        if found is None:
-            break
-        y, lam, now = found
-    raise AnalysisError(
-        f"no equilibrium was found from this start: after {step} steps {error:.3g} of the forces is not balanced; "
-        "another start may lead to one"
-    )
-
-
-def _stepped(
-    subject: Subject,
-    y: Array,
-    lam: Array,
-    now: Balance,
-    held: Sequence[tuple[str, float]],
-    size: float,
-    good: bool,
-) -> tuple[Array, Array, Balance] | None:
-    """Return what a step leads to: as long a one as makes forces, or the next step of Newton's method, smaller.
-
-    Where forces are `good` only Newton's step is tried, for the last digits.
-    """
-    matrix = _inverse(now)
-    if matrix is None:
-        return None
-    error, natural = _error(subject, now, lam, size), np.linalg.norm(_correction(now, lam, matrix))
-    for change, multipliers in _steps(subject, now, lam, matrix)[: 1 if good else 2]:
-        longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
-        part = min(1.0, 1.0 / longest) if longest > 0.0 else 1.0
-        for _ in range(MOST_HALVINGS):
-            tried = subject.moved(y, now.motion @ (part * change))
-            new = lam + part * (multipliers - lam)
-            then = balance(subject, tried, _all_rows(subject, new), held)
-            if _error(subject, then, new, size) < error * (1.0 - 1e-3 * part):
-                return tried, new, then
-            if np.linalg.norm(_correction(then, new, matrix)) < natural * (1.0 - 0.25 * part) and not good:
-                return tried, new, then
-            part *= 0.5
-    return None
-
-
-def _error(subject: Subject, now: Balance, lam: Array, size: float) -> float:
-    unbalanced = np.linalg.norm(now.force + now.rows.T @ lam) / size
-    return float(np.hypot(unbalanced, np.linalg.norm(now.open) / subject.length))
-
-
-def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> list[tuple[Array, Array]]:
-    """Return Newton's step and one downhill, that first which is to be tried first.
-
-    Newton's method finds equilibria of any kind. That is what is wanted near one; from further away it is left to
-    chance which, so that the mechanism sinks.
-    """
-    newton, downhill = _newton(now, lam, matrix), _downhill(now)
-    longest = np.abs(now.motion @ newton[0]) / lengths(subject)
-    return [newton, downhill] if longest.max(initial=0.0) < NEAR else [downhill, newton]
-
-
-def lengths(subject: Subject) -> Array:
-    """Return what changes of coordinates are compared with: the mechanism's length, or 1."""
-    return np.array([subject.length if q.unit == "m" else 1.0 for q in subject.compiled.info.coordinates])
-
-
-def _inverse(now: Balance) -> Array | None:
-    """Return the pseudo-inverse of Newton's matrix, forces over the largest stiffness; None where it is not finite."""
-    k, scale = len(now.open), now.scale
-    matrix = np.block([[now.stiffness / scale, now.rows.T], [now.rows, np.zeros((k, k))]])
-    return np.linalg.pinv(matrix, rcond=1e-13) if np.all(np.isfinite(matrix)) else None
-
-
-def _correction(now: Balance, lam: Array, matrix: Array) -> Array:
-    """Return what a matrix of Newton's makes of what is not balanced: a measure that does not know units of forces."""
-    right = np.concatenate([(now.force + now.rows.T @ lam) / now.scale, now.open])
-    found: Array = matrix @ right if np.all(np.isfinite(right)) else np.full(len(right), np.inf)
-    return found
-
-
-def _newton(now: Balance, lam: Array, matrix: Array) -> tuple[Array, Array]:
-    """Return the step of Newton's method, the shortest one where the matrix is singular, and the new multipliers."""
-    n = len(now.force)
-    found = -_correction(now, lam, matrix)
-    return found[:n], lam + found[n:] * now.scale
-
-
-def _downhill(now: Balance) -> tuple[Array, Array]:
-    """Return a step that lowers the energy also where the stiffness is negative: its modes count by their size."""
-    basis, inverse, _ = split(now.rows)
-    closing = -inverse @ now.open
-    values, vectors = np.linalg.eigh(symmetric(basis.T @ now.stiffness @ basis))
-    sizes = np.maximum(np.abs(values), 1e-6 * np.abs(values).max(initial=0.0))
-    sizes[sizes == 0.0] = 1.0
-    slope = vectors.T @ basis.T @ (now.force + now.stiffness @ closing)
-    change = closing - basis @ (vectors @ (slope / sizes))
-    multipliers = -inverse.T @ (now.force + now.stiffness @ change)
-    return change, multipliers
 
 
 def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:

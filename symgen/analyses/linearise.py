@@ -142,8 +142,11 @@ def named_states(
         names = chosen(subject, x)
     else:
         names = found_states(subject, x)
-        if not names:
+        speeds = np.array([x.quantity(name).changes[x.positions : x.size] for name in names])
+        if np.linalg.matrix_rank(speeds.reshape(len(names), x.velocities)) < x.velocities:  # some of them changes
             check_steady(subject, x, chosen(subject, x), where)
+            expected = "a steady motion, or states that are named"
+            raise InputError(where, expected, "one in which not all velocities stay as they are")
     if not instantaneous:
         check_steady(subject, x, names, where)
     return names

@@ -22,6 +22,8 @@ STARTS = {
     "down": lambda i: -1.0,
     "two arms": lambda i: -0.9 if i < 5 else 0.7,
     "slope": lambda i: -0.3 + 0.1 * i,
+    "zigzag": lambda i: 1.2 * (-1) ** i,
+    "roof": lambda i: 1.0 if i < 5 else -1.0,
 }
 
 
@@ -61,8 +63,9 @@ def test_both_equilibria_of_a_four_bar(doubled, coordinates):
 
 
 @pytest.mark.parametrize("start", STARTS)
-def test_links_hang_as_a_catenary(start):
-    found = rods.catenary(STARTS[start]).equilibrium()
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_links_hang_as_a_catenary(start, coordinates):
+    found = rods.catenary(STARTS[start]).equilibrium(coordinates=coordinates)
     ends = [found.q[f"l{i}.y"] - 0.1 * math.sin(found.q[f"l{i}.theta"]) for i in range(10)]
     got = abs(found.multipliers["j0.x"]), min(ends), found.q["l0.theta"]
     assert_allclose(got, CATENARY, rtol=1e-11)

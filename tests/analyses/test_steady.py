@@ -170,3 +170,17 @@ def test_cyclic_coordinates_can_be_named():
         model.steady(cyclic=["bearing.angl"])
     with pytest.raises(InputError, match="a coordinate that no force and no row depends on"):
         model.steady(cyclic=["sleeve.displacement"])
+
+
+@pytest.mark.parametrize("name", ["heavy-top", "free-rigid-body", "rolling-disc"])
+def test_what_tumbles_is_not_steady(name):
+    with pytest.raises(InputError, match="expected a state of rest, or of a motion in which no state changes"):
+        symgen.load(name).modes(at="start")
+
+
+def test_states_of_a_steady_motion_are_found():
+    """Lean, steer and speed, and what depends on them alone; eigenvalues are those of the paper, and zeros."""
+    found = symgen.load("bicycle").modes(at="start")
+    moving = [x for x in found.eigenvalues if abs(x) > 1e-5]  # a double zero is parted by the root of rounding
+    assert_allclose(moving, EIGENVALUES[5.0], rtol=1e-9)
+    assert {"lean", "lean.rate", "head.angle", "head.angle.rate"} <= set(found.names)

@@ -61,6 +61,8 @@ ALLOWED = {
 }
 #: What single files may import beyond that: the references of studies rest on a second, independent derivation.
 FURTHER = {
+    "analyses/linearise.py": {"control"},
+    "analyses/locus.py": {"matplotlib"},
     "study/references/independent.py": {"sympy"},
     "study/references/independent_space.py": {"sympy"},
     "study/journal.py": {"filelock"},

@@ -1,0 +1,263 @@
+"""What a model is asked for beside its motion: the methods of `symgen.api.Model` that are analyses."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from symgen.settings import Settings, changed
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+    from symgen.analyses.equilibrium import Equilibrium
+    from symgen.analyses.inverse import Inverse
+    from symgen.analyses.kinematics import Kinematics
+    from symgen.analyses.linearise import LinearSystem
+    from symgen.analyses.locus import Locus
+    from symgen.analyses.modes import Modes
+    from symgen.describe.mechanism import Mechanism
+    from symgen.result.result import Result
+
+    Array = NDArray[np.float64]
+
+
+class Analysed:
+    """A model that can be analysed; who inherits it has a mechanism and runs it."""
+
+    if TYPE_CHECKING:
+
+        @property
+        def mechanism(self) -> Mechanism:
+            """The validated description."""
+
+        def simulate(self, settings: Settings | None = None) -> Result:
+            """Run it."""
+
+    def equilibrium(self, settings: Settings | None = None, **changes: object) -> Equilibrium:
+        """Return the equilibrium that the start leads to: the one it is near to, or a stable one further away.
+
+        Parameters
+        ----------
+        settings : Settings, optional
+            All settings at once; ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
+        **changes
+            Single settings. Drivers hold what they drive where it is at the time 0.
+
+        Raises
+        ------
+        AnalysisError
+            If none is found.
+        """
+        from symgen.analyses.asked import asked_equilibrium
+
+        return asked_equilibrium(self.mechanism, changed(settings, changes))
+
+    def equilibria(
+        self, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object
+    ) -> tuple[Equilibrium, ...]:
+        """Return all equilibria that are found over a range of a coordinate.
+
+        Parameters
+        ----------
+        scan : (str, sequence of float)
+            The coordinate and its values, such as ``("crank.theta", numpy.linspace(0, 6.28, 25))``.
+        settings, **changes
+            As for `equilibrium`.
+
+        Raises
+        ------
+        AnalysisError
+            If none is found.
+        """
+        from symgen.analyses.asked import scanned
+
+        return scanned(self.mechanism, changed(settings, changes), scan)
+
+    def steady(self, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: object) -> Equilibrium:
+        """Return the steady motion that the start leads to: cyclic coordinates turn on, everything else stays.
+
+        Parameters
+        ----------
+        settings, **changes
+            As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
+            and drivers move.
+        cyclic : sequence of str
+            Coordinates of joints that turn on; those that nothing depends on unless given.
+
+        Raises
+        ------
+        AnalysisError
+            If none is found.
+        """
+        from symgen.analyses.asked import asked_steady
+
+        return asked_steady(self.mechanism, changed(settings, changes), cyclic)
+
+    def modes(
+        self,
+        settings: Settings | None = None,
+        *,
+        at: str | float = "equilibrium",
+        states: Sequence[str] = (),
+        cyclic: Sequence[str] = (),
+        count: int | None = None,
+        **changes: object,
+    ) -> Modes:
+        """Return eigenvalues, frequencies, damping and shapes about a state of rest or of steady motion.
+
+        Parameters
+        ----------
+        settings : Settings, optional
+            As for `equilibrium`.
+        at : {"equilibrium", "start", "steady"} or float
+            About what: the equilibrium that the start leads to, the start itself, the steady motion that the start
+            leads to, or the state at a time of a run [s].
+        states, cyclic
+            As for `linearise`.
+        count : int, optional
+            Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
+            matrices from looped code, for mechanisms of any size.
+        **changes
+            Single settings.
+
+        Raises
+        ------
+        InputError
+            If the motion is neither at rest nor steady.
+        AnalysisError
+            If no equilibrium is found.
+        """
+        from symgen.analyses.asked import asked_modes
+
+        return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
+
+    def linearise(
+        self,
+        settings: Settings | None = None,
+        *,
+        at: str | float = "equilibrium",
+        states: Sequence[str] = (),
+        cyclic: Sequence[str] = (),
+        instantaneous: bool = False,
+        **changes: object,
+    ) -> LinearSystem:
+        """Return the linear system x' = A x + B u, y = C x + D u about a state of rest or of steady motion.
+
+        Parameters
+        ----------
+        settings, at, **changes
+            As for `modes`.
+        states : sequence of str
+            Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
+            ``NAME.rate`` of any of these; rates of coordinates are added. Found unless given.
+        cyclic : sequence of str
+            With ``at="steady"``, the coordinates of joints that turn on; found unless given.
+        instantaneous : bool
+            Whether a motion that is not steady has the system of the instant.
+
+        Raises
+        ------
+        InputError
+            If the motion is not steady, or a name means nothing.
+        AnalysisError
+            If no equilibrium is found.
+        """
+        from symgen.analyses.asked import asked_system
+
+        asked = changed(settings, changes)
+        return asked_system(self.mechanism, asked, at, self.simulate, states, cyclic, instantaneous)
+
+    def locus(
+        self,
+        over: tuple[str, Sequence[float] | Array],
+        settings: Settings | None = None,
+        *,
+        at: str | float = "equilibrium",
+        states: Sequence[str] = (),
+        cyclic: Sequence[str] = (),
+        **changes: object,
+    ) -> Locus:
+        """Return how the eigenvalues move with a parameter.
+
+        Parameters
+        ----------
+        over : (str, sequence of float)
+            The parameter and its values.
+        settings, at, states, cyclic, **changes
+            As for `modes`.
+        """
+        from symgen.analyses.locus import locus
+
+        return locus(self.mechanism, changed(settings, changes), over, at, self.simulate, states, cyclic)
+
+    def kinematics(
+        self,
+        times: ArrayLike | None = None,
+        settings: Settings | None = None,
+        transmission: Sequence[str] = (),
+        **changes: object,
+    ) -> Kinematics:
+        """Return the motion of a mechanism whose freedom is all driven, without integrating; see `docs/kinematics.md`.
+
+        Parameters
+        ----------
+        times : array, optional
+            Increasing, of any sign [s]; those of the outputs of a run of the file unless given.
+        settings : Settings, optional
+            All settings at once.
+        transmission : sequence of str
+            Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If freedom is left that no driver drives, or is driven twice; if an argument is wrong.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.kinematics import kinematics
+
+        return kinematics(self.mechanism, changed(settings, changes), times, transmission)
+
+    def inverse(
+        self,
+        motion: Result | Kinematics | str | Path | None = None,
+        settings: Settings | None = None,
+        times: ArrayLike | None = None,
+        actuators: Sequence[str] = (),
+        weights: Mapping[str, float] | None = None,
+        **changes: object,
+    ) -> Inverse:
+        """Return the efforts that a motion needs; see `docs/inverse.md`.
+
+        Parameters
+        ----------
+        motion : Result, Kinematics or path, optional
+            A recorded motion, or the file that one was saved to; what the drivers prescribe unless given.
+        settings : Settings, optional
+            All settings at once.
+        times : array, optional
+            Of a motion that drivers prescribe [s].
+        actuators : sequence of str
+            What exerts the motion: drivers, joints, forces and inputs; all drivers unless given.
+        weights : mapping of str to float, optional
+            Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
+        **changes
+            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+
+        Raises
+        ------
+        InputError
+            If an argument is wrong; without a motion, if freedom is left that no driver drives.
+        AssemblyError
+            If the mechanism cannot be closed.
+        """
+        from symgen.analyses.inverse import inverse
+
+        return inverse(self.mechanism, changed(settings, changes), motion, times, actuators, weights)
