@@ -17,14 +17,12 @@ from symgen.errors import InputError, nearest
 from symgen.formulate.display import Display, latex_name
 from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import of_table
+from symgen.reading.interpolated import functions
 from symgen.reading.structure import shared_terms, structure
-from symgen.vocabulary.expressions import SMOOTH
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.formulate.equations import Equations
-    from symgen.ir.interpolation import Interpolation
     from symgen.reading.law import Law
 
 #: Quantities with more operations, written out without sharing, are written with shared terms.
@@ -250,7 +248,7 @@ class SymbolicEquations:
         outputs = [shared.quantity(name).xreplace(terms) for name in asked]
         written = [(terms[symbol], value.xreplace(terms)) for symbol, value in definitions.items()]
         symbols = [self.t, *(list(group.values()) for group in (self.q, self.v, self.parameters, self.turned))]
-        tables = _functions(self.derived.tables)
+        tables = functions(self.derived.tables)
         libraries = [tables, *([modules] if isinstance(modules, str) else modules)]
         compute = sp.lambdify(symbols, outputs, libraries, cse=lambda given: (written, given))
         known = list(parameter_values(self.mechanism).values())
@@ -391,17 +389,3 @@ class SymbolicEquations:
     def _latex(self, expression: Any) -> str:
         symbols = {s: latex_name(s.name) for s in expression.free_symbols}
         return str(sp.latex(expression, symbol_names=symbols, mat_delim="(", full_prec=False))
-
-
-def _functions(tables: Iterable[Interpolation]) -> dict[str, Any]:
-    """Return the interpolated functions and their derivatives by the names that expressions call them by."""
-    import numpy as np
-
-    found: dict[str, Any] = {}
-    for table in tables:
-        for order in range(3):
-            payload = f"{SMOOTH if table.pieces else ''}{table.name}" + "'" * order
-            name, what = of_table(payload)
-            value = np.vectorize(lambda x, table=table, order=order: table.value(float(x), order), otypes=[float])
-            found[f"{what.replace('value', 'table')}_{name}"] = value
-    return found

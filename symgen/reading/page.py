@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from html import escape
@@ -15,12 +15,12 @@ from symgen.emit.emit import emit_law, emit_model
 from symgen.errors import InputError
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
-from symgen.reading.boxes import Box, mathml, row, sign
+from symgen.reading.boxes import Box, name, row, sign
+from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
 from symgen.reading.law import Law
 from symgen.reading.patterns import of_factor, of_jacobian, picture
-from symgen.reading.sheet import Block, Line, Sheet
+from symgen.reading.sheet import Sheet
 from symgen.reading.source import Computed, computed, sections
-from symgen.reading.typeset import broken
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -94,10 +94,22 @@ def check_size(mechanism: Mechanism) -> None:
 
 
 def page(subject: Subject) -> str:
-    """Return the page, without emitted code where it would be larger than `LARGEST`."""
+    """Return the page, without emitted code where it would be larger than `LARGEST`.
+
+    Raises
+    ------
+    InputError
+        If it is larger without the code, too.
+    """
     made = _Page(subject)
-    found = made.text(code=True)
-    return found if len(found.encode()) <= LARGEST else made.text(code=False)
+    size = 0
+    for code in (True, False):
+        found = made.text(code)
+        size = len(found.encode())
+        if size <= LARGEST:
+            return found
+    expected = f"a mechanism whose page has at most {LARGEST} bytes"
+    raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
 
 
 class _Page:
@@ -129,17 +141,17 @@ class _Page:
             f"<p>{escape(s.whole.name)}, in coordinates of {kind}: {sizes}. Method {escape(s.choice.method.name)}.</p>",
             *(f'<p class="small">{escape(fact)}</p>' for fact in s.facts),
             self._navigation(),
-            _section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', _small(_SKETCH)]),
-            _section("topology", "Topology", self._topology()),
-            _section("coordinates", "Coordinates", self._coordinates()),
-            _section("rows", "Joints and their rows", [self._joint(j, code) for j in s.mechanism.joints]),
-            _section("patterns", "Patterns", self._patterns()),
-            _section("motion", "Equations of motion", self._motion()),
-            _section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
-            _section("operations", "Operations", self._operations()),
-            _section("left-out", "Left out", self._left_out()),
-            _section("file", "File", self._file()),
-            _section("code", "Emitted code", self._code(code)),
+            section("sketch", "Sketch", [f'<div class="scene">{self._sketch()}</div>', small(_SKETCH)]),
+            section("topology", "Topology", self._topology()),
+            section("coordinates", "Coordinates", self._coordinates()),
+            section("rows", "Joints and their rows", [self._joint(j, code) for j in s.mechanism.joints]),
+            section("patterns", "Patterns", self._patterns()),
+            section("motion", "Equations of motion", self._motion()),
+            section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
+            section("operations", "Operations", self._operations()),
+            section("left-out", "Left out", self._left_out()),
+            section("file", "File", self._file()),
+            section("code", "Emitted code", self._code(code)),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
@@ -173,9 +185,9 @@ class _Page:
         lines = [["joint", "kind", "between", "rows"]]
         for joint in s.mechanism.joints:
             between = " and ".join(dict.fromkeys(joint.bodies))
-            link = f'<a href="#rows-{_id(joint.name)}">{escape(joint.name)}</a>'
+            link = f'<a href="#rows-{attribute(joint.name)}">{escape(joint.name)}</a>'
             lines.append([link, escape(joint.kind), escape(between), str(len(self.sheet.of(joint.name)))])
-        found = [_fold(f"{len(s.mechanism.joints)} joints", _table(lines), len(lines) <= 13)]
+        found = [fold(f"{len(s.mechanism.joints)} joints", table(lines), len(lines) <= 13)]
         if s.mechanism.topology is not None:
             tree = [["body", "carried by", "on"]]
             tree += [
@@ -183,7 +195,7 @@ class _Page:
                 for x in s.mechanism.topology.links
             ]
             cut = ", ".join(s.mechanism.topology.cut) or "no joint"
-            found.append(_fold(f"the tree; loops are closed by {cut}", _table(tree)))
+            found.append(fold(f"the tree; loops are closed by {cut}", table(tree)))
         return found
 
     def _coordinates(self) -> list[str]:
@@ -192,15 +204,15 @@ class _Page:
             if quantities:
                 lines = [["symbol", "name", "unit", "value"]] if title == "Parameters" else [["symbol", "name", "unit"]]
                 for quantity in quantities:
-                    letter = _math(_name(quantity.name))
+                    letter = math(name(quantity.name))
                     value = [f"{self.subject.values[quantity.name]:.6g}"] if title == "Parameters" else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
-                found.append(_fold(f"{len(quantities)} {title.lower()}", _table(lines)))
+                found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
         return found
 
     def _joint(self, joint: Joint, code: bool) -> str:
         rows, g = self.sheet.of(joint.name), self.e.graph
-        links = [f'<a href="#joint-{_id(joint.name)}">in the sketch</a>']
+        links = [f'<a href="#joint-{attribute(joint.name)}">in the sketch</a>']
         place = self.places.get(f"joints.{joint.name}")
         if place is not None:
             links.append(f'<a href="#file-{place}">in the file, line {place}</a>')
@@ -211,23 +223,22 @@ class _Page:
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
         for r in rows:
-            parts.append(
-                f'<div id="row-{_id(r.name)}"><h3>row {escape(r.name)} <span class="small">{escape(r.unit)}</span></h3>'
-            )
-            parts.append(_equation(phi[r.name], " = 0") if r.name in phi else "<p>nonholonomic: it has no Phi</p>")
-            parts += [_equation(nu[r.name])] if r.name in nu else []
-            parts.append(_equation(gamma[r.name]))
+            unit = f'<span class="small">{escape(r.unit)}</span>'
+            parts.append(f'<div id="row-{attribute(r.name)}"><h3>row {escape(r.name)} {unit}</h3>')
+            parts.append(equation(phi[r.name], " = 0") if r.name in phi else "<p>nonholonomic: it has no Phi</p>")
+            parts += [equation(nu[r.name])] if r.name in nu else []
+            parts.append(equation(gamma[r.name]))
             parts.append(self._lines_of(r.name) if code else "")
             parts.append("</div>")
-        parts += [_matrix(block) for block in self.sheet.jacobian(joint.name)]
+        parts += [matrix(block) for block in self.sheet.jacobian(joint.name)]
         nodes = [n for r in rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         names = f"{escape(joint.kind)} between {escape(' and '.join(dict.fromkeys(joint.bodies)))}"
         head = f"<b>{escape(joint.name)}</b>: {names}, {len(rows)} rows, {g.operations(nodes)} operations"
-        return _fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
+        return fold(head, "\n".join(parts), ident=f"rows-{joint.name}", marked=True)
 
     def _lines_of(self, name: str) -> str:
         found = [
-            f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(_short(c.text))}</code></a>'
+            f'<a class="code" href="#line-{c.line}">{escape(c.what)}: <code>{escape(short(c.text))}</code></a>'
             for c in self.computed.get(name, ())
         ]
         return f'<p class="small">computed by {" · ".join(found)}</p>' if found else ""
@@ -242,29 +253,27 @@ class _Page:
         again = [rows[i] for i in order]
         second = picture(of_factor(e, order), again, again, "pattern of the factor of D G D^T")
         return [
-            _fold(
-                f"D: {len(entries)} entries; dark ones vary, light ones are constants of the scene", first, e.m <= 40
-            ),
-            _fold(f"factor of D G D^T in the order of elimination; {self.program.fill} entries are filled in", second),
+            fold(f"D: {len(entries)} entries; dark ones vary, light ones are constants of the scene", first, e.m <= 40),
+            fold(f"factor of D G D^T in the order of elimination; {self.program.fill} entries are filled in", second),
         ]
 
     def _motion(self) -> list[str]:
         sheet = self.sheet
-        found = [f'<div class="equation">{_math(_MOTION)}</div>', _small("Numbers are rounded to six digits.")]
+        found = [f'<div class="equation">{math(_MOTION)}</div>', small("Numbers are rounded to six digits.")]
         if self.e.nv <= _WHOLE:
-            found.append(_fold("M and D as matrices", "".join(map(_matrix, sheet.whole()))))
+            found.append(fold("M and D as matrices", "".join(map(matrix, sheet.whole()))))
         parts = [
-            ("rates of the coordinates", _equations(sheet.rates()) or "q' = v"),
-            ("mass matrix M; what is not written is zero or symmetric", _equations(sheet.mass())),
-            ("forces f; those not written are zero", _equations(sheet.forces()) or "f = 0"),
-            ("energies, and the power of forces without potential", _equations(sheet.energies())),
+            ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
+            ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
+            ("forces f; those not written are zero", equations(sheet.forces()) or "f = 0"),
+            ("energies, and the power of forces without potential", equations(sheet.energies())),
         ]
-        found += [_fold(title, text) for title, text in parts]
+        found += [fold(title, text) for title, text in parts]
         shared = sheet.shared(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
         for first in range(0, len(shared), _TOGETHER):
             some = shared[first : first + _TOGETHER]
-            names = f"{_math(some[0].left)} to {_math(some[-1].left)}"
-            found.append(_fold(f"shared terms {names}", _equations(some)))
+            names = f"{math(some[0].left)} to {math(some[-1].left)}"
+            found.append(fold(f"shared terms {names}", equations(some)))
         return found
 
     def _law(self) -> list[str]:
@@ -274,8 +283,8 @@ class _Page:
                 found.append(f"<h3>{escape(step.function)}: {escape(step.purpose)}</h3>")
                 before = step.purpose
             note = ' <span class="small">solved</span>' if step.solved else ""
-            found.append(f'<div class="equation">{_math(step.box)}{note}</div>')
-        return [_fold("steps", "\n".join(found), True)]
+            found.append(f'<div class="equation">{math(step.box)}{note}</div>')
+        return [fold("steps", "\n".join(found), True)]
 
     def _operations(self) -> list[str]:
         g, lines = self.e.graph, [["joint", "Phi", "D", "gamma", "together"]]
@@ -287,20 +296,20 @@ class _Page:
                 [r.gamma for r in rows],
             ]
             counts = [g.operations(nodes) for nodes in (*groups, [n for group in groups for n in group])]
-            lines.append([f'<a href="#rows-{_id(joint)}">{escape(joint)}</a>', *map(str, counts)])
+            lines.append([f'<a href="#rows-{attribute(joint)}">{escape(joint)}</a>', *map(str, counts)])
         blocks = [["function", "what it computes", "before sharing", "after"]]
         for block in (*self.program.blocks, *self.law.blocks):
             both = [str(block.tree_operations), str(block.operations)]
             blocks.append([escape(block.name), escape(block.purpose), *both])
         return [
-            _fold("by joint, each with what it shares within itself", _table(lines, numbers=4)),
-            _fold("by emitted function", _table(blocks, numbers=2), True),
+            fold("by joint, each with what it shares within itself", table(lines, numbers=4)),
+            fold("by emitted function", table(blocks, numbers=2), True),
         ]
 
     def _left_out(self) -> list[str]:
         found = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
         return (
-            [_fold(f"{len(found)} things", f"<ul>{''.join(found)}</ul>", len(found) <= 8)]
+            [fold(f"{len(found)} things", f"<ul>{''.join(found)}</ul>", len(found) <= 8)]
             if found
             else ["<p>Nothing.</p>"]
         )
@@ -313,10 +322,12 @@ class _Page:
         for number, line in enumerate(self.subject.text.splitlines(), 1):
             name = back.get(number, "").removeprefix("joints.")
             if name and any(joint.name == name for joint in self.subject.mechanism.joints):
-                lines.append(f'<span id="file-{number}">{escape(line)}  <a href="#rows-{_id(name)}">rows</a></span>')
+                lines.append(
+                    f'<span id="file-{number}">{escape(line)}  <a href="#rows-{attribute(name)}">rows</a></span>'
+                )
             else:
                 lines.append(escape(line))
-        return [_fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
+        return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
 
     def _code(self, code: bool) -> list[str]:
         size = len(self.source) + sum(map(len, self.parts.values()))
@@ -331,11 +342,11 @@ class _Page:
             if c is None:
                 lines.append(escape(line))
             else:
-                text = f'{escape(line)}  <a href="#row-{_id(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
+                text = f'{escape(line)}  <a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
                 lines.append(f'<span id="line-{number}">{text}</span>')
-        found = [_fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
+        found = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
         for stem, source in self.parts.items():
-            found.append(_fold(f"module {escape(stem)}, {source.count(chr(10))} lines", f"<pre>{escape(source)}</pre>"))
+            found.append(fold(f"module {escape(stem)}, {source.count(chr(10))} lines", f"<pre>{escape(source)}</pre>"))
         return found
 
 
@@ -346,70 +357,3 @@ _MOTION = row(
     *(Box("name", text="lambda"), sign("="), Box("name", text="f"), sign(",")),
     *(Box("name", text="D"), Box("dot", (Box("name", text="v"),)), sign("="), Box("name", text="gamma")),
 )
-
-
-def _name(text: str) -> Box:
-    from symgen.reading.boxes import name
-
-    return name(text)
-
-
-def _id(text: str) -> str:
-    return escape(text, quote=True)
-
-
-def _short(text: str) -> str:
-    return text if len(text) <= 60 else text[:57] + "..."
-
-
-def _small(text: str) -> str:
-    return f'<p class="small">{escape(text)}</p>'
-
-
-def _section(ident: str, title: str, parts: Iterable[str]) -> str:
-    return f'<section id="{ident}"><h2>{escape(title)}</h2>\n' + "\n".join(parts) + "\n</section>"
-
-
-def _fold(head: str, inside: str, is_open: bool = False, ident: str = "", marked: bool = False) -> str:
-    """Return something that is folded; `head` is HTML where `marked`, or has MathML in it."""
-    text = head if marked or "<math" in head else escape(head, quote=False)
-    name = f' id="{_id(ident)}"' if ident else ""
-    start = f"<details{name}{' open' if is_open else ''}><summary>{text}</summary>"
-    return f'{start}<div class="fold">{inside}</div></details>'
-
-
-def _table(lines: Sequence[Sequence[str]], numbers: int = 0) -> str:
-    """Return a table of HTML; the last `numbers` columns are numbers."""
-    found = []
-    for i, line in enumerate(lines):
-        tag, first = "th" if i == 0 else "td", len(line) - numbers
-        cells = (f"<{tag}{' class=n' if k >= first else ''}>{text}</{tag}>" for k, text in enumerate(line))
-        found.append(f"<tr>{''.join(cells)}</tr>")
-    return f"<table>{''.join(found)}</table>"
-
-
-def _math(box: Box) -> str:
-    return f"<math>{mathml(box)}</math>"
-
-
-def _equation(line: Line, tail: str = "") -> str:
-    lines = broken(line.right, 62.0 - line.left.width, 62.0)
-    found = []
-    for i, boxes in enumerate(lines):
-        inside = "".join(map(mathml, boxes))
-        if i == 0:
-            inside = f"{mathml(line.left)}<mo>=</mo>{inside}"
-        if tail and i == len(lines) - 1:
-            inside += "<mo>=</mo><mn>0</mn>"
-        found.append(f"<div{' class=more' if i else ''}><math>{inside}</math></div>")
-    return f'<div class="equation">{"".join(found)}</div>'
-
-
-def _equations(items: Iterable[Line | Block]) -> str:
-    return "\n".join(_matrix(item) if isinstance(item, Block) else _equation(item) for item in items)
-
-
-def _matrix(block: Block) -> str:
-    lines = "".join(f"<mtr>{''.join(f'<mtd>{mathml(entry)}</mtd>' for entry in line)}</mtr>" for line in block.entries)
-    inside = f"{mathml(block.left)}<mo>=</mo><mrow><mo>(</mo><mtable>{lines}</mtable><mo>)</mo></mrow>"
-    return f'<div class="equation"><math>{inside}</math></div>'
