@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_e148129e20861585 import confirm
-from .prepare_1f74b046b7d0a206 import prepare
-from .rhs_direct_a9985d3555f2d14c import rhs
+from .confirm_a8c5eeed4b294c1a import confirm
+from .prepare_9f2c7ad49f4537ff import prepare
+from .rhs_direct_8fd3d0bdeea00050 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -8,10 +8,10 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_9fddc433e3a8b2c0 import accept
-from .confirm_548fa574066bbc75 import confirm
-from .metric_identity_a207e7a2866a903c import geometry, spread
+from .accept_identity_08db196c7afffbb4 import accept
+from .confirm_8e118ab4d31c013e import confirm
+from .metric_identity_767c0698aac624c5 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_d217e291597a315c import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

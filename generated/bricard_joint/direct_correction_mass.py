@@ -8,10 +8,10 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_9d9cbe3617e89e57 import accept
-from .confirm_aa79d436568dc7a9 import confirm
-from .metric_mass_a57708865562b44e import geometry, spread
+from .accept_mass_373393990a0e0f55 import accept
+from .confirm_3eb8cc3856bf2f91 import confirm
+from .metric_mass_28bb27a708302091 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_d217e291597a315c import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_175416d265a8a934 import confirm
+from .confirm_f2777c6e17246359 import confirm
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_53d4d8918848d8af import rhs
+from .rhs_direct_d217e291597a315c import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]
