@@ -94,10 +94,22 @@ def check_size(mechanism: Mechanism) -> None:
 
 
 def page(subject: Subject) -> str:
-    """Return the page, without emitted code where it would be larger than `LARGEST`."""
+    """Return the page, without emitted code where it would be larger than `LARGEST`.
+
+    Raises
+    ------
+    InputError
+        If it is larger without the code, too.
+    """
     made = _Page(subject)
-    found = made.text(code=True)
-    return found if len(found.encode()) <= LARGEST else made.text(code=False)
+    size = 0
+    for code in (True, False):
+        found = made.text(code)
+        size = len(found.encode())
+        if size <= LARGEST:
+            return found
+    expected = f"a mechanism whose page has at most {LARGEST} bytes"
+    raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
 
 
 class _Page:

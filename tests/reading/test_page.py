@@ -110,6 +110,13 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
     assert {link[1:] for link in found.links} <= set(found.ids)
 
 
+def test_a_page_that_is_too_large_without_its_code_is_refused(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(pages, "LARGEST", 5_000)
+    assert main(["inspect", "four-bar", "-o", str(tmp_path / "page.html")]) == 2
+    assert "at most 5000 bytes" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_mechanism_that_nobody_could_read_is_refused_before_it_is_derived(tmp_path, capsys):
     path = tmp_path / "page.html"
     assert main(["inspect", "n-four-bar:400", "-o", str(path)]) == 2
