@@ -9,8 +9,8 @@ p[10] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_9254a80d54539e8e import confirm
-from .prepare_fe441edcf48e7463 import prepare
-from .rhs_direct_7c81ebad45ca951f import rhs
+from .confirm_c6c0474f3420c232 import confirm
+from .prepare_94e1ccfc7667d991 import prepare
+from .rhs_direct_3750d1f136c753a2 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

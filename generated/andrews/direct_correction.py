@@ -8,10 +8,10 @@ option weight = identity
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_identity_14a2ebb00539d34b import accept
-from .confirm_4529d83ad3256264 import confirm
-from .metric_identity_d3cef599e6dcf7bc import geometry, spread
-from .prepare_5e6f3af61bb320e5 import prepare
-from .rhs_direct_d28bf56970332796 import rhs
+from .accept_identity_c7059071d14cf329 import accept
+from .confirm_5743116709c0de56 import confirm
+from .metric_identity_81041b14508829c8 import geometry, spread
+from .prepare_70de031afcbda6a1 import prepare
+from .rhs_direct_17b95175e0cc799e import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

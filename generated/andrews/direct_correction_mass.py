@@ -8,10 +8,10 @@ option weight = mass
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_mass_ac1064e4777a6c4a import accept
-from .confirm_45bd826e55499040 import confirm
-from .metric_mass_7b4744886fc9f23d import geometry, spread
-from .prepare_5e6f3af61bb320e5 import prepare
-from .rhs_direct_d28bf56970332796 import rhs
+from .accept_mass_fcfd1887ed98bd5b import accept
+from .confirm_75a63bf0e99a1470 import confirm
+from .metric_mass_39258feb26e296cc import geometry, spread
+from .prepare_70de031afcbda6a1 import prepare
+from .rhs_direct_17b95175e0cc799e import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

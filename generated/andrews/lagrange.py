@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_9be92fe8a7ff0ce8 import confirm
-from .prepare_5e6f3af61bb320e5 import prepare
-from .rhs_direct_d28bf56970332796 import rhs
+from .confirm_1590013dbfafd268 import confirm
+from .prepare_70de031afcbda6a1 import prepare
+from .rhs_direct_17b95175e0cc799e import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_11f0ac418dc56f30 import accept
-from .confirm_f089b0cf4eb6966a import confirm
-from .prepare_1f74b046b7d0a206 import prepare
-from .rhs_direct_963ef58c73161625 import rhs
+from .confirm_b21ddba3daed60dd import confirm
+from .prepare_9f2c7ad49f4537ff import prepare
+from .rhs_direct_2559a406ce932529 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -8,10 +8,10 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_794ca4dc9a45d8d0 import accept
-from .confirm_4f361e88cdab4fe8 import confirm
-from .metric_identity_93fe3ecb27ddf1a6 import geometry, spread
+from .accept_identity_65c6b31bbdc6191b import accept
+from .confirm_58c6a1d21be96b28 import confirm
+from .metric_identity_19ea7bb1370ba888 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_deacf1a33f51e6f8 import rhs
+from .rhs_direct_192c668a04acfdcf import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

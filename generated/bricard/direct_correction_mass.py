@@ -8,10 +8,10 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_6e88f41e85a3c0ef import accept
-from .confirm_f68f01daa3c6b459 import confirm
-from .metric_mass_4dbdbf1e24c7f580 import geometry, spread
+from .accept_mass_31525a2b8fe3e9a7 import accept
+from .confirm_0ab078d2385149e7 import confirm
+from .metric_mass_e32a4ccbd143dcbe import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_deacf1a33f51e6f8 import rhs
+from .rhs_direct_192c668a04acfdcf import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_11f0ac418dc56f30 import accept
-from .confirm_b975ccf7cfea1236 import confirm
+from .confirm_49f47163ad48800d import confirm
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_deacf1a33f51e6f8 import rhs
+from .rhs_direct_192c668a04acfdcf import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

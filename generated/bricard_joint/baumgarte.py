@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_8b8854bfb0acb4b7 import confirm
-from .prepare_1f74b046b7d0a206 import prepare
-from .rhs_direct_1ec7fd35426410e6 import rhs
+from .confirm_57560a1a069098f7 import confirm
+from .prepare_9f2c7ad49f4537ff import prepare
+from .rhs_direct_12b44d49aa5398a8 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -8,10 +8,10 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_9fddc433e3a8b2c0 import accept
-from .confirm_e9f5cb37e0e843f4 import confirm
-from .metric_identity_a207e7a2866a903c import geometry, spread
+from .accept_identity_08db196c7afffbb4 import accept
+from .confirm_0758649a2335ee88 import confirm
+from .metric_identity_767c0698aac624c5 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_06113f3f376baae7 import rhs
+from .rhs_direct_fa42cef48161693f import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -8,10 +8,10 @@ option weight = body
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_body_515ce369683df0e7 import accept
-from .confirm_ba3ea27d473aba01 import confirm
-from .metric_body_14ce8d9c63c7efb5 import geometry, spread
+from .accept_body_f471b07b9b953739 import accept
+from .confirm_802662c616c4c35c import confirm
+from .metric_body_0abfb5caa45b440d import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_06113f3f376baae7 import rhs
+from .rhs_direct_fa42cef48161693f import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

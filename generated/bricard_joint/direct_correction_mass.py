@@ -8,10 +8,10 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_9d9cbe3617e89e57 import accept
-from .confirm_d6ab16d9789459ca import confirm
-from .metric_mass_a57708865562b44e import geometry, spread
+from .accept_mass_373393990a0e0f55 import accept
+from .confirm_78c5ac15402a895a import confirm
+from .metric_mass_28bb27a708302091 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_06113f3f376baae7 import rhs
+from .rhs_direct_fa42cef48161693f import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

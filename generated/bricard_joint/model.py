@@ -23,6 +23,23 @@ row 2    P3.z [m]
 row 3    P3.first [rad]
 row 4    P3.second [rad]
 
+w[0:19]  status
+w[19:20]  winding
+w[20:25]  multipliers
+w[25:30]  mask
+w[30:35]  saved
+w[35:40]  residual
+w[40:45]  nu
+w[45:50]  pivot
+w[50:55]  change
+w[55:60]  mass
+w[60:65]  gauge
+w[65:70]  row_weight
+w[70:93]  jacobian
+w[93:103]  lower
+w[103:108]  reciprocal
+w[108:113]  mass_entry
+
 Left out:
 - columns of the ground: the ground does not move
 - centre-of-mass offset of rod1: its centre of mass is the frame's origin
@@ -52,17 +69,17 @@ def geometry(t, y, p, w):
     q2 = y[2]  # P1.angle [rad]
     q3 = y[3]  # P4.angle [rad]
     q4 = y[4]  # P2.angle [rad]
-    mask_0 = w[25]
-    mask_1 = w[26]
-    mask_2 = w[27]
-    mask_3 = w[28]
-    mask_4 = w[29]
-    gauge_0 = w[60]
-    gauge_1 = w[61]
-    gauge_2 = w[62]
-    gauge_3 = w[63]
-    gauge_4 = w[64]
-    status_6 = w[6]
+    mask_0 = w[25]  # P3.x
+    mask_1 = w[26]  # P3.y
+    mask_2 = w[27]  # P3.z
+    mask_3 = w[28]  # P3.first
+    mask_4 = w[29]  # P3.second
+    gauge_0 = w[60]  # P0.angle.rate
+    gauge_1 = w[61]  # P5.angle.rate
+    gauge_2 = w[62]  # P1.angle.rate
+    gauge_3 = w[63]  # P4.angle.rate
+    gauge_4 = w[64]  # P2.angle.rate
+    status_6 = w[6]  # length_scale
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)
@@ -212,44 +229,44 @@ def geometry(t, y, p, w):
     s145 = s135/s136
     s146 = min(min(min(min(min(1.0, mask_0 + s141), mask_1 + s142), mask_2 + s143), mask_3 + s144), mask_4 + s145)
     # outputs
-    w[35] = s32
-    w[36] = s33
-    w[37] = s34
-    w[38] = -s43
-    w[39] = s56
-    w[0] = math.sqrt(s63 + s140 + s56*s56)
-    w[8] = math.sqrt(s140 + s138*s138 + s139*s139)
-    w[70] = s35
-    w[71] = -s36
-    w[72] = -s11
-    w[73] = s20
-    w[74] = s38
-    w[75] = s40
-    w[76] = -s39
-    w[77] = -s14
-    w[78] = s21
-    w[79] = s41
-    w[80] = s31
-    w[81] = s42
-    w[82] = s15
-    w[83] = s22
-    w[84] = s52
-    w[85] = -s54
-    w[86] = s53
-    w[87] = s48
-    w[88] = s60
-    w[89] = -s62
-    w[90] = s61
-    w[91] = s59
-    w[92] = s57
-    w[45] = s141
-    w[46] = s142
-    w[47] = s143
-    w[48] = s144
-    w[49] = s145
-    w[5] = s137 + s132 + s124 + s104 + s115
-    w[4] = s146
-    w[10] = min(min(1.0, s55), s64)
+    w[35] = s32  # P3.x
+    w[36] = s33  # P3.y
+    w[37] = s34  # P3.z
+    w[38] = -s43  # P3.first
+    w[39] = s56  # P3.second
+    w[0] = math.sqrt(s63 + s140 + s56*s56)  # position_violation
+    w[8] = math.sqrt(s140 + s138*s138 + s139*s139)  # position_measure
+    w[70] = s35  # D P3.x, P0.angle.rate
+    w[71] = -s36  # D P3.x, P1.angle.rate
+    w[72] = -s11  # D P3.x, P4.angle.rate
+    w[73] = s20  # D P3.x, P2.angle.rate
+    w[74] = s38  # D P3.y, P0.angle.rate
+    w[75] = s40  # D P3.y, P5.angle.rate
+    w[76] = -s39  # D P3.y, P1.angle.rate
+    w[77] = -s14  # D P3.y, P4.angle.rate
+    w[78] = s21  # D P3.y, P2.angle.rate
+    w[79] = s41  # D P3.z, P0.angle.rate
+    w[80] = s31  # D P3.z, P5.angle.rate
+    w[81] = s42  # D P3.z, P1.angle.rate
+    w[82] = s15  # D P3.z, P4.angle.rate
+    w[83] = s22  # D P3.z, P2.angle.rate
+    w[84] = s52  # D P3.first, P0.angle.rate
+    w[85] = -s54  # D P3.first, P5.angle.rate
+    w[86] = s53  # D P3.first, P1.angle.rate
+    w[87] = s48  # D P3.first, P4.angle.rate
+    w[88] = s60  # D P3.second, P0.angle.rate
+    w[89] = -s62  # D P3.second, P5.angle.rate
+    w[90] = s61  # D P3.second, P1.angle.rate
+    w[91] = s59  # D P3.second, P4.angle.rate
+    w[92] = s57  # D P3.second, P2.angle.rate
+    w[45] = s141  # P3.x
+    w[46] = s142  # P3.y
+    w[47] = s143  # P3.z
+    w[48] = s144  # P3.first
+    w[49] = s145  # P3.second
+    w[5] = s137 + s132 + s124 + s104 + s115  # rank
+    w[4] = s146  # smallest_pivot
+    w[10] = min(min(1.0, s55), s64)  # shortest_row
     w[93] = s106
     w[94] = s107
     w[95] = s108
@@ -277,11 +294,11 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 91 operations, 3157 before sharing."""
     # inputs
-    gauge_0 = w[60]
-    gauge_1 = w[61]
-    gauge_2 = w[62]
-    gauge_3 = w[63]
-    gauge_4 = w[64]
+    gauge_0 = w[60]  # P0.angle.rate
+    gauge_1 = w[61]  # P5.angle.rate
+    gauge_2 = w[62]  # P1.angle.rate
+    gauge_3 = w[63]  # P4.angle.rate
+    gauge_4 = w[64]  # P2.angle.rate
     lower_0 = w[93]
     lower_1 = w[94]
     lower_2 = w[95]
@@ -297,34 +314,34 @@ def spread(p, w):
     reciprocal_2 = w[105]
     reciprocal_3 = w[106]
     reciprocal_4 = w[107]
-    residual_0 = w[35]
-    residual_1 = w[36]
-    residual_2 = w[37]
-    residual_3 = w[38]
-    residual_4 = w[39]
-    jacobian_0 = w[70]
-    jacobian_1 = w[71]
-    jacobian_2 = w[72]
-    jacobian_3 = w[73]
-    jacobian_4 = w[74]
-    jacobian_5 = w[75]
-    jacobian_6 = w[76]
-    jacobian_7 = w[77]
-    jacobian_8 = w[78]
-    jacobian_9 = w[79]
-    jacobian_10 = w[80]
-    jacobian_11 = w[81]
-    jacobian_12 = w[82]
-    jacobian_13 = w[83]
-    jacobian_14 = w[84]
-    jacobian_15 = w[85]
-    jacobian_16 = w[86]
-    jacobian_17 = w[87]
-    jacobian_18 = w[88]
-    jacobian_19 = w[89]
-    jacobian_20 = w[90]
-    jacobian_21 = w[91]
-    jacobian_22 = w[92]
+    residual_0 = w[35]  # P3.x
+    residual_1 = w[36]  # P3.y
+    residual_2 = w[37]  # P3.z
+    residual_3 = w[38]  # P3.first
+    residual_4 = w[39]  # P3.second
+    jacobian_0 = w[70]  # D P3.x, P0.angle.rate
+    jacobian_1 = w[71]  # D P3.x, P1.angle.rate
+    jacobian_2 = w[72]  # D P3.x, P4.angle.rate
+    jacobian_3 = w[73]  # D P3.x, P2.angle.rate
+    jacobian_4 = w[74]  # D P3.y, P0.angle.rate
+    jacobian_5 = w[75]  # D P3.y, P5.angle.rate
+    jacobian_6 = w[76]  # D P3.y, P1.angle.rate
+    jacobian_7 = w[77]  # D P3.y, P4.angle.rate
+    jacobian_8 = w[78]  # D P3.y, P2.angle.rate
+    jacobian_9 = w[79]  # D P3.z, P0.angle.rate
+    jacobian_10 = w[80]  # D P3.z, P5.angle.rate
+    jacobian_11 = w[81]  # D P3.z, P1.angle.rate
+    jacobian_12 = w[82]  # D P3.z, P4.angle.rate
+    jacobian_13 = w[83]  # D P3.z, P2.angle.rate
+    jacobian_14 = w[84]  # D P3.first, P0.angle.rate
+    jacobian_15 = w[85]  # D P3.first, P5.angle.rate
+    jacobian_16 = w[86]  # D P3.first, P1.angle.rate
+    jacobian_17 = w[87]  # D P3.first, P4.angle.rate
+    jacobian_18 = w[88]  # D P3.second, P0.angle.rate
+    jacobian_19 = w[89]  # D P3.second, P5.angle.rate
+    jacobian_20 = w[90]  # D P3.second, P1.angle.rate
+    jacobian_21 = w[91]  # D P3.second, P4.angle.rate
+    jacobian_22 = w[92]  # D P3.second, P2.angle.rate
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_4*s0
@@ -335,11 +352,11 @@ def spread(p, w):
     s6 = reciprocal_1*s0 - lower_4*s5 - lower_5*s4 - lower_6*s3
     s7 = reciprocal_0*residual_0 + lower_0*s6 + lower_1*s5 + lower_2*s4 + lower_3*s3
     # outputs
-    w[50] = gauge_0*(s6*jacobian_4 - s7*jacobian_0 + s5*jacobian_9 + s4*jacobian_14 + s3*jacobian_18)
-    w[51] = gauge_1*(s6*jacobian_5 + s5*jacobian_10 + s4*jacobian_15 + s3*jacobian_19)
-    w[52] = gauge_2*(s6*jacobian_6 - s7*jacobian_1 + s5*jacobian_11 + s4*jacobian_16 + s3*jacobian_20)
-    w[53] = gauge_3*(s6*jacobian_7 - s7*jacobian_2 + s5*jacobian_12 + s4*jacobian_17 + s3*jacobian_21)
-    w[54] = gauge_4*(s6*jacobian_8 - s7*jacobian_3 + s5*jacobian_13 + s3*jacobian_22)
+    w[50] = gauge_0*(s6*jacobian_4 - s7*jacobian_0 + s5*jacobian_9 + s4*jacobian_14 + s3*jacobian_18)  # P0.angle.rate
+    w[51] = gauge_1*(s6*jacobian_5 + s5*jacobian_10 + s4*jacobian_15 + s3*jacobian_19)  # P5.angle.rate
+    w[52] = gauge_2*(s6*jacobian_6 - s7*jacobian_1 + s5*jacobian_11 + s4*jacobian_16 + s3*jacobian_20)  # P1.angle.rate
+    w[53] = gauge_3*(s6*jacobian_7 - s7*jacobian_2 + s5*jacobian_12 + s4*jacobian_17 + s3*jacobian_21)  # P4.angle.rate
+    w[54] = gauge_4*(s6*jacobian_8 - s7*jacobian_3 + s5*jacobian_13 + s3*jacobian_22)  # P2.angle.rate
     return 0
 
 
@@ -358,30 +375,30 @@ def measure(t, y, p, w):
     v3 = y[8]  # P4.angle.rate [rad/s]
     v4 = y[9]  # P2.angle.rate [rad/s]
     winding_0 = w[19]
-    status_6 = w[6]
-    jacobian_0 = w[70]
-    jacobian_1 = w[71]
-    jacobian_2 = w[72]
-    jacobian_3 = w[73]
-    jacobian_4 = w[74]
-    jacobian_5 = w[75]
-    jacobian_6 = w[76]
-    jacobian_7 = w[77]
-    jacobian_8 = w[78]
-    jacobian_9 = w[79]
-    jacobian_10 = w[80]
-    jacobian_11 = w[81]
-    jacobian_12 = w[82]
-    jacobian_13 = w[83]
-    jacobian_14 = w[84]
-    jacobian_15 = w[85]
-    jacobian_16 = w[86]
-    jacobian_17 = w[87]
-    jacobian_18 = w[88]
-    jacobian_19 = w[89]
-    jacobian_20 = w[90]
-    jacobian_21 = w[91]
-    jacobian_22 = w[92]
+    status_6 = w[6]  # length_scale
+    jacobian_0 = w[70]  # D P3.x, P0.angle.rate
+    jacobian_1 = w[71]  # D P3.x, P1.angle.rate
+    jacobian_2 = w[72]  # D P3.x, P4.angle.rate
+    jacobian_3 = w[73]  # D P3.x, P2.angle.rate
+    jacobian_4 = w[74]  # D P3.y, P0.angle.rate
+    jacobian_5 = w[75]  # D P3.y, P5.angle.rate
+    jacobian_6 = w[76]  # D P3.y, P1.angle.rate
+    jacobian_7 = w[77]  # D P3.y, P4.angle.rate
+    jacobian_8 = w[78]  # D P3.y, P2.angle.rate
+    jacobian_9 = w[79]  # D P3.z, P0.angle.rate
+    jacobian_10 = w[80]  # D P3.z, P5.angle.rate
+    jacobian_11 = w[81]  # D P3.z, P1.angle.rate
+    jacobian_12 = w[82]  # D P3.z, P4.angle.rate
+    jacobian_13 = w[83]  # D P3.z, P2.angle.rate
+    jacobian_14 = w[84]  # D P3.first, P0.angle.rate
+    jacobian_15 = w[85]  # D P3.first, P5.angle.rate
+    jacobian_16 = w[86]  # D P3.first, P1.angle.rate
+    jacobian_17 = w[87]  # D P3.first, P4.angle.rate
+    jacobian_18 = w[88]  # D P3.second, P0.angle.rate
+    jacobian_19 = w[89]  # D P3.second, P5.angle.rate
+    jacobian_20 = w[90]  # D P3.second, P1.angle.rate
+    jacobian_21 = w[91]  # D P3.second, P4.angle.rate
+    jacobian_22 = w[92]  # D P3.second, P2.angle.rate
     # intermediate terms
     s0 = math.sin(q0)
     s1 = math.cos(q1)
@@ -424,15 +441,15 @@ def measure(t, y, p, w):
     s38 = status_6*s36
     s39 = s32*s32 + s33*s33 + s34*s34
     # outputs
-    w[35] = s32
-    w[36] = s33
-    w[37] = s34
-    w[38] = s35
-    w[39] = s36
-    w[1] = math.sqrt(s39 + s35*s35 + s36*s36)
-    w[9] = math.sqrt(s39 + s37*s37 + s38*s38)
-    w[2] = s30
-    w[3] = -(4.905*s3 + 9.81*(s3 + 0.5*s12) + 9.81*(s1 + 0.5*(s1*s7)) + 4.905*s1)
+    w[35] = s32  # P3.x
+    w[36] = s33  # P3.y
+    w[37] = s34  # P3.z
+    w[38] = s35  # P3.first
+    w[39] = s36  # P3.second
+    w[1] = math.sqrt(s39 + s35*s35 + s36*s36)  # velocity_violation
+    w[9] = math.sqrt(s39 + s37*s37 + s38*s38)  # velocity_measure
+    w[2] = s30  # kinetic
+    w[3] = -(4.905*s3 + 9.81*(s3 + 0.5*s12) + 9.81*(s1 + 0.5*(s1*s7)) + 4.905*s1)  # potential
     w[19] = s31 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s31))
     return 0
 
@@ -452,11 +469,11 @@ def observe(t, y, p, w, ydot, out):
     v3 = y[8]  # P4.angle.rate [rad/s]
     v4 = y[9]  # P2.angle.rate [rad/s]
     winding_0 = w[19]
-    ydot_5 = ydot[5]
-    ydot_6 = ydot[6]
-    ydot_7 = ydot[7]
-    ydot_8 = ydot[8]
-    ydot_9 = ydot[9]
+    ydot_5 = ydot[5]  # rate of P0.angle.rate
+    ydot_6 = ydot[6]  # rate of P5.angle.rate
+    ydot_7 = ydot[7]  # rate of P1.angle.rate
+    ydot_8 = ydot[8]  # rate of P4.angle.rate
+    ydot_9 = ydot[9]  # rate of P2.angle.rate
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)
@@ -571,23 +588,23 @@ def observe(t, y, p, w, ydot, out):
     s110 = (s39*s93 - s42*s94)*ydot_5 - s17*s95*ydot_6 + (s35*s93 + s34*s94)*ydot_7 + (s89 - s88 + s90)*ydot_8
     s111 = s100 - s76*(2.0*(s9*s46 + s40*s50)) + s14*s96 + s51*s80 + s25*s98 + (s7*s96 + s39*s80)*ydot_5 - s17*s98*ydot_6 + s35*s80*ydot_7 + s99*ydot_8 + s96*ydot_9
     # outputs
-    out[0] = s69 + s107
-    out[1] = s67 + s71 + s108 + s39*ydot_9
-    out[2] = s68 + s72 + s109 + s40*ydot_9
-    out[3] = s51*s93 - (s92 + s76*(2.0*(s40*s49 - s45*s46))) + (s15*s35 - v4*s46)*s94 + s25*s95 + s110
-    out[4] = s111
-    out[5] = q0
-    out[6] = v0
-    out[7] = q2
-    out[8] = v2
-    out[9] = q4
-    out[10] = v4
-    out[11] = s105 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s105))
-    out[12] = s106 - s24*((s88 - s89 - s90)*s103 - s99*s104)
-    out[13] = q3
-    out[14] = v3
-    out[15] = q1
-    out[16] = v1
+    out[0] = s69 + s107  # P3.x
+    out[1] = s67 + s71 + s108 + s39*ydot_9  # P3.y
+    out[2] = s68 + s72 + s109 + s40*ydot_9  # P3.z
+    out[3] = s51*s93 - (s92 + s76*(2.0*(s40*s49 - s45*s46))) + (s15*s35 - v4*s46)*s94 + s25*s95 + s110  # P3.first
+    out[4] = s111  # P3.second
+    out[5] = q0  # P0.angle
+    out[6] = v0  # rate of P0.angle
+    out[7] = q2  # P1.angle
+    out[8] = v2  # rate of P1.angle
+    out[9] = q4  # P2.angle
+    out[10] = v4  # rate of P2.angle
+    out[11] = s105 + 6.283185307179586*math.floor(0.5 + 0.15915494309189535*(winding_0 - s105))  # P3.angle
+    out[12] = s106 - s24*((s88 - s89 - s90)*s103 - s99*s104)  # rate of P3.angle
+    out[13] = q3  # P4.angle
+    out[14] = v3  # rate of P4.angle
+    out[15] = q1  # P5.angle
+    out[16] = v1  # rate of P5.angle
     return 0
 
 
@@ -595,11 +612,11 @@ def observe(t, y, p, w, ydot, out):
 def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
     # outputs
-    w[55] = 2.67
-    w[57] = 1.3358333333333334
-    w[59] = 0.33416666666666667
-    w[56] = 1.3358333333333334
-    w[58] = 0.33416666666666667
+    w[55] = 2.67  # P0.angle.rate
+    w[57] = 1.3358333333333334  # P1.angle.rate
+    w[59] = 0.33416666666666667  # P2.angle.rate
+    w[56] = 1.3358333333333334  # P5.angle.rate
+    w[58] = 0.33416666666666667  # P4.angle.rate
     return 0
 
 
@@ -617,11 +634,11 @@ def bodies(t, y, p, w, ydot, out):
     v2 = y[7]  # P1.angle.rate [rad/s]
     v3 = y[8]  # P4.angle.rate [rad/s]
     v4 = y[9]  # P2.angle.rate [rad/s]
-    ydot_5 = ydot[5]
-    ydot_6 = ydot[6]
-    ydot_7 = ydot[7]
-    ydot_8 = ydot[8]
-    ydot_9 = ydot[9]
+    ydot_5 = ydot[5]  # rate of P0.angle.rate
+    ydot_6 = ydot[6]  # rate of P5.angle.rate
+    ydot_7 = ydot[7]  # rate of P1.angle.rate
+    ydot_8 = ydot[8]  # rate of P4.angle.rate
+    ydot_9 = ydot[9]  # rate of P2.angle.rate
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)

@@ -9,8 +9,8 @@ p[34] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_7a045bafa3627ad3 import confirm
-from .prepare_1f5579d25a1d4773 import prepare
-from .rhs_direct_5f9cfcc4cdc12bd3 import rhs
+from .confirm_a4bc7c2de083ea47 import confirm
+from .prepare_e28a5fd43aa8fbfb import prepare
+from .rhs_direct_4ab0865a2cbfd0ae import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

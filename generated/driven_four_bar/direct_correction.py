@@ -8,10 +8,10 @@ option weight = identity
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_identity_702d60ab663b0bbe import accept
-from .confirm_e35e57f5702a7596 import confirm
-from .metric_identity_a600ab6a7b24b02a import geometry, spread
-from .prepare_0494c6b384c6ba41 import prepare
-from .rhs_direct_8a7fba9f1fed74e8 import rhs
+from .accept_identity_4af4f10cc6012d66 import accept
+from .confirm_b7ed585714be13e4 import confirm
+from .metric_identity_c93d9e1288418f00 import geometry, spread
+from .prepare_2417799c85cd7c23 import prepare
+from .rhs_direct_1ad352335f0d6e20 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -8,10 +8,10 @@ option weight = mass
 p[31] tolerance (default 1e-13)
 """
 
-from .accept_mass_72b851d138ac80d9 import accept
-from .confirm_27eb9e0530453103 import confirm
-from .metric_mass_27975929ca36730f import geometry, spread
-from .prepare_0494c6b384c6ba41 import prepare
-from .rhs_direct_8a7fba9f1fed74e8 import rhs
+from .accept_mass_7732d74efb5f9293 import accept
+from .confirm_ea3c1079ded4f76f import confirm
+from .metric_mass_a33bab9607d770b6 import geometry, spread
+from .prepare_2417799c85cd7c23 import prepare
+from .rhs_direct_1ad352335f0d6e20 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_502b538004dca555 import confirm
-from .prepare_0494c6b384c6ba41 import prepare
-from .rhs_direct_8a7fba9f1fed74e8 import rhs
+from .confirm_6426526bdb16f276 import confirm
+from .prepare_2417799c85cd7c23 import prepare
+from .rhs_direct_1ad352335f0d6e20 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

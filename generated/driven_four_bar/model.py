@@ -40,6 +40,21 @@ row 6    D.x [m]
 row 7    D.y [m]
 row 8    motor.driver [rad]
 
+w[0:19]  status
+w[19:28]  multipliers
+w[28:37]  mask
+w[37:46]  saved
+w[46:55]  residual
+w[55:64]  nu
+w[64:73]  pivot
+w[73:82]  change
+w[82:91]  mass
+w[91:100]  gauge
+w[100:109]  row_weight
+w[109:121]  jacobian
+w[121:141]  lower
+w[141:150]  reciprocal
+
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
 - the kinematic map N: planar velocities are the rates of the coordinates
@@ -63,18 +78,18 @@ def prepare(p):
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
     # outputs
-    p[5] = 0.5*p0
-    p[6] = 9.81*p0
-    p[7] = 0.16666666666666666*p0
-    p[8] = 0.5*p1
-    p[9] = 9.81*p1
-    p[10] = 2.6666666666666665*p1
-    p[11] = 0.5*p2
-    p[12] = 9.81*p2
-    p[13] = 1.0416666666666665*p2
-    p[14] = 0.3333333333333333*p0
-    p[15] = 5.333333333333333*p1
-    p[16] = 2.083333333333333*p2
+    p[5] = 0.5*p0  # 0.5*crank_mass
+    p[6] = 9.81*p0  # 9.81*crank_mass
+    p[7] = 0.16666666666666666*p0  # 0.16666666666666666*crank_mass
+    p[8] = 0.5*p1  # 0.5*coupler_mass
+    p[9] = 9.81*p1  # 9.81*coupler_mass
+    p[10] = 2.6666666666666665*p1  # 2.6666666666666665*coupler_mass
+    p[11] = 0.5*p2  # 0.5*rocker_mass
+    p[12] = 9.81*p2  # 9.81*rocker_mass
+    p[13] = 1.0416666666666665*p2  # 1.0416666666666665*rocker_mass
+    p[14] = 0.3333333333333333*p0  # 0.3333333333333333*crank_mass
+    p[15] = 5.333333333333333*p1  # 5.333333333333333*coupler_mass
+    p[16] = 2.083333333333333*p2  # 2.083333333333333*rocker_mass
     return 0
 
 
@@ -93,18 +108,18 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[29]
-    mask_2 = w[30]
-    mask_3 = w[31]
-    mask_4 = w[32]
-    mask_5 = w[33]
-    mask_7 = w[35]
-    mask_8 = w[36]
-    gauge_2 = w[93]
-    gauge_5 = w[96]
-    gauge_8 = w[99]
-    status_6 = w[6]
-    row_weight_8 = w[108]
+    mask_1 = w[29]  # A.y
+    mask_2 = w[30]  # B.x
+    mask_3 = w[31]  # B.y
+    mask_4 = w[32]  # C.x
+    mask_5 = w[33]  # C.y
+    mask_7 = w[35]  # D.y
+    mask_8 = w[36]  # motor.driver
+    gauge_2 = w[93]  # crank.omega
+    gauge_5 = w[96]  # coupler.omega
+    gauge_8 = w[99]  # rocker.omega
+    status_6 = w[6]  # length_scale
+    row_weight_8 = w[108]  # motor.driver
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -215,40 +230,40 @@ def geometry(t, y, p, w):
     s106 = s48/s43
     s107 = s84/gauge_2
     # outputs
-    w[46] = s3
-    w[47] = s4
-    w[48] = s7
-    w[49] = s9
-    w[50] = s11
-    w[51] = s13
-    w[52] = s14
-    w[53] = s15
-    w[54] = s16
-    w[0] = math.sqrt(s99 + s16*s16)
-    w[8] = math.sqrt(s99 + s98*s98)
-    w[63] = p4
-    w[109] = s1
-    w[110] = s2
-    w[111] = s1
-    w[112] = s8
-    w[113] = s2
-    w[114] = s6
-    w[115] = s8
-    w[116] = -s12
-    w[117] = s6
-    w[118] = s10
-    w[119] = s12
-    w[120] = -s10
-    w[65] = s100
-    w[66] = s101
-    w[67] = s102
-    w[68] = s103
-    w[69] = s104
-    w[71] = s106
-    w[72] = s107
-    w[5] = s87 + s51 + 1.0 + s65 + s57 + s97 + s93 + 1.0 + s79
-    w[4] = min(min(s105, mask_7 + s106), mask_8 + s107)
-    w[10] = min(1.0, gauge_2*row_weight_8)
+    w[46] = s3  # A.x
+    w[47] = s4  # A.y
+    w[48] = s7  # B.x
+    w[49] = s9  # B.y
+    w[50] = s11  # C.x
+    w[51] = s13  # C.y
+    w[52] = s14  # D.x
+    w[53] = s15  # D.y
+    w[54] = s16  # motor.driver
+    w[0] = math.sqrt(s99 + s16*s16)  # position_violation
+    w[8] = math.sqrt(s99 + s98*s98)  # position_measure
+    w[63] = p4  # motor.driver
+    w[109] = s1  # D A.x, crank.omega
+    w[110] = s2  # D A.y, crank.omega
+    w[111] = s1  # D B.x, crank.omega
+    w[112] = s8  # D B.x, coupler.omega
+    w[113] = s2  # D B.y, crank.omega
+    w[114] = s6  # D B.y, coupler.omega
+    w[115] = s8  # D C.x, coupler.omega
+    w[116] = -s12  # D C.x, rocker.omega
+    w[117] = s6  # D C.y, coupler.omega
+    w[118] = s10  # D C.y, rocker.omega
+    w[119] = s12  # D D.x, rocker.omega
+    w[120] = -s10  # D D.y, rocker.omega
+    w[65] = s100  # A.y
+    w[66] = s101  # B.x
+    w[67] = s102  # B.y
+    w[68] = s103  # C.x
+    w[69] = s104  # C.y
+    w[71] = s106  # D.y
+    w[72] = s107  # motor.driver
+    w[5] = s87 + s51 + 1.0 + s65 + s57 + s97 + s93 + 1.0 + s79  # rank
+    w[4] = min(min(s105, mask_7 + s106), mask_8 + s107)  # smallest_pivot
+    w[10] = min(1.0, gauge_2*row_weight_8)  # shortest_row
     w[121] = -s45
     w[122] = s46
     w[123] = s47
@@ -285,9 +300,9 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 123 operations, 10067 before sharing."""
     # inputs
-    gauge_2 = w[93]
-    gauge_5 = w[96]
-    gauge_8 = w[99]
+    gauge_2 = w[93]  # crank.omega
+    gauge_5 = w[96]  # coupler.omega
+    gauge_8 = w[99]  # rocker.omega
     lower_0 = w[121]
     lower_1 = w[122]
     lower_2 = w[123]
@@ -317,27 +332,27 @@ def spread(p, w):
     reciprocal_6 = w[147]
     reciprocal_7 = w[148]
     reciprocal_8 = w[149]
-    residual_0 = w[46]
-    residual_1 = w[47]
-    residual_2 = w[48]
-    residual_3 = w[49]
-    residual_4 = w[50]
-    residual_5 = w[51]
-    residual_6 = w[52]
-    residual_7 = w[53]
-    residual_8 = w[54]
-    jacobian_0 = w[109]
-    jacobian_1 = w[110]
-    jacobian_2 = w[111]
-    jacobian_3 = w[112]
-    jacobian_4 = w[113]
-    jacobian_5 = w[114]
-    jacobian_6 = w[115]
-    jacobian_7 = w[116]
-    jacobian_8 = w[117]
-    jacobian_9 = w[118]
-    jacobian_10 = w[119]
-    jacobian_11 = w[120]
+    residual_0 = w[46]  # A.x
+    residual_1 = w[47]  # A.y
+    residual_2 = w[48]  # B.x
+    residual_3 = w[49]  # B.y
+    residual_4 = w[50]  # C.x
+    residual_5 = w[51]  # C.y
+    residual_6 = w[52]  # D.x
+    residual_7 = w[53]  # D.y
+    residual_8 = w[54]  # motor.driver
+    jacobian_0 = w[109]  # D A.x, crank.omega
+    jacobian_1 = w[110]  # D A.y, crank.omega
+    jacobian_2 = w[111]  # D B.x, crank.omega
+    jacobian_3 = w[112]  # D B.x, coupler.omega
+    jacobian_4 = w[113]  # D B.y, crank.omega
+    jacobian_5 = w[114]  # D B.y, coupler.omega
+    jacobian_6 = w[115]  # D C.x, coupler.omega
+    jacobian_7 = w[116]  # D C.x, rocker.omega
+    jacobian_8 = w[117]  # D C.y, coupler.omega
+    jacobian_9 = w[118]  # D C.y, rocker.omega
+    jacobian_10 = w[119]  # D D.x, rocker.omega
+    jacobian_11 = w[120]  # D D.y, rocker.omega
     # intermediate terms
     s0 = lower_0*residual_6 - residual_7
     s1 = lower_1*residual_6 - residual_4 - lower_3*s0
@@ -362,15 +377,15 @@ def spread(p, w):
     s20 = reciprocal_1*s0 - lower_3*s19 - lower_4*s16
     s21 = reciprocal_0*residual_6 + lower_0*s20 + lower_1*s19 + lower_2*s16
     # outputs
-    w[73] = s9 - s8 - s13
-    w[74] = s12 - s7
-    w[75] = gauge_2*(s11 + s12*jacobian_1 - s13*jacobian_0 + s10*jacobian_2 + s7*jacobian_4)
-    w[76] = s10 + s18 - s17
-    w[77] = s7 + s15 - s14
-    w[78] = gauge_5*(s10*jacobian_3 + s7*jacobian_5 + s19*jacobian_6 + s16*jacobian_8)
-    w[79] = s19 - s21
-    w[80] = s16 + s20
-    w[81] = gauge_8*(s19*jacobian_7 + s16*jacobian_9 - s21*jacobian_10 + s20*jacobian_11)
+    w[73] = s9 - s8 - s13  # crank.vx
+    w[74] = s12 - s7  # crank.vy
+    w[75] = gauge_2*(s11 + s12*jacobian_1 - s13*jacobian_0 + s10*jacobian_2 + s7*jacobian_4)  # crank.omega
+    w[76] = s10 + s18 - s17  # coupler.vx
+    w[77] = s7 + s15 - s14  # coupler.vy
+    w[78] = gauge_5*(s10*jacobian_3 + s7*jacobian_5 + s19*jacobian_6 + s16*jacobian_8)  # coupler.omega
+    w[79] = s19 - s21  # rocker.vx
+    w[80] = s16 + s20  # rocker.vy
+    w[81] = gauge_8*(s19*jacobian_7 + s16*jacobian_9 - s21*jacobian_10 + s20*jacobian_11)  # rocker.omega
     return 0
 
 
@@ -390,29 +405,29 @@ def measure(t, y, p, w):
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
-    p5 = p[5]
-    p6 = p[6]
-    p7 = p[7]
-    p8 = p[8]
-    p9 = p[9]
-    p10 = p[10]
-    p11 = p[11]
-    p12 = p[12]
-    p13 = p[13]
-    status_6 = w[6]
-    jacobian_0 = w[109]
-    jacobian_1 = w[110]
-    jacobian_2 = w[111]
-    jacobian_3 = w[112]
-    jacobian_4 = w[113]
-    jacobian_5 = w[114]
-    jacobian_6 = w[115]
-    jacobian_7 = w[116]
-    jacobian_8 = w[117]
-    jacobian_9 = w[118]
-    jacobian_10 = w[119]
-    jacobian_11 = w[120]
-    nu_8 = w[63]
+    p5 = p[5]  # 0.5*crank_mass
+    p6 = p[6]  # 9.81*crank_mass
+    p7 = p[7]  # 0.16666666666666666*crank_mass
+    p8 = p[8]  # 0.5*coupler_mass
+    p9 = p[9]  # 9.81*coupler_mass
+    p10 = p[10]  # 2.6666666666666665*coupler_mass
+    p11 = p[11]  # 0.5*rocker_mass
+    p12 = p[12]  # 9.81*rocker_mass
+    p13 = p[13]  # 1.0416666666666665*rocker_mass
+    status_6 = w[6]  # length_scale
+    jacobian_0 = w[109]  # D A.x, crank.omega
+    jacobian_1 = w[110]  # D A.y, crank.omega
+    jacobian_2 = w[111]  # D B.x, crank.omega
+    jacobian_3 = w[112]  # D B.x, coupler.omega
+    jacobian_4 = w[113]  # D B.y, crank.omega
+    jacobian_5 = w[114]  # D B.y, coupler.omega
+    jacobian_6 = w[115]  # D C.x, coupler.omega
+    jacobian_7 = w[116]  # D C.x, rocker.omega
+    jacobian_8 = w[117]  # D C.y, coupler.omega
+    jacobian_9 = w[118]  # D C.y, rocker.omega
+    jacobian_10 = w[119]  # D D.x, rocker.omega
+    jacobian_11 = w[120]  # D D.y, rocker.omega
+    nu_8 = w[63]  # motor.driver
     # intermediate terms
     s0 = p5*(v0*v0) + p5*(v1*v1) + v2*v2*p7 + p8*(v3*v3) + p8*(v4*v4) + v5*v5*p10 + p11*(v6*v6) + p11*(v7*v7)
     s1 = v0 + v2*jacobian_0
@@ -427,19 +442,19 @@ def measure(t, y, p, w):
     s10 = status_6*s9
     s11 = s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8
     # outputs
-    w[46] = s1
-    w[47] = s2
-    w[48] = s3
-    w[49] = s4
-    w[50] = s5
-    w[51] = s6
-    w[52] = s7
-    w[53] = s8
-    w[54] = s9
-    w[1] = math.sqrt(s11 + s9*s9)
-    w[9] = math.sqrt(s11 + s10*s10)
-    w[2] = s0 + v8*v8*p13
-    w[3] = q1*p6 + q4*p9 + q7*p12
+    w[46] = s1  # A.x
+    w[47] = s2  # A.y
+    w[48] = s3  # B.x
+    w[49] = s4  # B.y
+    w[50] = s5  # C.x
+    w[51] = s6  # C.y
+    w[52] = s7  # D.x
+    w[53] = s8  # D.y
+    w[54] = s9  # motor.driver
+    w[1] = math.sqrt(s11 + s9*s9)  # velocity_violation
+    w[9] = math.sqrt(s11 + s10*s10)  # velocity_measure
+    w[2] = s0 + v8*v8*p13  # kinetic
+    w[3] = q1*p6 + q4*p9 + q7*p12  # potential
     return 0
 
 
@@ -453,15 +468,15 @@ def observe(t, y, p, w, ydot, out):
     v5 = y[14]  # coupler.omega [rad/s]
     q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
-    ydot_9 = ydot[9]
-    ydot_10 = ydot[10]
-    ydot_11 = ydot[11]
-    ydot_12 = ydot[12]
-    ydot_13 = ydot[13]
-    ydot_14 = ydot[14]
-    ydot_15 = ydot[15]
-    ydot_16 = ydot[16]
-    ydot_17 = ydot[17]
+    ydot_9 = ydot[9]  # rate of crank.vx
+    ydot_10 = ydot[10]  # rate of crank.vy
+    ydot_11 = ydot[11]  # rate of crank.omega
+    ydot_12 = ydot[12]  # rate of coupler.vx
+    ydot_13 = ydot[13]  # rate of coupler.vy
+    ydot_14 = ydot[14]  # rate of coupler.omega
+    ydot_15 = ydot[15]  # rate of rocker.vx
+    ydot_16 = ydot[16]  # rate of rocker.vy
+    ydot_17 = ydot[17]  # rate of rocker.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -485,23 +500,23 @@ def observe(t, y, p, w, ydot, out):
     s19 = 2.5*s11*ydot_17
     s20 = 2.5*s10*ydot_17
     # outputs
-    out[0] = s3 + ydot_9 + s15
-    out[1] = s4 + ydot_10 - s16
-    out[2] = s3 + s8 + ydot_12 + s15 - ydot_9 + s17
-    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s16) - s18
-    out[4] = ydot_15 + s17 - ydot_12 - s19 - (s13 - s8)
-    out[5] = ydot_16 - (ydot_13 + s18) + s20 - (s14 - s9)
-    out[6] = s13 + ydot_15 + s19
-    out[7] = s14 + ydot_16 - s20
-    out[8] = ydot_11
-    out[9] = q2
-    out[10] = v2
-    out[11] = q5 - q2
-    out[12] = v5 - v2
-    out[13] = q8 - q5
-    out[14] = v8 - v5
-    out[15] = q8
-    out[16] = v8
+    out[0] = s3 + ydot_9 + s15  # A.x
+    out[1] = s4 + ydot_10 - s16  # A.y
+    out[2] = s3 + s8 + ydot_12 + s15 - ydot_9 + s17  # B.x
+    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s16) - s18  # B.y
+    out[4] = ydot_15 + s17 - ydot_12 - s19 - (s13 - s8)  # C.x
+    out[5] = ydot_16 - (ydot_13 + s18) + s20 - (s14 - s9)  # C.y
+    out[6] = s13 + ydot_15 + s19  # D.x
+    out[7] = s14 + ydot_16 - s20  # D.y
+    out[8] = ydot_11  # motor.driver
+    out[9] = q2  # A.angle
+    out[10] = v2  # rate of A.angle
+    out[11] = q5 - q2  # B.angle
+    out[12] = v5 - v2  # rate of B.angle
+    out[13] = q8 - q5  # C.angle
+    out[14] = v8 - v5  # rate of C.angle
+    out[15] = q8  # D.angle
+    out[16] = v8  # rate of D.angle
     return 0
 
 
@@ -512,17 +527,17 @@ def masses(p, w):
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
-    p14 = p[14]
-    p15 = p[15]
-    p16 = p[16]
+    p14 = p[14]  # 0.3333333333333333*crank_mass
+    p15 = p[15]  # 5.333333333333333*coupler_mass
+    p16 = p[16]  # 2.083333333333333*rocker_mass
     # outputs
-    w[82] = p0
-    w[83] = p0
-    w[84] = p14
-    w[85] = p1
-    w[86] = p1
-    w[87] = p15
-    w[88] = p2
-    w[89] = p2
-    w[90] = p16
+    w[82] = p0  # crank.vx
+    w[83] = p0  # crank.vy
+    w[84] = p14  # crank.omega
+    w[85] = p1  # coupler.vx
+    w[86] = p1  # coupler.vy
+    w[87] = p15  # coupler.omega
+    w[88] = p2  # rocker.vx
+    w[89] = p2  # rocker.vy
+    w[90] = p16  # rocker.omega
     return 0

@@ -9,8 +9,8 @@ p[29] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_93036176bbd4dc0a import confirm
-from .prepare_030af4547de87394 import prepare
-from .rhs_direct_97ab3cd58b7da3be import rhs
+from .confirm_b3e9dd4198ff1463 import confirm
+from .prepare_763b84c4155bae06 import prepare
+from .rhs_direct_0b360cef165baa90 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

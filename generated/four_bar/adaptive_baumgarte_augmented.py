@@ -9,7 +9,7 @@ p[25] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_a4cefc69e5505bdf import rhs
+from .prepare_9026ae072063da35 import prepare
+from .rhs_iterated_b87b07338b99fb18 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[22] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_925146d10b1178fc import prepare
-from .rhs_dense_8a6d7a320398b70b import rhs
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_dense_60a85fa44b5f49ee import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,9 +9,9 @@ p[29] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_93036176bbd4dc0a import confirm
-from .form_acceleration_9a798439325982a1 import residual, tangent
-from .prepare_1fa6c94700d82bf8 import prepare
-from .rhs_direct_97ab3cd58b7da3be import rhs
+from .confirm_b3e9dd4198ff1463 import confirm
+from .form_acceleration_e94b0e1831cc6d7e import residual, tangent
+from .prepare_a1b79ebc06238e1a import prepare
+from .rhs_direct_0b360cef165baa90 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "residual", "rhs", "tangent"]

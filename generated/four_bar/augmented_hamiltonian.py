@@ -7,9 +7,9 @@ p[31] penalty (default 10000000.0)
 p[32] iteration_tolerance (default 1e-13)
 """
 
-from .accept_mass_341e7abd83936029 import accept
-from .metric_mass_ccde46bfa5b19836 import geometry, spread
-from .prepare_125d79b48aac268a import prepare
-from .rhs_iterated_7e4ee035ba5e4561 import rates, rhs
+from .accept_mass_6a33249b6eefb423 import accept
+from .metric_mass_4d1439948c57b01c import geometry, spread
+from .prepare_811804f7174a8235 import prepare
+from .rhs_iterated_31844e5537976958 import rates, rhs
 
 __all__ = ["accept", "geometry", "prepare", "rates", "rhs", "spread"]

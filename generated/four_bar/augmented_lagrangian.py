@@ -10,7 +10,7 @@ p[29] iteration_tolerance (default 1e-13)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_284b52217d8b8256 import prepare
-from .rhs_iterated_2ea3ae1bae12bc69 import rhs
+from .prepare_9bcb91c2d5a9e9b8 import prepare
+from .rhs_iterated_976f3ae79557c527 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

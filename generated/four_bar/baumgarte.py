@@ -9,8 +9,8 @@ p[31] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_6028b80d23be11d5 import confirm
-from .prepare_18da5f78a5dea905 import prepare
-from .rhs_direct_3b18e790823cabd2 import rhs
+from .confirm_4c84d583dd4b3373 import confirm
+from .prepare_5ab0ee62a94148ac import prepare
+from .rhs_direct_d51925b07420e4df import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[27] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_b7ed4244fa7ba925 import prepare
-from .rhs_iterated_9459264a13991d38 import rhs
+from .prepare_a2ffe5108d8ad66f import prepare
+from .rhs_iterated_5c2c6389d86bf390 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

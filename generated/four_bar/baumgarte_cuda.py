@@ -9,8 +9,8 @@ p[31] beta (default 5.0)
 """
 
 from .accept_measured_16f7c7b65cb5c9c1_cuda import accept
-from .confirm_d25befa8ad04bca1_cuda import confirm
-from .prepare_fe73cd0da7df4b4c_cuda import prepare
-from .rhs_direct_efdabf403e4d6f29_cuda import rhs
+from .confirm_efa5920a44591a5f_cuda import confirm
+from .prepare_687571ff3fa92bda_cuda import prepare
+from .rhs_direct_af11eb4718dd3a68_cuda import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

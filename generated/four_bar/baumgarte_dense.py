@@ -9,7 +9,7 @@ p[24] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_e9ff31536e2794da import prepare
-from .rhs_dense_34fb376808c0eb33 import rhs
+from .prepare_ef519d61066ea1f2 import prepare
+from .rhs_dense_9cb481b7be0ac906 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,9 +9,9 @@ p[31] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_6028b80d23be11d5 import confirm
-from .form_acceleration_9329a1e0f7533798 import residual, tangent
-from .prepare_9db13770e1bf408a import prepare
-from .rhs_direct_3b18e790823cabd2 import rhs
+from .confirm_4c84d583dd4b3373 import confirm
+from .form_acceleration_bf6bfeb8bd3e8243 import residual, tangent
+from .prepare_16cf2140a5a34dd9 import prepare
+from .rhs_direct_d51925b07420e4df import rhs
 
 __all__ = ["accept", "confirm", "prepare", "residual", "rhs", "tangent"]

@@ -7,10 +7,10 @@ option solver = elimination
 p[28] tolerance (default 1e-13)
 """
 
-from .accept_independent_7f2e190846084892 import accept
-from .confirm_e135ec6d80b73872 import confirm
-from .metric_independent_dba3048d724a8293 import geometry, spread
-from .prepare_030af4547de87394 import prepare
-from .rhs_closed_58d4a2a22dbd889c import rhs
+from .accept_independent_f6b3560280d2f1f2 import accept
+from .confirm_e055279f29772d73 import confirm
+from .metric_independent_b394b9a15d327fc9 import geometry, spread
+from .prepare_763b84c4155bae06 import prepare
+from .rhs_closed_9673d49a65dd0a8f import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = augmented
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_independent_1ff915060c67d058 import accept
-from .metric_independent_3ab9c1a38c7d8eeb import geometry, spread
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_closed_bd65dfcdf1967c40 import rhs
+from .accept_independent_4d28ae4d49729615 import accept
+from .metric_independent_5c9960393a5e2c95 import geometry, spread
+from .prepare_9026ae072063da35 import prepare
+from .rhs_closed_0ab81a57773c6ef5 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

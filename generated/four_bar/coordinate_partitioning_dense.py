@@ -7,9 +7,9 @@ option solver = dense
 p[21] tolerance (default 1e-13)
 """
 
-from .accept_independent_4ddda63d890df46b import accept
-from .metric_independent_9bae25bde7017317 import geometry, spread
-from .prepare_925146d10b1178fc import prepare
-from .rhs_closed_6249c5a8ef11a56b import rhs
+from .accept_independent_03751b621a55fdaf import accept
+from .metric_independent_5019f28a409b003d import geometry, spread
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_closed_bc7d0189a0992815 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

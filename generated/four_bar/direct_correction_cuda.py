@@ -8,10 +8,10 @@ option weight = identity
 p[28] tolerance (default 1e-13)
 """
 
-from .accept_identity_43605f6bdfca67e8_cuda import accept
-from .confirm_b836d06ae0b7052e_cuda import confirm
-from .metric_identity_42eaf9545fae6995_cuda import geometry, spread
-from .prepare_fb15419ced2f3f16_cuda import prepare
-from .rhs_direct_5ec2304b56977532_cuda import rhs
+from .accept_identity_0c8ce1a93b225f8e_cuda import accept
+from .confirm_d700aaec3c56956c_cuda import confirm
+from .metric_identity_a8f6f5400d97c9c0_cuda import geometry, spread
+from .prepare_751a15db5b311eef_cuda import prepare
+from .rhs_direct_569c93bfda4a4206_cuda import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ option weight = identity
 p[21] tolerance (default 1e-13)
 """
 
-from .accept_identity_7c10a2507ac29c2c import accept
-from .metric_identity_24d084413a7dc212 import geometry, spread
-from .prepare_925146d10b1178fc import prepare
-from .rhs_dense_23a402b45809043e import rhs
+from .accept_identity_b8c9655194d24e56 import accept
+from .metric_identity_c01f538908e67c01 import geometry, spread
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_dense_ca6ef50220ac480e import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_63608e04c7369e22 import confirm
-from .form_stabilised_ced5f8ac06d78b05 import residual, tangent
-from .prepare_980c25ae6cc4d1f3 import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .confirm_455ae6a979b235c4 import confirm
+from .form_stabilised_a8b48f2b47dc9331 import residual, tangent
+from .prepare_f61c701a13b4eb1b import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "residual", "rhs", "tangent"]

@@ -8,9 +8,9 @@ p[25] iteration_tolerance (default 1e-13)
 p[26] tolerance (default 1e-13)
 """
 
-from .accept_augmented_0d44d36221cc5e53 import accept
-from .metric_augmented_ab80b2c0be0852fc import geometry, spread
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_aeca487b6c79d5ff import rhs
+from .accept_augmented_d2ab66343cded2cd import accept
+from .metric_augmented_f04222119b46a6ff import geometry, spread
+from .prepare_9026ae072063da35 import prepare
+from .rhs_iterated_1d686924a6b003f3 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ p[28] penalty (default 1000000000.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_63608e04c7369e22 import confirm
-from .form_projected_023f30f3a476f32a import residual, tangent
-from .prepare_05d5faeb278ce90b import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .confirm_455ae6a979b235c4 import confirm
+from .form_projected_0e5fe4d671ee5b55 import residual, tangent
+from .prepare_774a1f5c84145adc import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "residual", "rhs", "tangent"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_63608e04c7369e22 import confirm
-from .prepare_030af4547de87394 import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .confirm_455ae6a979b235c4 import confirm
+from .prepare_763b84c4155bae06 import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -7,7 +7,7 @@ option solver = augmented
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_270a07b4c3e23db7 import rhs
+from .prepare_9026ae072063da35 import prepare
+from .rhs_iterated_45bf092af6868e4a import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_16f7c7b65cb5c9c1_cuda import accept
-from .confirm_fc9117e8c09878aa_cuda import confirm
-from .prepare_fb15419ced2f3f16_cuda import prepare
-from .rhs_direct_5ec2304b56977532_cuda import rhs
+from .confirm_5dc7b6438d08cb73_cuda import confirm
+from .prepare_751a15db5b311eef_cuda import prepare
+from .rhs_direct_569c93bfda4a4206_cuda import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -7,7 +7,7 @@ option solver = dense
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_925146d10b1178fc import prepare
-from .rhs_dense_23a402b45809043e import rhs
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_dense_ca6ef50220ac480e import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -8,10 +8,10 @@ p[28] penalty (default 10000000.0)
 p[29] tolerance (default 1e-13)
 """
 
-from .accept_augmented_955cc712e85ac891 import accept
-from .confirm_7655e8105f2948f8 import confirm
-from .metric_augmented_14a1ba5f25743355 import geometry, spread
-from .prepare_1fa6c94700d82bf8 import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .accept_augmented_82e2cb0b78e0c58c import accept
+from .confirm_6129ed4b3f390359 import confirm
+from .metric_augmented_2305310f8e7cfdfc import geometry, spread
+from .prepare_a1b79ebc06238e1a import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

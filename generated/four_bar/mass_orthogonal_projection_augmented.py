@@ -8,9 +8,9 @@ p[24] penalty (default 10000000.0)
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_augmented_571f2091c91a1f43 import accept
-from .metric_augmented_cd5263d7bbeae8ab import geometry, spread
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_270a07b4c3e23db7 import rhs
+from .accept_augmented_8e59d3b7b64f427e import accept
+from .metric_augmented_fdc93732d7bd8d08 import geometry, spread
+from .prepare_9026ae072063da35 import prepare
+from .rhs_iterated_45bf092af6868e4a import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

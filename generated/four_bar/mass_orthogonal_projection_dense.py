@@ -8,9 +8,9 @@ p[21] penalty (default 10000000.0)
 p[22] tolerance (default 1e-13)
 """
 
-from .accept_augmented_18cb570d34aa9251 import accept
-from .metric_augmented_b621d69d706026f1 import geometry, spread
-from .prepare_925146d10b1178fc import prepare
-from .rhs_dense_23a402b45809043e import rhs
+from .accept_augmented_6bce4400b5610670 import accept
+from .metric_augmented_4b254bef6830e696 import geometry, spread
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_dense_ca6ef50220ac480e import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -37,6 +37,21 @@ row 5    C.y [m]
 row 6    D.x [m]
 row 7    D.y [m]
 
+w[0:19]  status
+w[19:27]  multipliers
+w[27:35]  mask
+w[35:43]  saved
+w[43:51]  residual
+w[51:59]  nu
+w[59:67]  pivot
+w[67:76]  change
+w[76:85]  mass
+w[85:94]  gauge
+w[94:102]  row_weight
+w[102:114]  jacobian
+w[114:130]  lower
+w[130:138]  reciprocal
+
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
 - the kinematic map N: planar velocities are the rates of the coordinates
@@ -60,18 +75,18 @@ def prepare(p):
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
     # outputs
-    p[3] = 0.5*p0
-    p[4] = 9.81*p0
-    p[5] = 0.16666666666666666*p0
-    p[6] = 0.5*p1
-    p[7] = 9.81*p1
-    p[8] = 2.6666666666666665*p1
-    p[9] = 0.5*p2
-    p[10] = 9.81*p2
-    p[11] = 1.0416666666666665*p2
-    p[12] = 0.3333333333333333*p0
-    p[13] = 5.333333333333333*p1
-    p[14] = 2.083333333333333*p2
+    p[3] = 0.5*p0  # 0.5*crank_mass
+    p[4] = 9.81*p0  # 9.81*crank_mass
+    p[5] = 0.16666666666666666*p0  # 0.16666666666666666*crank_mass
+    p[6] = 0.5*p1  # 0.5*coupler_mass
+    p[7] = 9.81*p1  # 9.81*coupler_mass
+    p[8] = 2.6666666666666665*p1  # 2.6666666666666665*coupler_mass
+    p[9] = 0.5*p2  # 0.5*rocker_mass
+    p[10] = 9.81*p2  # 9.81*rocker_mass
+    p[11] = 1.0416666666666665*p2  # 1.0416666666666665*rocker_mass
+    p[12] = 0.3333333333333333*p0  # 0.3333333333333333*crank_mass
+    p[13] = 5.333333333333333*p1  # 5.333333333333333*coupler_mass
+    p[14] = 2.083333333333333*p2  # 2.083333333333333*rocker_mass
     return 0
 
 
@@ -88,15 +103,15 @@ def geometry(t, y, p, w):
     q6 = y[6]  # rocker.x [m]
     q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
-    mask_1 = w[28]
-    mask_2 = w[29]
-    mask_3 = w[30]
-    mask_4 = w[31]
-    mask_5 = w[32]
-    mask_7 = w[34]
-    gauge_2 = w[87]
-    gauge_5 = w[90]
-    gauge_8 = w[93]
+    mask_1 = w[28]  # A.y
+    mask_2 = w[29]  # B.x
+    mask_3 = w[30]  # B.y
+    mask_4 = w[31]  # C.x
+    mask_5 = w[32]  # C.y
+    mask_7 = w[34]  # D.y
+    gauge_2 = w[87]  # crank.omega
+    gauge_5 = w[90]  # coupler.omega
+    gauge_8 = w[93]  # rocker.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -193,37 +208,37 @@ def geometry(t, y, p, w):
     s92 = min(min(min(min(min(1.0, mask_1 + s87), mask_2 + s88), mask_3 + s89), mask_4 + s90), mask_5 + s91)
     s93 = s60/s41
     # outputs
-    w[43] = s3
-    w[44] = s4
-    w[45] = s7
-    w[46] = s9
-    w[47] = s11
-    w[48] = s13
-    w[49] = s14
-    w[50] = s15
-    w[0] = s86
-    w[8] = s86
-    w[102] = s1
-    w[103] = s2
-    w[104] = s1
-    w[105] = s8
-    w[106] = s2
-    w[107] = s6
-    w[108] = s8
-    w[109] = -s12
-    w[110] = s6
-    w[111] = s10
-    w[112] = s12
-    w[113] = -s10
-    w[60] = s87
-    w[61] = s88
-    w[62] = s89
-    w[63] = s90
-    w[64] = s91
-    w[66] = s93
-    w[5] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50
-    w[4] = min(s92, mask_7 + s93)
-    w[10] = 1.0
+    w[43] = s3  # A.x
+    w[44] = s4  # A.y
+    w[45] = s7  # B.x
+    w[46] = s9  # B.y
+    w[47] = s11  # C.x
+    w[48] = s13  # C.y
+    w[49] = s14  # D.x
+    w[50] = s15  # D.y
+    w[0] = s86  # position_violation
+    w[8] = s86  # position_measure
+    w[102] = s1  # D A.x, crank.omega
+    w[103] = s2  # D A.y, crank.omega
+    w[104] = s1  # D B.x, crank.omega
+    w[105] = s8  # D B.x, coupler.omega
+    w[106] = s2  # D B.y, crank.omega
+    w[107] = s6  # D B.y, coupler.omega
+    w[108] = s8  # D C.x, coupler.omega
+    w[109] = -s12  # D C.x, rocker.omega
+    w[110] = s6  # D C.y, coupler.omega
+    w[111] = s10  # D C.y, rocker.omega
+    w[112] = s12  # D D.x, rocker.omega
+    w[113] = -s10  # D D.y, rocker.omega
+    w[60] = s87  # A.y
+    w[61] = s88  # B.x
+    w[62] = s89  # B.y
+    w[63] = s90  # C.x
+    w[64] = s91  # C.y
+    w[66] = s93  # D.y
+    w[5] = s63 + 1.0 + s85 + s81 + s75 + s67 + 1.0 + s50  # rank
+    w[4] = min(s92, mask_7 + s93)  # smallest_pivot
+    w[10] = 1.0  # shortest_row
     w[114] = s44
     w[115] = s45
     w[116] = s44
@@ -255,9 +270,9 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 105 operations, 6984 before sharing."""
     # inputs
-    gauge_2 = w[87]
-    gauge_5 = w[90]
-    gauge_8 = w[93]
+    gauge_2 = w[87]  # crank.omega
+    gauge_5 = w[90]  # coupler.omega
+    gauge_8 = w[93]  # rocker.omega
     lower_0 = w[114]
     lower_1 = w[115]
     lower_2 = w[116]
@@ -282,26 +297,26 @@ def spread(p, w):
     reciprocal_5 = w[135]
     reciprocal_6 = w[136]
     reciprocal_7 = w[137]
-    residual_0 = w[43]
-    residual_1 = w[44]
-    residual_2 = w[45]
-    residual_3 = w[46]
-    residual_4 = w[47]
-    residual_5 = w[48]
-    residual_6 = w[49]
-    residual_7 = w[50]
-    jacobian_0 = w[102]
-    jacobian_1 = w[103]
-    jacobian_2 = w[104]
-    jacobian_3 = w[105]
-    jacobian_4 = w[106]
-    jacobian_5 = w[107]
-    jacobian_6 = w[108]
-    jacobian_7 = w[109]
-    jacobian_8 = w[110]
-    jacobian_9 = w[111]
-    jacobian_10 = w[112]
-    jacobian_11 = w[113]
+    residual_0 = w[43]  # A.x
+    residual_1 = w[44]  # A.y
+    residual_2 = w[45]  # B.x
+    residual_3 = w[46]  # B.y
+    residual_4 = w[47]  # C.x
+    residual_5 = w[48]  # C.y
+    residual_6 = w[49]  # D.x
+    residual_7 = w[50]  # D.y
+    jacobian_0 = w[102]  # D A.x, crank.omega
+    jacobian_1 = w[103]  # D A.y, crank.omega
+    jacobian_2 = w[104]  # D B.x, crank.omega
+    jacobian_3 = w[105]  # D B.x, coupler.omega
+    jacobian_4 = w[106]  # D B.y, crank.omega
+    jacobian_5 = w[107]  # D B.y, coupler.omega
+    jacobian_6 = w[108]  # D C.x, coupler.omega
+    jacobian_7 = w[109]  # D C.x, rocker.omega
+    jacobian_8 = w[110]  # D C.y, coupler.omega
+    jacobian_9 = w[111]  # D C.y, rocker.omega
+    jacobian_10 = w[112]  # D D.x, rocker.omega
+    jacobian_11 = w[113]  # D D.y, rocker.omega
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_3*s0
@@ -323,15 +338,15 @@ def spread(p, w):
     s17 = reciprocal_1*s0 - lower_3*s14 - lower_4*s11
     s18 = reciprocal_0*residual_0 + lower_0*s17 + lower_1*s14 + lower_2*s11
     # outputs
-    w[67] = s13 - s12 - s18
-    w[68] = s17 + s10 - s9
-    w[69] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)
-    w[70] = s14 + s7 - s6
-    w[71] = s11 - s5
-    w[72] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)
-    w[73] = s8 - s16
-    w[74] = s5 + s15
-    w[75] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)
+    w[67] = s13 - s12 - s18  # crank.vx
+    w[68] = s17 + s10 - s9  # crank.vy
+    w[69] = gauge_2*(s17*jacobian_1 - s18*jacobian_0 + s14*jacobian_2 + s11*jacobian_4)  # crank.omega
+    w[70] = s14 + s7 - s6  # coupler.vx
+    w[71] = s11 - s5  # coupler.vy
+    w[72] = gauge_5*(s14*jacobian_3 + s11*jacobian_5 + s8*jacobian_6 + s5*jacobian_8)  # coupler.omega
+    w[73] = s8 - s16  # rocker.vx
+    w[74] = s5 + s15  # rocker.vy
+    w[75] = gauge_8*(s8*jacobian_7 + s5*jacobian_9 - s16*jacobian_10 + s15*jacobian_11)  # rocker.omega
     return 0
 
 
@@ -351,27 +366,27 @@ def measure(t, y, p, w):
     v6 = y[15]  # rocker.vx [m/s]
     v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
-    p3 = p[3]
-    p4 = p[4]
-    p5 = p[5]
-    p6 = p[6]
-    p7 = p[7]
-    p8 = p[8]
-    p9 = p[9]
-    p10 = p[10]
-    p11 = p[11]
-    jacobian_0 = w[102]
-    jacobian_1 = w[103]
-    jacobian_2 = w[104]
-    jacobian_3 = w[105]
-    jacobian_4 = w[106]
-    jacobian_5 = w[107]
-    jacobian_6 = w[108]
-    jacobian_7 = w[109]
-    jacobian_8 = w[110]
-    jacobian_9 = w[111]
-    jacobian_10 = w[112]
-    jacobian_11 = w[113]
+    p3 = p[3]  # 0.5*crank_mass
+    p4 = p[4]  # 9.81*crank_mass
+    p5 = p[5]  # 0.16666666666666666*crank_mass
+    p6 = p[6]  # 0.5*coupler_mass
+    p7 = p[7]  # 9.81*coupler_mass
+    p8 = p[8]  # 2.6666666666666665*coupler_mass
+    p9 = p[9]  # 0.5*rocker_mass
+    p10 = p[10]  # 9.81*rocker_mass
+    p11 = p[11]  # 1.0416666666666665*rocker_mass
+    jacobian_0 = w[102]  # D A.x, crank.omega
+    jacobian_1 = w[103]  # D A.y, crank.omega
+    jacobian_2 = w[104]  # D B.x, crank.omega
+    jacobian_3 = w[105]  # D B.x, coupler.omega
+    jacobian_4 = w[106]  # D B.y, crank.omega
+    jacobian_5 = w[107]  # D B.y, coupler.omega
+    jacobian_6 = w[108]  # D C.x, coupler.omega
+    jacobian_7 = w[109]  # D C.x, rocker.omega
+    jacobian_8 = w[110]  # D C.y, coupler.omega
+    jacobian_9 = w[111]  # D C.y, rocker.omega
+    jacobian_10 = w[112]  # D D.x, rocker.omega
+    jacobian_11 = w[113]  # D D.y, rocker.omega
     # intermediate terms
     s0 = p3*(v0*v0) + p3*(v1*v1) + v2*v2*p5 + p6*(v3*v3) + p6*(v4*v4) + v5*v5*p8 + p9*(v6*v6) + p9*(v7*v7)
     s1 = v0 + v2*jacobian_0
@@ -384,18 +399,18 @@ def measure(t, y, p, w):
     s8 = v7 + v8*jacobian_11
     s9 = math.sqrt(s1*s1 + s2*s2 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8)
     # outputs
-    w[43] = s1
-    w[44] = s2
-    w[45] = s3
-    w[46] = s4
-    w[47] = s5
-    w[48] = s6
-    w[49] = s7
-    w[50] = s8
-    w[1] = s9
-    w[9] = s9
-    w[2] = s0 + v8*v8*p11
-    w[3] = q1*p4 + q4*p7 + q7*p10
+    w[43] = s1  # A.x
+    w[44] = s2  # A.y
+    w[45] = s3  # B.x
+    w[46] = s4  # B.y
+    w[47] = s5  # C.x
+    w[48] = s6  # C.y
+    w[49] = s7  # D.x
+    w[50] = s8  # D.y
+    w[1] = s9  # velocity_violation
+    w[9] = s9  # velocity_measure
+    w[2] = s0 + v8*v8*p11  # kinetic
+    w[3] = q1*p4 + q4*p7 + q7*p10  # potential
     return 0
 
 
@@ -409,15 +424,15 @@ def observe(t, y, p, w, ydot, out):
     v5 = y[14]  # coupler.omega [rad/s]
     q8 = y[8]  # rocker.theta [rad]
     v8 = y[17]  # rocker.omega [rad/s]
-    ydot_9 = ydot[9]
-    ydot_10 = ydot[10]
-    ydot_11 = ydot[11]
-    ydot_12 = ydot[12]
-    ydot_13 = ydot[13]
-    ydot_14 = ydot[14]
-    ydot_15 = ydot[15]
-    ydot_16 = ydot[16]
-    ydot_17 = ydot[17]
+    ydot_9 = ydot[9]  # rate of crank.vx
+    ydot_10 = ydot[10]  # rate of crank.vy
+    ydot_11 = ydot[11]  # rate of crank.omega
+    ydot_12 = ydot[12]  # rate of coupler.vx
+    ydot_13 = ydot[13]  # rate of coupler.vy
+    ydot_14 = ydot[14]  # rate of coupler.omega
+    ydot_15 = ydot[15]  # rate of rocker.vx
+    ydot_16 = ydot[16]  # rate of rocker.vy
+    ydot_17 = ydot[17]  # rate of rocker.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -441,22 +456,22 @@ def observe(t, y, p, w, ydot, out):
     s19 = 2.5*s11*ydot_17
     s20 = 2.5*s10*ydot_17
     # outputs
-    out[0] = s3 + ydot_9 + s15
-    out[1] = s4 + ydot_10 - s16
-    out[2] = s3 + s8 + ydot_12 + s15 - ydot_9 + s17
-    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s16) - s18
-    out[4] = ydot_15 + s17 - ydot_12 - s19 - (s13 - s8)
-    out[5] = ydot_16 - (ydot_13 + s18) + s20 - (s14 - s9)
-    out[6] = s13 + ydot_15 + s19
-    out[7] = s14 + ydot_16 - s20
-    out[8] = q2
-    out[9] = v2
-    out[10] = q5 - q2
-    out[11] = v5 - v2
-    out[12] = q8 - q5
-    out[13] = v8 - v5
-    out[14] = q8
-    out[15] = v8
+    out[0] = s3 + ydot_9 + s15  # A.x
+    out[1] = s4 + ydot_10 - s16  # A.y
+    out[2] = s3 + s8 + ydot_12 + s15 - ydot_9 + s17  # B.x
+    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s16) - s18  # B.y
+    out[4] = ydot_15 + s17 - ydot_12 - s19 - (s13 - s8)  # C.x
+    out[5] = ydot_16 - (ydot_13 + s18) + s20 - (s14 - s9)  # C.y
+    out[6] = s13 + ydot_15 + s19  # D.x
+    out[7] = s14 + ydot_16 - s20  # D.y
+    out[8] = q2  # A.angle
+    out[9] = v2  # rate of A.angle
+    out[10] = q5 - q2  # B.angle
+    out[11] = v5 - v2  # rate of B.angle
+    out[12] = q8 - q5  # C.angle
+    out[13] = v8 - v5  # rate of C.angle
+    out[14] = q8  # D.angle
+    out[15] = v8  # rate of D.angle
     return 0
 
 
@@ -467,17 +482,17 @@ def masses(p, w):
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
-    p12 = p[12]
-    p13 = p[13]
-    p14 = p[14]
+    p12 = p[12]  # 0.3333333333333333*crank_mass
+    p13 = p[13]  # 5.333333333333333*coupler_mass
+    p14 = p[14]  # 2.083333333333333*rocker_mass
     # outputs
-    w[76] = p0
-    w[77] = p0
-    w[78] = p12
-    w[79] = p1
-    w[80] = p1
-    w[81] = p13
-    w[82] = p2
-    w[83] = p2
-    w[84] = p14
+    w[76] = p0  # crank.vx
+    w[77] = p0  # crank.vy
+    w[78] = p12  # crank.omega
+    w[79] = p1  # coupler.vx
+    w[80] = p1  # coupler.vy
+    w[81] = p13  # coupler.omega
+    w[82] = p2  # rocker.vx
+    w[83] = p2  # rocker.vy
+    w[84] = p14  # rocker.omega
     return 0

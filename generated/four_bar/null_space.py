@@ -6,8 +6,8 @@ digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 
 p[24] tolerance (default 1e-13)
 """
 
-from .accept_scaled_6128f68813932d2b import accept
-from .prepare_2e8d0c7657613e8a import prepare
-from .rhs_tangent_ab47e270f6733ad7 import rhs
+from .accept_scaled_bb485c52a505ecf4 import accept
+from .prepare_9ce7f8a2e48deb9d import prepare
+from .rhs_tangent_0b6fa165e80aac26 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[25] mu (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_2570236ee9dff29c import prepare
-from .rhs_direct_f6afce2ab36fa19f import rhs
+from .prepare_4bfe443769889a89 import prepare
+from .rhs_direct_0c6580103aa48b38 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,8 +9,8 @@ p[25] mu (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_acceleration_bd7f49eed687cdc0 import residual, tangent
-from .prepare_1c808f308f669a98 import prepare
-from .rhs_direct_f6afce2ab36fa19f import rhs
+from .form_acceleration_9e9e7755a8b97968 import residual, tangent
+from .prepare_7e49cd42253cf997 import prepare
+from .rhs_direct_0c6580103aa48b38 import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

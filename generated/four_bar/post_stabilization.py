@@ -7,10 +7,10 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_e2b1967159684479 import accept
-from .confirm_e4d6575b6806aa49 import confirm
-from .metric_identity_788c34c771daa420 import geometry, spread
-from .prepare_030af4547de87394 import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .accept_identity_a5a56297f45ad4e3 import accept
+from .confirm_8a47bcaa805f0e65 import confirm
+from .metric_identity_bd0017f2437756d9 import geometry, spread
+from .prepare_763b84c4155bae06 import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

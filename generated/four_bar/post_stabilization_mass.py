@@ -7,10 +7,10 @@ option solver = elimination
 option weight = mass
 """
 
-from .accept_mass_deb76107df48cf0f import accept
-from .confirm_ed4ac87406ed2761 import confirm
-from .metric_mass_caa3cb8643e300c8 import geometry, spread
-from .prepare_030af4547de87394 import prepare
-from .rhs_direct_e37dc391c4609e3f import rhs
+from .accept_mass_90bd179524adcdb9 import accept
+from .confirm_5ac0ffb69a572f13 import confirm
+from .metric_mass_ff018d814c36552d import geometry, spread
+from .prepare_763b84c4155bae06 import prepare
+from .rhs_direct_b39e1de949b53dc5 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -6,8 +6,8 @@ digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_9324511acf595b88 import confirm
-from .prepare_b61a316d60a9f48e import prepare
-from .rhs_direct_66cc0ac1b90c57eb import rhs
+from .confirm_c515b1783fd9cbe4 import confirm
+from .prepare_6eb087d8a1ab6ad3 import prepare
+from .rhs_direct_c045b1f8abd28df8 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -7,9 +7,9 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_0ae7888fd6e05e27 import accept
-from .metric_identity_4455e6aac6180ded import geometry, spread
-from .prepare_e9abfb5308afbaf9 import prepare
-from .rhs_iterated_270a07b4c3e23db7 import rhs
+from .accept_identity_74bc252a4ac18208 import accept
+from .metric_identity_0a5690aa82831f05 import geometry, spread
+from .prepare_9026ae072063da35 import prepare
+from .rhs_iterated_45bf092af6868e4a import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

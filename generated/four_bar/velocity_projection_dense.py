@@ -7,9 +7,9 @@ option solver = dense
 option weight = identity
 """
 
-from .accept_identity_4b2ae1ec0068b9be import accept
-from .metric_identity_24d084413a7dc212 import geometry, spread
-from .prepare_925146d10b1178fc import prepare
-from .rhs_dense_23a402b45809043e import rhs
+from .accept_identity_d30bffe3f3e1bc09 import accept
+from .metric_identity_c01f538908e67c01 import geometry, spread
+from .prepare_b53e6d0954ad35f8 import prepare
+from .rhs_dense_ca6ef50220ac480e import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

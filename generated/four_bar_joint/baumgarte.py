@@ -9,8 +9,8 @@ p[26] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_9884ac5f851747d7 import confirm
-from .prepare_fbaaeb0cb5792746 import prepare
-from .rhs_direct_c33b4d574e22412b import rhs
+from .confirm_cf6ddaf04e9a244a import confirm
+from .prepare_b425a99e2e35ba0c import prepare
+from .rhs_direct_50aca0743bddcdbe import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

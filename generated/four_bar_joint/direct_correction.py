@@ -8,10 +8,10 @@ option weight = identity
 p[23] tolerance (default 1e-13)
 """
 
-from .accept_identity_708ca74ad9cfba69 import accept
-from .confirm_0f25f9c31db6013a import confirm
-from .metric_identity_d5257821f94425ba import geometry, spread
-from .prepare_97e25336ba4f9ea1 import prepare
-from .rhs_direct_f0b37fbebfd6ca93 import rhs
+from .accept_identity_5776183ea8792282 import accept
+from .confirm_48554f294619cfb9 import confirm
+from .metric_identity_0ac93156ebf9c3f7 import geometry, spread
+from .prepare_5e969626a44f5ea9 import prepare
+from .rhs_direct_14b54eb205a666ee import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

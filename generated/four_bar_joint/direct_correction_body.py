@@ -8,10 +8,10 @@ option weight = body
 p[23] tolerance (default 1e-13)
 """
 
-from .accept_body_32ee4c9a065548e0 import accept
-from .confirm_2581057f9d5d3055 import confirm
-from .metric_body_bd8b2111ca6ba1fd import geometry, spread
-from .prepare_97e25336ba4f9ea1 import prepare
-from .rhs_direct_f0b37fbebfd6ca93 import rhs
+from .accept_body_6a228c0b5e3bc4ba import accept
+from .confirm_59f5c5a217c93296 import confirm
+from .metric_body_18bac4810ae506a3 import geometry, spread
+from .prepare_5e969626a44f5ea9 import prepare
+from .rhs_direct_14b54eb205a666ee import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

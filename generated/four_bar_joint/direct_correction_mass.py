@@ -8,10 +8,10 @@ option weight = mass
 p[23] tolerance (default 1e-13)
 """
 
-from .accept_mass_bf39f9c803f57b33 import accept
-from .confirm_4c25b57697252580 import confirm
-from .metric_mass_54caf352b8568c80 import geometry, spread
-from .prepare_97e25336ba4f9ea1 import prepare
-from .rhs_direct_f0b37fbebfd6ca93 import rhs
+from .accept_mass_1c7929b6fde1552c import accept
+from .confirm_424857e9721d94a9 import confirm
+from .metric_mass_e0f60412748ee3ad import geometry, spread
+from .prepare_5e969626a44f5ea9 import prepare
+from .rhs_direct_14b54eb205a666ee import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_b88ee2707047bb6e import confirm
-from .prepare_97e25336ba4f9ea1 import prepare
-from .rhs_direct_f0b37fbebfd6ca93 import rhs
+from .confirm_806463b4664a02a9 import confirm
+from .prepare_5e969626a44f5ea9 import prepare
+from .rhs_direct_14b54eb205a666ee import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

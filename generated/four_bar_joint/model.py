@@ -19,6 +19,22 @@ p[2]     rocker_mass [kg]
 row 0    C.x [m]
 row 1    C.y [m]
 
+w[0:19]  status
+w[19:21]  multipliers
+w[21:23]  mask
+w[23:25]  saved
+w[25:27]  residual
+w[27:29]  nu
+w[29:31]  pivot
+w[31:34]  change
+w[34:37]  mass
+w[37:40]  gauge
+w[40:42]  row_weight
+w[42:48]  jacobian
+w[48:49]  lower
+w[49:51]  reciprocal
+w[51:52]  mass_entry
+
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
 - the kinematic map N: planar velocities are the rates of the coordinates
@@ -44,18 +60,18 @@ def prepare(p):
     # intermediate terms
     s0 = 4.0*p1
     # outputs
-    p[3] = s0
-    p[4] = 0.5*p0
-    p[5] = 0.16666666666666666*p0
-    p[6] = 9.81*p0
-    p[7] = 0.5*p1
-    p[8] = 2.6666666666666665*p1
-    p[9] = 9.81*p1
-    p[10] = 0.5*p2
-    p[11] = 1.0416666666666665*p2
-    p[12] = 9.81*p2
+    p[3] = s0  # 4.0*coupler_mass
+    p[4] = 0.5*p0  # 0.5*crank_mass
+    p[5] = 0.16666666666666666*p0  # 0.16666666666666666*crank_mass
+    p[6] = 9.81*p0  # 9.81*crank_mass
+    p[7] = 0.5*p1  # 0.5*coupler_mass
+    p[8] = 2.6666666666666665*p1  # 2.6666666666666665*coupler_mass
+    p[9] = 9.81*p1  # 9.81*coupler_mass
+    p[10] = 0.5*p2  # 0.5*rocker_mass
+    p[11] = 1.0416666666666665*p2  # 1.0416666666666665*rocker_mass
+    p[12] = 9.81*p2  # 9.81*rocker_mass
     p[13] = 5.333333333333333*p1 + 16.0*p1
-    p[14] = 2.083333333333333*p2 + 6.25*p2
+    p[14] = 2.083333333333333*p2 + 6.25*p2  # 2.083333333333333*rocker_mass + 6.25*rocker_mass
     p[15] = s0 + p0 + 0.3333333333333333*p0
     return 0
 
@@ -67,12 +83,12 @@ def geometry(t, y, p, w):
     q0 = y[0]  # crank.theta [rad]
     q1 = y[1]  # rocker.theta [rad]
     q2 = y[2]  # coupler.theta [rad]
-    p3 = p[3]
-    mask_0 = w[21]
-    mask_1 = w[22]
-    gauge_0 = w[37]
-    gauge_1 = w[38]
-    gauge_2 = w[39]
+    p3 = p[3]  # 4.0*coupler_mass
+    mask_0 = w[21]  # C.x
+    mask_1 = w[22]  # C.y
+    gauge_0 = w[37]  # crank.omega
+    gauge_1 = w[38]  # rocker.omega
+    gauge_2 = w[39]  # coupler.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -101,21 +117,21 @@ def geometry(t, y, p, w):
     s24 = s13/s16
     s25 = s20/s21
     # outputs
-    w[25] = s6
-    w[26] = s9
-    w[0] = s23
-    w[8] = s23
-    w[42] = s3
-    w[43] = -s7
-    w[44] = s8
-    w[45] = -s2
-    w[46] = s4
-    w[47] = -s5
-    w[29] = s24
-    w[30] = s25
-    w[5] = s17 + s22
-    w[4] = min(min(1.0, mask_0 + s24), mask_1 + s25)
-    w[10] = 1.0
+    w[25] = s6  # C.x
+    w[26] = s9  # C.y
+    w[0] = s23  # position_violation
+    w[8] = s23  # position_measure
+    w[42] = s3  # D C.x, crank.omega
+    w[43] = -s7  # D C.x, rocker.omega
+    w[44] = s8  # D C.x, coupler.omega
+    w[45] = -s2  # D C.y, crank.omega
+    w[46] = s4  # D C.y, rocker.omega
+    w[47] = -s5  # D C.y, coupler.omega
+    w[29] = s24  # C.x
+    w[30] = s25  # C.y
+    w[5] = s17 + s22  # rank
+    w[4] = min(min(1.0, mask_0 + s24), mask_1 + s25)  # smallest_pivot
+    w[10] = 1.0  # shortest_row
     w[48] = -s19
     w[49] = s18
     w[50] = s22/max(s20, 1e-300)
@@ -127,27 +143,27 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 18 operations, 39 before sharing."""
     # inputs
-    gauge_0 = w[37]
-    gauge_1 = w[38]
-    gauge_2 = w[39]
+    gauge_0 = w[37]  # crank.omega
+    gauge_1 = w[38]  # rocker.omega
+    gauge_2 = w[39]  # coupler.omega
     lower_0 = w[48]
     reciprocal_0 = w[49]
     reciprocal_1 = w[50]
-    residual_0 = w[25]
-    residual_1 = w[26]
-    jacobian_0 = w[42]
-    jacobian_1 = w[43]
-    jacobian_2 = w[44]
-    jacobian_3 = w[45]
-    jacobian_4 = w[46]
-    jacobian_5 = w[47]
+    residual_0 = w[25]  # C.x
+    residual_1 = w[26]  # C.y
+    jacobian_0 = w[42]  # D C.x, crank.omega
+    jacobian_1 = w[43]  # D C.x, rocker.omega
+    jacobian_2 = w[44]  # D C.x, coupler.omega
+    jacobian_3 = w[45]  # D C.y, crank.omega
+    jacobian_4 = w[46]  # D C.y, rocker.omega
+    jacobian_5 = w[47]  # D C.y, coupler.omega
     # intermediate terms
     s0 = reciprocal_1*(lower_0*residual_0 - residual_1)
     s1 = reciprocal_0*residual_0 + lower_0*s0
     # outputs
-    w[31] = gauge_0*(s0*jacobian_3 - s1*jacobian_0)
-    w[32] = gauge_1*(s0*jacobian_4 - s1*jacobian_1)
-    w[33] = gauge_2*(s0*jacobian_5 - s1*jacobian_2)
+    w[31] = gauge_0*(s0*jacobian_3 - s1*jacobian_0)  # crank.omega
+    w[32] = gauge_1*(s0*jacobian_4 - s1*jacobian_1)  # rocker.omega
+    w[33] = gauge_2*(s0*jacobian_5 - s1*jacobian_2)  # coupler.omega
     return 0
 
 
@@ -161,21 +177,21 @@ def measure(t, y, p, w):
     v0 = y[3]  # crank.omega [rad/s]
     v1 = y[4]  # rocker.omega [rad/s]
     v2 = y[5]  # coupler.omega [rad/s]
-    p4 = p[4]
-    p5 = p[5]
-    p6 = p[6]
-    p7 = p[7]
-    p8 = p[8]
-    p9 = p[9]
-    p10 = p[10]
-    p11 = p[11]
-    p12 = p[12]
-    jacobian_0 = w[42]
-    jacobian_1 = w[43]
-    jacobian_2 = w[44]
-    jacobian_3 = w[45]
-    jacobian_4 = w[46]
-    jacobian_5 = w[47]
+    p4 = p[4]  # 0.5*crank_mass
+    p5 = p[5]  # 0.16666666666666666*crank_mass
+    p6 = p[6]  # 9.81*crank_mass
+    p7 = p[7]  # 0.5*coupler_mass
+    p8 = p[8]  # 2.6666666666666665*coupler_mass
+    p9 = p[9]  # 9.81*coupler_mass
+    p10 = p[10]  # 0.5*rocker_mass
+    p11 = p[11]  # 1.0416666666666665*rocker_mass
+    p12 = p[12]  # 9.81*rocker_mass
+    jacobian_0 = w[42]  # D C.x, crank.omega
+    jacobian_1 = w[43]  # D C.x, rocker.omega
+    jacobian_2 = w[44]  # D C.x, coupler.omega
+    jacobian_3 = w[45]  # D C.y, crank.omega
+    jacobian_4 = w[46]  # D C.y, rocker.omega
+    jacobian_5 = w[47]  # D C.y, coupler.omega
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)
@@ -193,12 +209,12 @@ def measure(t, y, p, w):
     s13 = v0*jacobian_3 + v1*jacobian_4 + v2*jacobian_5
     s14 = math.sqrt(s12*s12 + s13*s13)
     # outputs
-    w[25] = s12
-    w[26] = s13
-    w[1] = s14
-    w[9] = s14
-    w[2] = s11
-    w[3] = s1*p6 + (s2 + s5)*p9 + s8*p12
+    w[25] = s12  # C.x
+    w[26] = s13  # C.y
+    w[1] = s14  # velocity_violation
+    w[9] = s14  # velocity_measure
+    w[2] = s11  # kinetic
+    w[3] = s1*p6 + (s2 + s5)*p9 + s8*p12  # potential
     return 0
 
 
@@ -212,9 +228,9 @@ def observe(t, y, p, w, ydot, out):
     v0 = y[3]  # crank.omega [rad/s]
     v1 = y[4]  # rocker.omega [rad/s]
     v2 = y[5]  # coupler.omega [rad/s]
-    ydot_3 = ydot[3]
-    ydot_4 = ydot[4]
-    ydot_5 = ydot[5]
+    ydot_3 = ydot[3]  # rate of crank.omega
+    ydot_4 = ydot[4]  # rate of rocker.omega
+    ydot_5 = ydot[5]  # rate of coupler.omega
     # intermediate terms
     s0 = math.cos(q1)
     s1 = math.sin(q1)
@@ -226,16 +242,16 @@ def observe(t, y, p, w, ydot, out):
     s7 = 8.0*(v2*v2)
     s8 = 5.0*(v1*v1)
     # outputs
-    out[0] = s4*s6 + s2*s7 - s0*s8 + s5*ydot_3 - 5.0*s1*ydot_4 + 8.0*s3*ydot_5
-    out[1] = s5*s6 + s3*s7 - s1*s8 + 5.0*s0*ydot_4 - s4*ydot_3 - 8.0*s2*ydot_5
-    out[2] = q0
-    out[3] = v0
-    out[4] = q2 - q0
-    out[5] = v2 - v0
-    out[6] = q1 - q2
-    out[7] = v1 - v2
-    out[8] = q1
-    out[9] = v1
+    out[0] = s4*s6 + s2*s7 - s0*s8 + s5*ydot_3 - 5.0*s1*ydot_4 + 8.0*s3*ydot_5  # C.x
+    out[1] = s5*s6 + s3*s7 - s1*s8 + 5.0*s0*ydot_4 - s4*ydot_3 - 8.0*s2*ydot_5  # C.y
+    out[2] = q0  # A.angle
+    out[3] = v0  # rate of A.angle
+    out[4] = q2 - q0  # B.angle
+    out[5] = v2 - v0  # rate of B.angle
+    out[6] = q1 - q2  # C.angle
+    out[7] = v1 - v2  # rate of C.angle
+    out[8] = q1  # D.angle
+    out[9] = v1  # rate of D.angle
     return 0
 
 
@@ -244,12 +260,12 @@ def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
     # inputs
     p13 = p[13]
-    p14 = p[14]
+    p14 = p[14]  # 2.083333333333333*rocker_mass + 6.25*rocker_mass
     p15 = p[15]
     # outputs
-    w[34] = p15
-    w[36] = p13
-    w[35] = p14
+    w[34] = p15  # crank.omega
+    w[36] = p13  # coupler.omega
+    w[35] = p14  # rocker.omega
     return 0
 
 
@@ -263,9 +279,9 @@ def bodies(t, y, p, w, ydot, out):
     v0 = y[3]  # crank.omega [rad/s]
     v1 = y[4]  # rocker.omega [rad/s]
     v2 = y[5]  # coupler.omega [rad/s]
-    ydot_3 = ydot[3]
-    ydot_4 = ydot[4]
-    ydot_5 = ydot[5]
+    ydot_3 = ydot[3]  # rate of crank.omega
+    ydot_4 = ydot[4]  # rate of rocker.omega
+    ydot_5 = ydot[5]  # rate of coupler.omega
     # intermediate terms
     s0 = math.cos(q0)
     s1 = math.sin(q0)

@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_dcc2fe8451bf93f2 import confirm
-from .prepare_1f74b046b7d0a206 import prepare
-from .rhs_direct_9bf0cace9cba3102 import rhs
+from .confirm_3d042f7111745bc7 import confirm
+from .prepare_9f2c7ad49f4537ff import prepare
+from .rhs_direct_cbb796bf69d33d5d import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -8,10 +8,10 @@ option weight = identity
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_identity_9cb4d74f173f6a22 import accept
-from .confirm_2703a39b07f77096 import confirm
-from .metric_identity_3ff600fd94d0c4ba import geometry, spread
+from .accept_identity_06dc0174c92d1308 import accept
+from .confirm_bff92cd29e92f419 import confirm
+from .metric_identity_9597cd34100af21b import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_911a6ef66568fc79 import rhs
+from .rhs_direct_e2f706c7b92e7482 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

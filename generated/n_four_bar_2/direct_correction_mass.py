@@ -8,10 +8,10 @@ option weight = mass
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_mass_97a2c4d0a285550e import accept
-from .confirm_59ca09447eb00d4d import confirm
-from .metric_mass_bf87462dd928035b import geometry, spread
+from .accept_mass_0c38e69bf79e7e7a import accept
+from .confirm_6d91f86253bdf55c import confirm
+from .metric_mass_5fc31c7468bfb7b3 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_911a6ef66568fc79 import rhs
+from .rhs_direct_e2f706c7b92e7482 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_dda15b123736e7e2 import confirm
+from .confirm_4f37007dfa1dab82 import confirm
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_911a6ef66568fc79 import rhs
+from .rhs_direct_e2f706c7b92e7482 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -52,6 +52,21 @@ row 11   A2.y [m]
 row 12   C2.x [m]
 row 13   C2.y [m]
 
+w[0:19]  status
+w[19:33]  multipliers
+w[33:47]  mask
+w[47:61]  saved
+w[61:75]  residual
+w[75:89]  nu
+w[89:103]  pivot
+w[103:118]  change
+w[118:133]  mass
+w[133:148]  gauge
+w[148:162]  row_weight
+w[162:184]  jacobian
+w[184:219]  lower
+w[219:233]  reciprocal
+
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
 - the kinematic map N: planar velocities are the rates of the coordinates
@@ -94,22 +109,22 @@ def geometry(t, y, p, w):
     q12 = y[12]  # vertical2.x [m]
     q13 = y[13]  # vertical2.y [m]
     q14 = y[14]  # vertical2.theta [rad]
-    mask_1 = w[34]
-    mask_2 = w[35]
-    mask_3 = w[36]
-    mask_5 = w[38]
-    mask_6 = w[39]
-    mask_7 = w[40]
-    mask_8 = w[41]
-    mask_9 = w[42]
-    mask_11 = w[44]
-    mask_12 = w[45]
-    mask_13 = w[46]
-    gauge_2 = w[135]
-    gauge_5 = w[138]
-    gauge_8 = w[141]
-    gauge_11 = w[144]
-    gauge_14 = w[147]
+    mask_1 = w[34]  # A0.y
+    mask_2 = w[35]  # B0.x
+    mask_3 = w[36]  # B0.y
+    mask_5 = w[38]  # A1.y
+    mask_6 = w[39]  # B1.x
+    mask_7 = w[40]  # B1.y
+    mask_8 = w[41]  # C1.x
+    mask_9 = w[42]  # C1.y
+    mask_11 = w[44]  # A2.y
+    mask_12 = w[45]  # C2.x
+    mask_13 = w[46]  # C2.y
+    gauge_2 = w[135]  # vertical0.omega
+    gauge_5 = w[138]  # coupler0.omega
+    gauge_8 = w[141]  # vertical1.omega
+    gauge_11 = w[144]  # coupler1.omega
+    gauge_14 = w[147]  # vertical2.omega
     # intermediate terms
     s0 = 0.5*math.cos(q2)
     s1 = -s0
@@ -293,58 +308,58 @@ def geometry(t, y, p, w):
     s179 = min(min(min(min(min(s173, mask_7 + s174), mask_8 + s175), mask_9 + s176), mask_11 + s177), mask_12 + s178)
     s180 = s118/s73
     # outputs
-    w[61] = s2
-    w[62] = s4
-    w[63] = s7
-    w[64] = s9
-    w[65] = s12
-    w[66] = s14
-    w[67] = s17
-    w[68] = s19
-    w[69] = s20
-    w[70] = s21
-    w[71] = s23
-    w[72] = s25
-    w[73] = s26
-    w[74] = s27
-    w[0] = s167
-    w[8] = s167
-    w[162] = s3
-    w[163] = s1
-    w[164] = s3
-    w[165] = s8
-    w[166] = s1
-    w[167] = s6
-    w[168] = s13
-    w[169] = s11
-    w[170] = s13
-    w[171] = s18
-    w[172] = s11
-    w[173] = s16
-    w[174] = s8
-    w[175] = -s13
-    w[176] = s6
-    w[177] = s10
-    w[178] = s24
-    w[179] = -s22
-    w[180] = s18
-    w[181] = -s24
-    w[182] = s16
-    w[183] = s22
-    w[90] = s168
-    w[91] = s169
-    w[92] = s170
-    w[94] = s171
-    w[95] = s172
-    w[96] = s174
-    w[97] = s175
-    w[98] = s176
-    w[100] = s177
-    w[101] = s178
-    w[102] = s180
-    w[5] = s121 + s113 + s95 + 1.0 + s165 + s161 + s155 + s147 + s137 + 1.0 + s109 + s101 + 1.0 + s82
-    w[4] = min(s179, mask_13 + s180)
-    w[10] = 1.0
+    w[61] = s2  # A0.x
+    w[62] = s4  # A0.y
+    w[63] = s7  # B0.x
+    w[64] = s9  # B0.y
+    w[65] = s12  # A1.x
+    w[66] = s14  # A1.y
+    w[67] = s17  # B1.x
+    w[68] = s19  # B1.y
+    w[69] = s20  # C1.x
+    w[70] = s21  # C1.y
+    w[71] = s23  # A2.x
+    w[72] = s25  # A2.y
+    w[73] = s26  # C2.x
+    w[74] = s27  # C2.y
+    w[0] = s167  # position_violation
+    w[8] = s167  # position_measure
+    w[162] = s3  # D A0.x, vertical0.omega
+    w[163] = s1  # D A0.y, vertical0.omega
+    w[164] = s3  # D B0.x, vertical0.omega
+    w[165] = s8  # D B0.x, coupler0.omega
+    w[166] = s1  # D B0.y, vertical0.omega
+    w[167] = s6  # D B0.y, coupler0.omega
+    w[168] = s13  # D A1.x, vertical1.omega
+    w[169] = s11  # D A1.y, vertical1.omega
+    w[170] = s13  # D B1.x, vertical1.omega
+    w[171] = s18  # D B1.x, coupler1.omega
+    w[172] = s11  # D B1.y, vertical1.omega
+    w[173] = s16  # D B1.y, coupler1.omega
+    w[174] = s8  # D C1.x, coupler0.omega
+    w[175] = -s13  # D C1.x, vertical1.omega
+    w[176] = s6  # D C1.y, coupler0.omega
+    w[177] = s10  # D C1.y, vertical1.omega
+    w[178] = s24  # D A2.x, vertical2.omega
+    w[179] = -s22  # D A2.y, vertical2.omega
+    w[180] = s18  # D C2.x, coupler1.omega
+    w[181] = -s24  # D C2.x, vertical2.omega
+    w[182] = s16  # D C2.y, coupler1.omega
+    w[183] = s22  # D C2.y, vertical2.omega
+    w[90] = s168  # A0.y
+    w[91] = s169  # B0.x
+    w[92] = s170  # B0.y
+    w[94] = s171  # A1.y
+    w[95] = s172  # B1.x
+    w[96] = s174  # B1.y
+    w[97] = s175  # C1.x
+    w[98] = s176  # C1.y
+    w[100] = s177  # A2.y
+    w[101] = s178  # C2.x
+    w[102] = s180  # C2.y
+    w[5] = s121 + s113 + s95 + 1.0 + s165 + s161 + s155 + s147 + s137 + 1.0 + s109 + s101 + 1.0 + s82  # rank
+    w[4] = min(s179, mask_13 + s180)  # smallest_pivot
+    w[10] = 1.0  # shortest_row
     w[184] = s76
     w[185] = s77
     w[186] = s76
@@ -401,11 +416,11 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 217 operations, 110306 before sharing."""
     # inputs
-    gauge_2 = w[135]
-    gauge_5 = w[138]
-    gauge_8 = w[141]
-    gauge_11 = w[144]
-    gauge_14 = w[147]
+    gauge_2 = w[135]  # vertical0.omega
+    gauge_5 = w[138]  # coupler0.omega
+    gauge_8 = w[141]  # vertical1.omega
+    gauge_11 = w[144]  # coupler1.omega
+    gauge_14 = w[147]  # vertical2.omega
     lower_0 = w[184]
     lower_1 = w[185]
     lower_2 = w[186]
@@ -455,42 +470,42 @@ def spread(p, w):
     reciprocal_11 = w[230]
     reciprocal_12 = w[231]
     reciprocal_13 = w[232]
-    residual_0 = w[61]
-    residual_1 = w[62]
-    residual_2 = w[63]
-    residual_3 = w[64]
-    residual_4 = w[65]
-    residual_5 = w[66]
-    residual_6 = w[67]
-    residual_7 = w[68]
-    residual_8 = w[69]
-    residual_9 = w[70]
-    residual_10 = w[71]
-    residual_11 = w[72]
-    residual_12 = w[73]
-    residual_13 = w[74]
-    jacobian_0 = w[162]
-    jacobian_1 = w[163]
-    jacobian_2 = w[164]
-    jacobian_3 = w[165]
-    jacobian_4 = w[166]
-    jacobian_5 = w[167]
-    jacobian_6 = w[168]
-    jacobian_7 = w[169]
-    jacobian_8 = w[170]
-    jacobian_9 = w[171]
-    jacobian_10 = w[172]
-    jacobian_11 = w[173]
-    jacobian_12 = w[174]
-    jacobian_13 = w[175]
-    jacobian_14 = w[176]
-    jacobian_15 = w[177]
-    jacobian_16 = w[178]
-    jacobian_17 = w[179]
-    jacobian_18 = w[180]
-    jacobian_19 = w[181]
-    jacobian_20 = w[182]
-    jacobian_21 = w[183]
+    residual_0 = w[61]  # A0.x
+    residual_1 = w[62]  # A0.y
+    residual_2 = w[63]  # B0.x
+    residual_3 = w[64]  # B0.y
+    residual_4 = w[65]  # A1.x
+    residual_5 = w[66]  # A1.y
+    residual_6 = w[67]  # B1.x
+    residual_7 = w[68]  # B1.y
+    residual_8 = w[69]  # C1.x
+    residual_9 = w[70]  # C1.y
+    residual_10 = w[71]  # A2.x
+    residual_11 = w[72]  # A2.y
+    residual_12 = w[73]  # C2.x
+    residual_13 = w[74]  # C2.y
+    jacobian_0 = w[162]  # D A0.x, vertical0.omega
+    jacobian_1 = w[163]  # D A0.y, vertical0.omega
+    jacobian_2 = w[164]  # D B0.x, vertical0.omega
+    jacobian_3 = w[165]  # D B0.x, coupler0.omega
+    jacobian_4 = w[166]  # D B0.y, vertical0.omega
+    jacobian_5 = w[167]  # D B0.y, coupler0.omega
+    jacobian_6 = w[168]  # D A1.x, vertical1.omega
+    jacobian_7 = w[169]  # D A1.y, vertical1.omega
+    jacobian_8 = w[170]  # D B1.x, vertical1.omega
+    jacobian_9 = w[171]  # D B1.x, coupler1.omega
+    jacobian_10 = w[172]  # D B1.y, vertical1.omega
+    jacobian_11 = w[173]  # D B1.y, coupler1.omega
+    jacobian_12 = w[174]  # D C1.x, coupler0.omega
+    jacobian_13 = w[175]  # D C1.x, vertical1.omega
+    jacobian_14 = w[176]  # D C1.y, coupler0.omega
+    jacobian_15 = w[177]  # D C1.y, vertical1.omega
+    jacobian_16 = w[178]  # D A2.x, vertical2.omega
+    jacobian_17 = w[179]  # D A2.y, vertical2.omega
+    jacobian_18 = w[180]  # D C2.x, coupler1.omega
+    jacobian_19 = w[181]  # D C2.x, vertical2.omega
+    jacobian_20 = w[182]  # D C2.y, coupler1.omega
+    jacobian_21 = w[183]  # D C2.y, vertical2.omega
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = lower_1*residual_0 - residual_2 - lower_3*s0
@@ -533,21 +548,21 @@ def spread(p, w):
     s38 = reciprocal_0*residual_0 + lower_0*s37 + lower_1*s34 + lower_2*s31
     s39 = s21*jacobian_7 - s22*jacobian_6 + s20*jacobian_8 + s17*jacobian_10 + s14*jacobian_13 + s11*jacobian_15
     # outputs
-    w[103] = s33 - s32 - s38
-    w[104] = s37 + s30 - s29
-    w[105] = gauge_2*(s37*jacobian_1 - s38*jacobian_0 + s34*jacobian_2 + s31*jacobian_4)
-    w[106] = s34 + s13 - s12
-    w[107] = s31 - s11
-    w[108] = gauge_5*(s34*jacobian_3 + s31*jacobian_5 + s14*jacobian_12 + s11*jacobian_14)
-    w[109] = s14 + s19 - s18 - s22
-    w[110] = s11 + s21 + s16 - s15
-    w[111] = gauge_8*s39
-    w[112] = s20 + s27 - s26
-    w[113] = s17 + s24 - s23
-    w[114] = gauge_11*(s20*jacobian_9 + s17*jacobian_11 + s28*jacobian_18 + s25*jacobian_20)
-    w[115] = s28 - s36
-    w[116] = s25 + s35
-    w[117] = gauge_14*(s35*jacobian_17 - s36*jacobian_16 + s28*jacobian_19 + s25*jacobian_21)
+    w[103] = s33 - s32 - s38  # vertical0.vx
+    w[104] = s37 + s30 - s29  # vertical0.vy
+    w[105] = gauge_2*(s37*jacobian_1 - s38*jacobian_0 + s34*jacobian_2 + s31*jacobian_4)  # vertical0.omega
+    w[106] = s34 + s13 - s12  # coupler0.vx
+    w[107] = s31 - s11  # coupler0.vy
+    w[108] = gauge_5*(s34*jacobian_3 + s31*jacobian_5 + s14*jacobian_12 + s11*jacobian_14)  # coupler0.omega
+    w[109] = s14 + s19 - s18 - s22  # vertical1.vx
+    w[110] = s11 + s21 + s16 - s15  # vertical1.vy
+    w[111] = gauge_8*s39  # vertical1.omega
+    w[112] = s20 + s27 - s26  # coupler1.vx
+    w[113] = s17 + s24 - s23  # coupler1.vy
+    w[114] = gauge_11*(s20*jacobian_9 + s17*jacobian_11 + s28*jacobian_18 + s25*jacobian_20)  # coupler1.omega
+    w[115] = s28 - s36  # vertical2.vx
+    w[116] = s25 + s35  # vertical2.vy
+    w[117] = gauge_14*(s35*jacobian_17 - s36*jacobian_16 + s28*jacobian_19 + s25*jacobian_21)  # vertical2.omega
     return 0
 
 
@@ -575,28 +590,28 @@ def measure(t, y, p, w):
     v12 = y[27]  # vertical2.vx [m/s]
     v13 = y[28]  # vertical2.vy [m/s]
     v14 = y[29]  # vertical2.omega [rad/s]
-    jacobian_0 = w[162]
-    jacobian_1 = w[163]
-    jacobian_2 = w[164]
-    jacobian_3 = w[165]
-    jacobian_4 = w[166]
-    jacobian_5 = w[167]
-    jacobian_6 = w[168]
-    jacobian_7 = w[169]
-    jacobian_8 = w[170]
-    jacobian_9 = w[171]
-    jacobian_10 = w[172]
-    jacobian_11 = w[173]
-    jacobian_12 = w[174]
-    jacobian_13 = w[175]
-    jacobian_14 = w[176]
-    jacobian_15 = w[177]
-    jacobian_16 = w[178]
-    jacobian_17 = w[179]
-    jacobian_18 = w[180]
-    jacobian_19 = w[181]
-    jacobian_20 = w[182]
-    jacobian_21 = w[183]
+    jacobian_0 = w[162]  # D A0.x, vertical0.omega
+    jacobian_1 = w[163]  # D A0.y, vertical0.omega
+    jacobian_2 = w[164]  # D B0.x, vertical0.omega
+    jacobian_3 = w[165]  # D B0.x, coupler0.omega
+    jacobian_4 = w[166]  # D B0.y, vertical0.omega
+    jacobian_5 = w[167]  # D B0.y, coupler0.omega
+    jacobian_6 = w[168]  # D A1.x, vertical1.omega
+    jacobian_7 = w[169]  # D A1.y, vertical1.omega
+    jacobian_8 = w[170]  # D B1.x, vertical1.omega
+    jacobian_9 = w[171]  # D B1.x, coupler1.omega
+    jacobian_10 = w[172]  # D B1.y, vertical1.omega
+    jacobian_11 = w[173]  # D B1.y, coupler1.omega
+    jacobian_12 = w[174]  # D C1.x, coupler0.omega
+    jacobian_13 = w[175]  # D C1.x, vertical1.omega
+    jacobian_14 = w[176]  # D C1.y, coupler0.omega
+    jacobian_15 = w[177]  # D C1.y, vertical1.omega
+    jacobian_16 = w[178]  # D A2.x, vertical2.omega
+    jacobian_17 = w[179]  # D A2.y, vertical2.omega
+    jacobian_18 = w[180]  # D C2.x, coupler1.omega
+    jacobian_19 = w[181]  # D C2.x, vertical2.omega
+    jacobian_20 = w[182]  # D C2.y, coupler1.omega
+    jacobian_21 = w[183]  # D C2.y, vertical2.omega
     # intermediate terms
     s0 = 0.5*(v0*v0) + 0.5*(v1*v1) + 0.041666666666666664*(v2*v2) + 0.5*(v3*v3) + 0.5*(v4*v4) + 0.041666666666666664*(v5*v5)
     s1 = s0 + 0.5*(v6*v6) + 0.5*(v7*v7) + 0.041666666666666664*(v8*v8) + 0.5*(v9*v9) + 0.5*(v10*v10)
@@ -618,24 +633,24 @@ def measure(t, y, p, w):
     s17 = s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8 + s9*s9 + s10*s10 + s11*s11 + s12*s12 + s13*s13
     s18 = math.sqrt(s17 + s14*s14 + s15*s15 + s16*s16)
     # outputs
-    w[61] = s3
-    w[62] = s4
-    w[63] = s5
-    w[64] = s6
-    w[65] = s7
-    w[66] = s8
-    w[67] = s9
-    w[68] = s10
-    w[69] = s11
-    w[70] = s12
-    w[71] = s13
-    w[72] = s14
-    w[73] = s15
-    w[74] = s16
-    w[1] = s18
-    w[9] = s18
-    w[2] = s2
-    w[3] = 9.81*q1 + 9.81*q4 + 9.81*q7 + 9.81*q10 + 9.81*q13
+    w[61] = s3  # A0.x
+    w[62] = s4  # A0.y
+    w[63] = s5  # B0.x
+    w[64] = s6  # B0.y
+    w[65] = s7  # A1.x
+    w[66] = s8  # A1.y
+    w[67] = s9  # B1.x
+    w[68] = s10  # B1.y
+    w[69] = s11  # C1.x
+    w[70] = s12  # C1.y
+    w[71] = s13  # A2.x
+    w[72] = s14  # A2.y
+    w[73] = s15  # C2.x
+    w[74] = s16  # C2.y
+    w[1] = s18  # velocity_violation
+    w[9] = s18  # velocity_measure
+    w[2] = s2  # kinetic
+    w[3] = 9.81*q1 + 9.81*q4 + 9.81*q7 + 9.81*q10 + 9.81*q13  # potential
     return 0
 
 
@@ -653,21 +668,21 @@ def observe(t, y, p, w, ydot, out):
     v11 = y[26]  # coupler1.omega [rad/s]
     q14 = y[14]  # vertical2.theta [rad]
     v14 = y[29]  # vertical2.omega [rad/s]
-    ydot_15 = ydot[15]
-    ydot_16 = ydot[16]
-    ydot_17 = ydot[17]
-    ydot_18 = ydot[18]
-    ydot_19 = ydot[19]
-    ydot_20 = ydot[20]
-    ydot_21 = ydot[21]
-    ydot_22 = ydot[22]
-    ydot_23 = ydot[23]
-    ydot_24 = ydot[24]
-    ydot_25 = ydot[25]
-    ydot_26 = ydot[26]
-    ydot_27 = ydot[27]
-    ydot_28 = ydot[28]
-    ydot_29 = ydot[29]
+    ydot_15 = ydot[15]  # rate of vertical0.vx
+    ydot_16 = ydot[16]  # rate of vertical0.vy
+    ydot_17 = ydot[17]  # rate of vertical0.omega
+    ydot_18 = ydot[18]  # rate of coupler0.vx
+    ydot_19 = ydot[19]  # rate of coupler0.vy
+    ydot_20 = ydot[20]  # rate of coupler0.omega
+    ydot_21 = ydot[21]  # rate of vertical1.vx
+    ydot_22 = ydot[22]  # rate of vertical1.vy
+    ydot_23 = ydot[23]  # rate of vertical1.omega
+    ydot_24 = ydot[24]  # rate of coupler1.vx
+    ydot_25 = ydot[25]  # rate of coupler1.vy
+    ydot_26 = ydot[26]  # rate of coupler1.omega
+    ydot_27 = ydot[27]  # rate of vertical2.vx
+    ydot_28 = ydot[28]  # rate of vertical2.vy
+    ydot_29 = ydot[29]  # rate of vertical2.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -705,34 +720,34 @@ def observe(t, y, p, w, ydot, out):
     s33 = 0.5*s21*ydot_29
     s34 = 0.5*s20*ydot_29
     # outputs
-    out[0] = s3 + ydot_15 + s25
-    out[1] = s4 + ydot_16 - s26
-    out[2] = s3 + s8 + ydot_18 + s25 - ydot_15 + s27
-    out[3] = s4 + s9 + ydot_19 - (ydot_16 + s26) - s28
-    out[4] = s13 + ydot_21 + s29
-    out[5] = s14 + ydot_22 - s30
-    out[6] = s13 + s18 + ydot_24 + s29 - ydot_21 + s31
-    out[7] = s14 + s19 + ydot_25 - (ydot_22 + s30) - s32
-    out[8] = ydot_21 + s27 - ydot_18 - s29 - (s13 - s8)
-    out[9] = s30 + ydot_22 - (ydot_19 + s28) - (s14 - s9)
-    out[10] = s23 + ydot_27 + s33
-    out[11] = s24 + ydot_28 - s34
-    out[12] = ydot_27 + s31 - ydot_24 - s33 - (s23 - s18)
-    out[13] = s34 + ydot_28 - (ydot_25 + s32) - (s24 - s19)
-    out[14] = q2
-    out[15] = v2
-    out[16] = q5 - q2
-    out[17] = v5 - v2
-    out[18] = q8
-    out[19] = v8
-    out[20] = q11 - q8
-    out[21] = v11 - v8
-    out[22] = q8 - q5
-    out[23] = v8 - v5
-    out[24] = q14
-    out[25] = v14
-    out[26] = q14 - q11
-    out[27] = v14 - v11
+    out[0] = s3 + ydot_15 + s25  # A0.x
+    out[1] = s4 + ydot_16 - s26  # A0.y
+    out[2] = s3 + s8 + ydot_18 + s25 - ydot_15 + s27  # B0.x
+    out[3] = s4 + s9 + ydot_19 - (ydot_16 + s26) - s28  # B0.y
+    out[4] = s13 + ydot_21 + s29  # A1.x
+    out[5] = s14 + ydot_22 - s30  # A1.y
+    out[6] = s13 + s18 + ydot_24 + s29 - ydot_21 + s31  # B1.x
+    out[7] = s14 + s19 + ydot_25 - (ydot_22 + s30) - s32  # B1.y
+    out[8] = ydot_21 + s27 - ydot_18 - s29 - (s13 - s8)  # C1.x
+    out[9] = s30 + ydot_22 - (ydot_19 + s28) - (s14 - s9)  # C1.y
+    out[10] = s23 + ydot_27 + s33  # A2.x
+    out[11] = s24 + ydot_28 - s34  # A2.y
+    out[12] = ydot_27 + s31 - ydot_24 - s33 - (s23 - s18)  # C2.x
+    out[13] = s34 + ydot_28 - (ydot_25 + s32) - (s24 - s19)  # C2.y
+    out[14] = q2  # A0.angle
+    out[15] = v2  # rate of A0.angle
+    out[16] = q5 - q2  # B0.angle
+    out[17] = v5 - v2  # rate of B0.angle
+    out[18] = q8  # A1.angle
+    out[19] = v8  # rate of A1.angle
+    out[20] = q11 - q8  # B1.angle
+    out[21] = v11 - v8  # rate of B1.angle
+    out[22] = q8 - q5  # C1.angle
+    out[23] = v8 - v5  # rate of C1.angle
+    out[24] = q14  # A2.angle
+    out[25] = v14  # rate of A2.angle
+    out[26] = q14 - q11  # C2.angle
+    out[27] = v14 - v11  # rate of C2.angle
     return 0
 
 
@@ -740,19 +755,19 @@ def observe(t, y, p, w, ydot, out):
 def masses(p, w):
     """diagonal of M: 0 operations, 0 before sharing."""
     # outputs
-    w[118] = 1.0
-    w[119] = 1.0
-    w[120] = 0.08333333333333333
-    w[121] = 1.0
-    w[122] = 1.0
-    w[123] = 0.08333333333333333
-    w[124] = 1.0
-    w[125] = 1.0
-    w[126] = 0.08333333333333333
-    w[127] = 1.0
-    w[128] = 1.0
-    w[129] = 0.08333333333333333
-    w[130] = 1.0
-    w[131] = 1.0
-    w[132] = 0.08333333333333333
+    w[118] = 1.0  # vertical0.vx
+    w[119] = 1.0  # vertical0.vy
+    w[120] = 0.08333333333333333  # vertical0.omega
+    w[121] = 1.0  # coupler0.vx
+    w[122] = 1.0  # coupler0.vy
+    w[123] = 0.08333333333333333  # coupler0.omega
+    w[124] = 1.0  # vertical1.vx
+    w[125] = 1.0  # vertical1.vy
+    w[126] = 0.08333333333333333  # vertical1.omega
+    w[127] = 1.0  # coupler1.vx
+    w[128] = 1.0  # coupler1.vy
+    w[129] = 0.08333333333333333  # coupler1.omega
+    w[130] = 1.0  # vertical2.vx
+    w[131] = 1.0  # vertical2.vy
+    w[132] = 0.08333333333333333  # vertical2.omega
     return 0

@@ -9,7 +9,7 @@ p[6] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_d581bd8600371225 import rhs
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_iterated_a0e16b1c3259a2e3 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[5] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_dense_d0068b826a3e0d38 import rhs
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_dense_21f4dfe0b50c7989 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,8 +9,8 @@ p[7] a (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_acceleration_1b06dc0497a2dbb7 import residual, tangent
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_ed52607f1bff3adc import rhs
+from .form_acceleration_ccd305dcd7f6dcec import residual, tangent
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_a5e3571fabdd921f import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

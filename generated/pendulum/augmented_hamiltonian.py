@@ -7,9 +7,9 @@ p[6] penalty (default 10000000.0)
 p[7] iteration_tolerance (default 1e-13)
 """
 
-from .accept_mass_c8665d5a96b33152 import accept
-from .metric_mass_e63272ebbe03a3bc import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_iterated_c6cfb3b478f4235b import rates, rhs
+from .accept_mass_83d4a4a15e9389f2 import accept
+from .metric_mass_d5bfbb9d66af4a14 import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_iterated_b8b9acc4c94edcc4 import rates, rhs
 
 __all__ = ["accept", "geometry", "prepare", "rates", "rhs", "spread"]

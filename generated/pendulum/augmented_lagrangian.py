@@ -10,7 +10,7 @@ p[10] iteration_tolerance (default 1e-13)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_c4079d5be56cada4 import prepare
-from .rhs_iterated_ecc7558feb1a76ab import rhs
+from .prepare_82bed4058e811bc7 import prepare
+from .rhs_iterated_ade2fa1838ce539e import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

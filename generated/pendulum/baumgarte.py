@@ -9,7 +9,7 @@ p[9] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_fcddf70195120b94 import prepare
-from .rhs_direct_939810598ee711e6 import rhs
+from .prepare_65e03da746ed9ac8 import prepare
+from .rhs_direct_0799ccf0a8a47ee6 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[8] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_2a7c890a3e12952b import prepare
-from .rhs_iterated_9544ebd56248e847 import rhs
+from .prepare_3ee45839ee80d674 import prepare
+from .rhs_iterated_11b5fde2c34f4af0 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[7] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_61a3f1678cdcabc5 import prepare
-from .rhs_dense_ebc0c1a2dc3ddd89 import rhs
+from .prepare_ee367e370fcad2e1 import prepare
+from .rhs_dense_5d902712e7b43b13 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,8 +9,8 @@ p[9] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_acceleration_e139d7c9c0c4350e import residual, tangent
-from .prepare_fcddf70195120b94 import prepare
-from .rhs_direct_939810598ee711e6 import rhs
+from .form_acceleration_9f14003e81f0e969 import residual, tangent
+from .prepare_65e03da746ed9ac8 import prepare
+from .rhs_direct_0799ccf0a8a47ee6 import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

@@ -7,9 +7,9 @@ option solver = elimination
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_independent_89289614b8034fbf import accept
-from .metric_independent_8eaf3de06e1ccc3d import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_closed_353c0d7d1253261e import rhs
+from .accept_independent_ba33cf41e7180062 import accept
+from .metric_independent_efaa75fae69152cb import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_closed_5139a74f5d4f6d79 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = augmented
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_independent_bf172c4066f5ef36 import accept
-from .metric_independent_99bfdc23b142cc2d import geometry, spread
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_closed_7b682fdaa8d45b2c import rhs
+from .accept_independent_94fc29cdbd4a0bff import accept
+from .metric_independent_fa739cfe06bc9c56 import geometry, spread
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_closed_60d7833421bf5c8d import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

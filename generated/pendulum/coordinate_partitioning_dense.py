@@ -7,9 +7,9 @@ option solver = dense
 p[4] tolerance (default 1e-13)
 """
 
-from .accept_independent_b61b1c187218886c import accept
-from .metric_independent_a8dbff70075fb96b import geometry, spread
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_closed_aee5dd97936d777c import rhs
+from .accept_independent_82662b3c4c0e6a2d import accept
+from .metric_independent_eacfba207047309a import geometry, spread
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_closed_dc1972dd08e4fe34 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

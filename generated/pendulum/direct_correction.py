@@ -8,9 +8,9 @@ option weight = identity
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_identity_4e61667e2eaf735e import accept
-from .metric_identity_bd7f4cf885b349d5 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_identity_06b626f623da583b import accept
+from .metric_identity_84285ead4685e78a import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

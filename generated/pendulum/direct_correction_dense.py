@@ -8,9 +8,9 @@ option weight = identity
 p[4] tolerance (default 1e-13)
 """
 
-from .accept_identity_68600aad522b55d1 import accept
-from .metric_identity_d09fcc5caf99d72e import geometry, spread
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_dense_4c756d6f2d37ebf2 import rhs
+from .accept_identity_980bfe43ae74b0ce import accept
+from .metric_identity_f2e8c58f7dcdc2c5 import geometry, spread
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_dense_638915f862273b33 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,9 +8,9 @@ option weight = mass
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_mass_142f55b28e93bd58 import accept
-from .metric_mass_4e6f664215581ca1 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_mass_81c7d2abc1c6de1f import accept
+from .metric_mass_6f4957d414e14d81 import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_stabilised_d44cba8ec2db6b4c import residual, tangent
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .form_stabilised_524b9685c922d50d import residual, tangent
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

@@ -8,9 +8,9 @@ p[6] iteration_tolerance (default 1e-13)
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_augmented_96627e5e10b7f513 import accept
-from .metric_augmented_332864fc37a99dd2 import geometry, spread
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_46fff9259fc116bc import rhs
+from .accept_augmented_e409c6381da19969 import accept
+from .metric_augmented_e8d410660a2fe5d3 import geometry, spread
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_iterated_99bc04417bda86c1 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

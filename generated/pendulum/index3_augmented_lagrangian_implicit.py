@@ -8,8 +8,8 @@ p[6] penalty (default 1000000000.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_projected_c176f8575e4d1b1b import residual, tangent
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .form_projected_e93e4e1bfcbbcdd7 import residual, tangent
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

@@ -7,7 +7,7 @@ option solver = augmented
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_1f3841eb5e64b92f import rhs
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_iterated_fd332ef120ab3c35 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

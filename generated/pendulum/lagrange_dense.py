@@ -7,7 +7,7 @@ option solver = dense
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_dense_4c756d6f2d37ebf2 import rhs
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_dense_638915f862273b33 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

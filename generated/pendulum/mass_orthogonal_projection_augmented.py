@@ -8,9 +8,9 @@ p[5] penalty (default 10000000.0)
 p[6] tolerance (default 1e-13)
 """
 
-from .accept_augmented_72174d568898b3fa import accept
-from .metric_augmented_332864fc37a99dd2 import geometry, spread
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_1f3841eb5e64b92f import rhs
+from .accept_augmented_19ad30113d640327 import accept
+from .metric_augmented_e8d410660a2fe5d3 import geometry, spread
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_iterated_fd332ef120ab3c35 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

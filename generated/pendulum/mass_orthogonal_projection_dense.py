@@ -8,9 +8,9 @@ p[4] penalty (default 10000000.0)
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_augmented_ab28441bf8f6e560 import accept
-from .metric_augmented_a3c51a9d025cfe6e import geometry, spread
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_dense_4c756d6f2d37ebf2 import rhs
+from .accept_augmented_8ce17d6c1f46d3b9 import accept
+from .metric_augmented_ca17b98f7b6621f4 import geometry, spread
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_dense_638915f862273b33 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,10 +8,10 @@ p[6] penalty (default 10000000.0)
 p[7] tolerance (default 1e-13)
 """
 
-from .accept_augmented_e4c04e0bf17e0efc import accept
-from .form_acceleration_2eaff8a27c1bb933 import residual, tangent
-from .metric_augmented_9a92da08c55c8da6 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_augmented_1b9506d9ca83f035 import accept
+from .form_acceleration_a9d69cf31924d2f5 import residual, tangent
+from .metric_augmented_5f8665dda85e0ed8 import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "residual", "rhs", "spread", "tangent"]

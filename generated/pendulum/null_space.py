@@ -6,8 +6,8 @@ digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_scaled_8e894b4a342816d0 import accept
-from .prepare_bb795a96f40210f1 import prepare
-from .rhs_tangent_0060dae7b4273c69 import rhs
+from .accept_scaled_e6ad27eae18c1f91 import accept
+from .prepare_c87633aa2ec39f08 import prepare
+from .rhs_tangent_536f527c1a42d1bb import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -9,7 +9,7 @@ p[8] mu (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_f6690a549a7c879c import prepare
-from .rhs_direct_0d0b0ba6fe24270f import rhs
+from .prepare_b40b6deeeeab4c4c import prepare
+from .rhs_direct_7e5af27f23eb0af5 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

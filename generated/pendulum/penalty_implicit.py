@@ -9,8 +9,8 @@ p[8] mu (default 1.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .form_acceleration_120f3a0bf27f32eb import residual, tangent
-from .prepare_12d90f55ccfe0cf2 import prepare
-from .rhs_direct_0d0b0ba6fe24270f import rhs
+from .form_acceleration_5769be78e260ce0f import residual, tangent
+from .prepare_df6e3be716dfa677 import prepare
+from .rhs_direct_7e5af27f23eb0af5 import rhs
 
 __all__ = ["accept", "prepare", "residual", "rhs", "tangent"]

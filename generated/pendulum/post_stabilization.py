@@ -7,9 +7,9 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_02251c4aa6841441 import accept
-from .metric_identity_bd7f4cf885b349d5 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_identity_0bbee0fa55f1b1b9 import accept
+from .metric_identity_84285ead4685e78a import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -7,9 +7,9 @@ option solver = dense
 option weight = identity
 """
 
-from .accept_identity_1d76c3a0a06062a7 import accept
-from .metric_identity_d09fcc5caf99d72e import geometry, spread
-from .prepare_fe8af80990da6385 import prepare
-from .rhs_dense_4c756d6f2d37ebf2 import rhs
+from .accept_identity_0b6fe06ae1c76d55 import accept
+from .metric_identity_f2e8c58f7dcdc2c5 import geometry, spread
+from .prepare_0ab9ab4f69bf87e4 import prepare
+from .rhs_dense_638915f862273b33 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

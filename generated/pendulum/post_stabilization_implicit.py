@@ -7,10 +7,10 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_02251c4aa6841441 import accept
-from .form_acceleration_2eaff8a27c1bb933 import residual, tangent
-from .metric_identity_bd7f4cf885b349d5 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_identity_0bbee0fa55f1b1b9 import accept
+from .form_acceleration_a9d69cf31924d2f5 import residual, tangent
+from .metric_identity_84285ead4685e78a import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "residual", "rhs", "spread", "tangent"]

@@ -6,7 +6,7 @@ digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .prepare_3d4ade9c38186370 import prepare
-from .rhs_direct_2963a8da64925c13 import rhs
+from .prepare_b0adf056fed5d5fa import prepare
+from .rhs_direct_e6f20503147a40dd import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

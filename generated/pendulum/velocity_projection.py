@@ -7,9 +7,9 @@ option solver = elimination
 option weight = identity
 """
 
-from .accept_identity_f85e81df352fc8e0 import accept
-from .metric_identity_bd7f4cf885b349d5 import geometry, spread
-from .prepare_ff3d175fb6c40462 import prepare
-from .rhs_direct_e8071acbf2bf5192 import rhs
+from .accept_identity_e32487365dac3800 import accept
+from .metric_identity_84285ead4685e78a import geometry, spread
+from .prepare_2c9fe628787beb52 import prepare
+from .rhs_direct_86a2e0a578b6e7d2 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

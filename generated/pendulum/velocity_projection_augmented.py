@@ -7,9 +7,9 @@ option solver = augmented
 option weight = identity
 """
 
-from .accept_identity_0865919476ca5cab import accept
-from .metric_identity_5c888638972fb1e6 import geometry, spread
-from .prepare_bce06b5282bbe7ed import prepare
-from .rhs_iterated_1f3841eb5e64b92f import rhs
+from .accept_identity_a2914c3d2eec986f import accept
+from .metric_identity_c3cc8f0b3b650721 import geometry, spread
+from .prepare_fcdd2978e11fc2a7 import prepare
+from .rhs_iterated_fd332ef120ab3c35 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

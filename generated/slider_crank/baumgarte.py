@@ -9,8 +9,8 @@ p[28] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_856189e26e787788 import confirm
-from .prepare_4ae11027420d278b import prepare
-from .rhs_direct_cda9a10a76b65eb8 import rhs
+from .confirm_f2b152d7196c8182 import confirm
+from .prepare_f2590f8531bdddee import prepare
+from .rhs_direct_dce5973c19fe90e7 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

@@ -8,10 +8,10 @@ option weight = identity
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_identity_054f16519b17f5e3 import accept
-from .confirm_08d3ca74c7f91f94 import confirm
-from .metric_identity_3f6f8d7d66e8bee7 import geometry, spread
-from .prepare_43188d6f48219e8a import prepare
-from .rhs_direct_4076c3e3d5b7a910 import rhs
+from .accept_identity_352095de104bb2e6 import accept
+from .confirm_8ed5d98430acfba3 import confirm
+from .metric_identity_cea80e60b7981cae import geometry, spread
+from .prepare_8949f3846893b2b7 import prepare
+from .rhs_direct_348e4bf1d0482392 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

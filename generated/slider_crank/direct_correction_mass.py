@@ -8,10 +8,10 @@ option weight = mass
 p[25] tolerance (default 1e-13)
 """
 
-from .accept_mass_5a3aa8a7a3297349 import accept
-from .confirm_437b92d133b6cbe9 import confirm
-from .metric_mass_b7816793bada957b import geometry, spread
-from .prepare_af5f5b3313db3c68 import prepare
-from .rhs_direct_4076c3e3d5b7a910 import rhs
+from .accept_mass_bab2f6251ce241bc import accept
+from .confirm_8929b77f9df52331 import confirm
+from .metric_mass_45dd1d6ac2375a04 import geometry, spread
+from .prepare_5cdce40289bf575b import prepare
+from .rhs_direct_348e4bf1d0482392 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

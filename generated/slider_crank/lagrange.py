@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_7913e0205db91b31 import confirm
-from .prepare_43188d6f48219e8a import prepare
-from .rhs_direct_4076c3e3d5b7a910 import rhs
+from .confirm_6ec4478d714c8ad4 import confirm
+from .prepare_8949f3846893b2b7 import prepare
+from .rhs_direct_348e4bf1d0482392 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

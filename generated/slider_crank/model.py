@@ -37,6 +37,21 @@ row 5    Q.y [m]
 row 6    guide.normal [m]
 row 7    guide.angle [rad]
 
+w[0:19]  status
+w[19:27]  multipliers
+w[27:35]  mask
+w[35:43]  saved
+w[43:51]  residual
+w[51:59]  nu
+w[59:67]  pivot
+w[67:76]  change
+w[76:85]  mass
+w[85:94]  gauge
+w[94:102]  row_weight
+w[102:110]  jacobian
+w[110:121]  lower
+w[121:128]  reciprocal
+
 Left out:
 - z coordinates, Euler parameters and 3x3 inertia tensors: the mechanism is planar
 - the kinematic map N: planar velocities are the rates of the coordinates
@@ -60,16 +75,16 @@ def prepare(p):
     p1 = p[1]  # rod_mass [kg]
     p2 = p[2]  # slider_mass [kg]
     # outputs
-    p[3] = 0.5*p0
-    p[4] = 9.81*p0
-    p[5] = 0.0009375*p0
-    p[6] = 0.5*p1
-    p[7] = 9.81*p1
-    p[8] = 0.0084375*p1
-    p[9] = 0.5*p2
-    p[10] = 9.81*p2
-    p[11] = 0.001875*p0
-    p[12] = 0.016875*p1
+    p[3] = 0.5*p0  # 0.5*crank_mass
+    p[4] = 9.81*p0  # 9.81*crank_mass
+    p[5] = 0.0009375*p0  # 0.0009375*crank_mass
+    p[6] = 0.5*p1  # 0.5*rod_mass
+    p[7] = 9.81*p1  # 9.81*rod_mass
+    p[8] = 0.0084375*p1  # 0.0084375*rod_mass
+    p[9] = 0.5*p2  # 0.5*slider_mass
+    p[10] = 9.81*p2  # 9.81*slider_mass
+    p[11] = 0.001875*p0  # 0.001875*crank_mass
+    p[12] = 0.016875*p1  # 0.016875*rod_mass
     return 0
 
 
@@ -86,15 +101,15 @@ def geometry(t, y, p, w):
     q6 = y[6]  # slider.x [m]
     q7 = y[7]  # slider.y [m]
     q8 = y[8]  # slider.theta [rad]
-    mask_1 = w[28]
-    mask_2 = w[29]
-    mask_3 = w[30]
-    mask_5 = w[32]
-    gauge_2 = w[87]
-    gauge_5 = w[90]
-    gauge_8 = w[93]
-    status_6 = w[6]
-    row_weight_7 = w[101]
+    mask_1 = w[28]  # O.y
+    mask_2 = w[29]  # P.x
+    mask_3 = w[30]  # P.y
+    mask_5 = w[32]  # Q.y
+    gauge_2 = w[87]  # crank.omega
+    gauge_5 = w[90]  # rod.omega
+    gauge_8 = w[93]  # slider.omega
+    status_6 = w[6]  # length_scale
+    row_weight_7 = w[101]  # guide.angle
     # intermediate terms
     s0 = 0.075*math.cos(q2)
     s1 = -s0
@@ -163,31 +178,31 @@ def geometry(t, y, p, w):
     s64 = s58/s27
     s65 = s46/s29
     # outputs
-    w[43] = s2
-    w[44] = s4
-    w[45] = s7
-    w[46] = s9
-    w[47] = s10
-    w[48] = s11
-    w[49] = q7
-    w[50] = q8
-    w[0] = math.sqrt(s61 + q8*q8)
-    w[8] = math.sqrt(s61 + s60*s60)
-    w[102] = s3
-    w[103] = s1
-    w[104] = s3
-    w[105] = s8
-    w[106] = s1
-    w[107] = s6
-    w[108] = s8
-    w[109] = s6
-    w[60] = s62
-    w[61] = s63
-    w[62] = s64
-    w[64] = s65
-    w[5] = 1.0 + 1.0 + s49 + 1.0 + s59 + s55 + 1.0 + s38
-    w[4] = min(min(min(min(1.0, mask_1 + s62), mask_2 + s63), mask_3 + s64), mask_5 + s65)
-    w[10] = min(1.0, gauge_8*row_weight_7)
+    w[43] = s2  # O.x
+    w[44] = s4  # O.y
+    w[45] = s7  # P.x
+    w[46] = s9  # P.y
+    w[47] = s10  # Q.x
+    w[48] = s11  # Q.y
+    w[49] = q7  # guide.normal
+    w[50] = q8  # guide.angle
+    w[0] = math.sqrt(s61 + q8*q8)  # position_violation
+    w[8] = math.sqrt(s61 + s60*s60)  # position_measure
+    w[102] = s3  # D O.x, crank.omega
+    w[103] = s1  # D O.y, crank.omega
+    w[104] = s3  # D P.x, crank.omega
+    w[105] = s8  # D P.x, rod.omega
+    w[106] = s1  # D P.y, crank.omega
+    w[107] = s6  # D P.y, rod.omega
+    w[108] = s8  # D Q.x, rod.omega
+    w[109] = s6  # D Q.y, rod.omega
+    w[60] = s62  # O.y
+    w[61] = s63  # P.x
+    w[62] = s64  # P.y
+    w[64] = s65  # Q.y
+    w[5] = 1.0 + 1.0 + s49 + 1.0 + s59 + s55 + 1.0 + s38  # rank
+    w[4] = min(min(min(min(1.0, mask_1 + s62), mask_2 + s63), mask_3 + s64), mask_5 + s65)  # smallest_pivot
+    w[10] = min(1.0, gauge_8*row_weight_7)  # shortest_row
     w[110] = s32
     w[111] = s33
     w[112] = s32
@@ -213,9 +228,9 @@ def geometry(t, y, p, w):
 def spread(p, w):
     """the correction -D^+ times the section `residual`, of v, or of q by N: 79 operations, 1625 before sharing."""
     # inputs
-    gauge_2 = w[87]
-    gauge_5 = w[90]
-    gauge_8 = w[93]
+    gauge_2 = w[87]  # crank.omega
+    gauge_5 = w[90]  # rod.omega
+    gauge_8 = w[93]  # slider.omega
     lower_0 = w[110]
     lower_1 = w[111]
     lower_2 = w[112]
@@ -234,22 +249,22 @@ def spread(p, w):
     reciprocal_4 = w[125]
     reciprocal_5 = w[126]
     reciprocal_6 = w[127]
-    residual_0 = w[43]
-    residual_1 = w[44]
-    residual_2 = w[45]
-    residual_3 = w[46]
-    residual_4 = w[47]
-    residual_5 = w[48]
-    residual_6 = w[49]
-    residual_7 = w[50]
-    jacobian_0 = w[102]
-    jacobian_1 = w[103]
-    jacobian_2 = w[104]
-    jacobian_3 = w[105]
-    jacobian_4 = w[106]
-    jacobian_5 = w[107]
-    jacobian_6 = w[108]
-    jacobian_7 = w[109]
+    residual_0 = w[43]  # O.x
+    residual_1 = w[44]  # O.y
+    residual_2 = w[45]  # P.x
+    residual_3 = w[46]  # P.y
+    residual_4 = w[47]  # Q.x
+    residual_5 = w[48]  # Q.y
+    residual_6 = w[49]  # guide.normal
+    residual_7 = w[50]  # guide.angle
+    jacobian_0 = w[102]  # D O.x, crank.omega
+    jacobian_1 = w[103]  # D O.y, crank.omega
+    jacobian_2 = w[104]  # D P.x, crank.omega
+    jacobian_3 = w[105]  # D P.x, rod.omega
+    jacobian_4 = w[106]  # D P.y, crank.omega
+    jacobian_5 = w[107]  # D P.y, rod.omega
+    jacobian_6 = w[108]  # D Q.x, rod.omega
+    jacobian_7 = w[109]  # D Q.y, rod.omega
     # intermediate terms
     s0 = lower_0*residual_0 - residual_1
     s1 = residual_6 - residual_5 + lower_5*residual_4
@@ -266,15 +281,15 @@ def spread(p, w):
     s12 = reciprocal_2*s0 - lower_3*s7 - lower_4*s4
     s13 = reciprocal_1*residual_0 + lower_0*s12 + lower_1*s7 + lower_2*s4
     # outputs
-    w[67] = s6 - s5 - s13
-    w[68] = s12 - s4
-    w[69] = gauge_2*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)
-    w[70] = s7 + s11
-    w[71] = s4 + s9 - s8
-    w[72] = gauge_5*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)
-    w[73] = -s11
-    w[74] = s10 - (residual_6 + s10)
-    w[75] = -gauge_8*(reciprocal_0*residual_7)
+    w[67] = s6 - s5 - s13  # crank.vx
+    w[68] = s12 - s4  # crank.vy
+    w[69] = gauge_2*(s12*jacobian_1 - s13*jacobian_0 + s7*jacobian_2 + s4*jacobian_4)  # crank.omega
+    w[70] = s7 + s11  # rod.vx
+    w[71] = s4 + s9 - s8  # rod.vy
+    w[72] = gauge_5*(s7*jacobian_3 + s4*jacobian_5 - s11*jacobian_6 + s10*jacobian_7)  # rod.omega
+    w[73] = -s11  # slider.vx
+    w[74] = s10 - (residual_6 + s10)  # slider.vy
+    w[75] = -gauge_8*(reciprocal_0*residual_7)  # slider.omega
     return 0
 
 
@@ -294,23 +309,23 @@ def measure(t, y, p, w):
     v6 = y[15]  # slider.vx [m/s]
     v7 = y[16]  # slider.vy [m/s]
     v8 = y[17]  # slider.omega [rad/s]
-    p3 = p[3]
-    p4 = p[4]
-    p5 = p[5]
-    p6 = p[6]
-    p7 = p[7]
-    p8 = p[8]
-    p9 = p[9]
-    p10 = p[10]
-    status_6 = w[6]
-    jacobian_0 = w[102]
-    jacobian_1 = w[103]
-    jacobian_2 = w[104]
-    jacobian_3 = w[105]
-    jacobian_4 = w[106]
-    jacobian_5 = w[107]
-    jacobian_6 = w[108]
-    jacobian_7 = w[109]
+    p3 = p[3]  # 0.5*crank_mass
+    p4 = p[4]  # 9.81*crank_mass
+    p5 = p[5]  # 0.0009375*crank_mass
+    p6 = p[6]  # 0.5*rod_mass
+    p7 = p[7]  # 9.81*rod_mass
+    p8 = p[8]  # 0.0084375*rod_mass
+    p9 = p[9]  # 0.5*slider_mass
+    p10 = p[10]  # 9.81*slider_mass
+    status_6 = w[6]  # length_scale
+    jacobian_0 = w[102]  # D O.x, crank.omega
+    jacobian_1 = w[103]  # D O.y, crank.omega
+    jacobian_2 = w[104]  # D P.x, crank.omega
+    jacobian_3 = w[105]  # D P.x, rod.omega
+    jacobian_4 = w[106]  # D P.y, crank.omega
+    jacobian_5 = w[107]  # D P.y, rod.omega
+    jacobian_6 = w[108]  # D Q.x, rod.omega
+    jacobian_7 = w[109]  # D Q.y, rod.omega
     # intermediate terms
     s0 = v8*v8
     s1 = v7*v7
@@ -324,18 +339,18 @@ def measure(t, y, p, w):
     s9 = v8*status_6
     s10 = s1 + s3*s3 + s4*s4 + s5*s5 + s6*s6 + s7*s7 + s8*s8
     # outputs
-    w[43] = s3
-    w[44] = s4
-    w[45] = s5
-    w[46] = s6
-    w[47] = s7
-    w[48] = s8
-    w[49] = v7
-    w[50] = v8
-    w[1] = math.sqrt(s0 + s10)
-    w[9] = math.sqrt(s10 + s9*s9)
-    w[2] = s2 + 0.00025*s0
-    w[3] = q1*p4 + q4*p7 + q7*p10
+    w[43] = s3  # O.x
+    w[44] = s4  # O.y
+    w[45] = s5  # P.x
+    w[46] = s6  # P.y
+    w[47] = s7  # Q.x
+    w[48] = s8  # Q.y
+    w[49] = v7  # guide.normal
+    w[50] = v8  # guide.angle
+    w[1] = math.sqrt(s0 + s10)  # velocity_violation
+    w[9] = math.sqrt(s10 + s9*s9)  # velocity_measure
+    w[2] = s2 + 0.00025*s0  # kinetic
+    w[3] = q1*p4 + q4*p7 + q7*p10  # potential
     return 0
 
 
@@ -351,15 +366,15 @@ def observe(t, y, p, w, ydot, out):
     q8 = y[8]  # slider.theta [rad]
     v6 = y[15]  # slider.vx [m/s]
     v8 = y[17]  # slider.omega [rad/s]
-    ydot_9 = ydot[9]
-    ydot_10 = ydot[10]
-    ydot_11 = ydot[11]
-    ydot_12 = ydot[12]
-    ydot_13 = ydot[13]
-    ydot_14 = ydot[14]
-    ydot_15 = ydot[15]
-    ydot_16 = ydot[16]
-    ydot_17 = ydot[17]
+    ydot_9 = ydot[9]  # rate of crank.vx
+    ydot_10 = ydot[10]  # rate of crank.vy
+    ydot_11 = ydot[11]  # rate of crank.omega
+    ydot_12 = ydot[12]  # rate of rod.vx
+    ydot_13 = ydot[13]  # rate of rod.vy
+    ydot_14 = ydot[14]  # rate of rod.omega
+    ydot_15 = ydot[15]  # rate of slider.vx
+    ydot_16 = ydot[16]  # rate of slider.vy
+    ydot_17 = ydot[17]  # rate of slider.omega
     # intermediate terms
     s0 = math.cos(q2)
     s1 = math.sin(q2)
@@ -376,22 +391,22 @@ def observe(t, y, p, w, ydot, out):
     s12 = 0.225*s6*ydot_14
     s13 = 0.225*s5*ydot_14
     # outputs
-    out[0] = s3 + ydot_9 + s10
-    out[1] = s4 + ydot_10 - s11
-    out[2] = s3 + s8 + ydot_12 + s10 - ydot_9 + s12
-    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s11) - s13
-    out[4] = s8 + ydot_15 + s12 - ydot_12
-    out[5] = s9 + ydot_16 - (ydot_13 + s13)
-    out[6] = ydot_16
-    out[7] = ydot_17
-    out[8] = q2
-    out[9] = v2
-    out[10] = q5 - q2
-    out[11] = v5 - v2
-    out[12] = q8 - q5
-    out[13] = v8 - v5
-    out[14] = q6
-    out[15] = v6
+    out[0] = s3 + ydot_9 + s10  # O.x
+    out[1] = s4 + ydot_10 - s11  # O.y
+    out[2] = s3 + s8 + ydot_12 + s10 - ydot_9 + s12  # P.x
+    out[3] = s4 + s9 + ydot_13 - (ydot_10 + s11) - s13  # P.y
+    out[4] = s8 + ydot_15 + s12 - ydot_12  # Q.x
+    out[5] = s9 + ydot_16 - (ydot_13 + s13)  # Q.y
+    out[6] = ydot_16  # guide.normal
+    out[7] = ydot_17  # guide.angle
+    out[8] = q2  # O.angle
+    out[9] = v2  # rate of O.angle
+    out[10] = q5 - q2  # P.angle
+    out[11] = v5 - v2  # rate of P.angle
+    out[12] = q8 - q5  # Q.angle
+    out[13] = v8 - v5  # rate of Q.angle
+    out[14] = q6  # guide.displacement
+    out[15] = v6  # rate of guide.displacement
     return 0
 
 
@@ -402,16 +417,16 @@ def masses(p, w):
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # rod_mass [kg]
     p2 = p[2]  # slider_mass [kg]
-    p11 = p[11]
-    p12 = p[12]
+    p11 = p[11]  # 0.001875*crank_mass
+    p12 = p[12]  # 0.016875*rod_mass
     # outputs
-    w[76] = p0
-    w[77] = p0
-    w[78] = p11
-    w[79] = p1
-    w[80] = p1
-    w[81] = p12
-    w[82] = p2
-    w[83] = p2
-    w[84] = 0.0005
+    w[76] = p0  # crank.vx
+    w[77] = p0  # crank.vy
+    w[78] = p11  # crank.omega
+    w[79] = p1  # rod.vx
+    w[80] = p1  # rod.vy
+    w[81] = p12  # rod.omega
+    w[82] = p2  # slider.vx
+    w[83] = p2  # slider.vy
+    w[84] = 0.0005  # slider.omega
     return 0

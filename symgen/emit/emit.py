@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, module, render, templates_digest
+from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import ElementAccess, print_block
 from symgen.emit.text import table_name
@@ -44,11 +45,16 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
         "",
         *(f"{element:<8} {name}{f' [{unit}]' if unit else ''}" for element, name, unit in _symbols(equations)),
         "",
+        *(f"w[{first}:{first + size}]  {name}" for name, (first, size) in layout.sections.items() if size),
+        "",
         "Left out:",
         *(f"- {omission.what}: {omission.why}" for omission in equations.omissions),
         *(f"- repeated row: {row}" for row in equations.dropped_rows),
     ]
-    codes = [*table_codes(program.tables, target), *straight(program.blocks, layout, equations, target)]
+    codes = [
+        *table_codes(program.tables, target),
+        *straight(program.blocks, layout, equations, target, of_model(equations, program.jacobian)),
+    ]
     title = f"Model `{program.name}`: what every method of it shares{_FOR[target]}."
     return module(title, header, codes, {}, {}, _NUMBA[target])
 
@@ -61,7 +67,8 @@ def emit_law(
     The last one is the method's own, see `law_modules`.
     """
     blocks = program.blocks
-    printed = straight(blocks, program.layout, equations, target)
+    own = {("p", program.parameter_offset + i): name for i, (name, _) in enumerate(program.parameters)}
+    printed = straight(blocks, program.layout, equations, target, of_model(equations, model.jacobian) | own)
     pieces = [*zip((b.role for b in blocks), printed, strict=True), *_loops(program, equations, target)]
     metric = program.correction.metric if program.correction.any else "measured"
     model_stem = f"model{SUFFIXES[target]}"
@@ -208,15 +215,19 @@ class Named(Protocol):
         """Of p."""
 
 
-def straight(blocks: Sequence[Block], layout: Layout, equations: Named, target: str = "cpu") -> list[Code]:
-    """Return blocks as functions of straight lines."""
+def straight(
+    blocks: Sequence[Block], layout: Layout, equations: Named, target: str = "cpu", further: Names | None = None
+) -> list[Code]:
+    """Return blocks as functions of straight lines; `further` names stand beside those of q, v and p."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
-    access = ElementAccess(layout, names)
+    names = (further or {}) | names
+    names |= of_hoisted(blocks, ElementAccess(layout, names))
+    observed = of_observed(equations) if isinstance(equations, Equations) else {}
     codes = []
     for block in blocks:
-        lines = print_block(block, access)
+        lines = print_block(block, ElementAccess(layout, names | observed if block.name == "observe" else names))
         body: list[str] = []
         for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
             body += [f"# {title}", *part] if part else []

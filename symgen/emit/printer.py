@@ -156,9 +156,17 @@ class Printer:
                     terms.append(f"{name} = {text}")
                     text, level = name, 5
                 self.text[node] = (text, level)
-        outputs = tuple(f"{self.access.write(target)} = {self.text[n][0]}" for target, n in self.block.outputs)
+        outputs = tuple(
+            f"{self.access.write(target)} = {self.text[n][0]}" + self.comment(target)
+            for target, n in self.block.outputs
+        )
         flag = None if self.block.flag is None else self.text[self.block.flag][0]
         return Lines(tuple(inputs), tuple(terms), outputs, flag, frozenset(self.functions))
+
+    def comment(self, target: Target) -> str:
+        """Return the name of an output as a comment, nothing where it has none."""
+        note = harmless(self.access.note(target.space, target.index))
+        return f"  # {note}" if note else ""
 
     def operation(self, op: str, args: tuple[int, ...], payload: object) -> tuple[str, int]:
         """Return text and precedence of one operation."""

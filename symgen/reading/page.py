@@ -342,7 +342,8 @@ class _Page:
             if c is None:
                 lines.append(escape(line))
             else:
-                text = f'{escape(line)}  <a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
+                back_to = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
+                text = f"{escape(line.partition('  # ')[0])}  {back_to}"
                 lines.append(f'<span id="line-{number}">{text}</span>')
         found = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
         for stem, source in self.parts.items():

@@ -97,12 +97,12 @@ def computed(program: ModelProgram, equations: Equations, source: str) -> list[C
 
 
 def assignments(source: str) -> dict[tuple[str, str], tuple[int, str]]:
-    """Return number and text of the line that assigns an element in each function, by both names."""
+    """Return number and text, without its comment, of the line that assigns an element in each function, by both."""
     found: dict[tuple[str, str], tuple[int, str]] = {}
     function = ""
     for number, line in enumerate(source.splitlines(), 1):
         if header := re.match(r"def (\w+)\(", line):
             function = header[1]
         elif assigned := re.match(r"    (\w+\[\d+\]) = ", line):
-            found[function, assigned[1]] = number, line.strip()
+            found[function, assigned[1]] = number, line.partition("  # ")[0].strip()
     return found

@@ -1,0 +1,20 @@
+"""Numbers that depend on parameters alone, for model `andrews`. Emitted by symgen; do not edit.
+
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 3 operations, 3 before sharing."""
+    # inputs
+    p0 = p[0]  # drive_torque [N m]
+    p1 = p[1]  # spring_stiffness [N/m]
+    p2 = p[2]  # spring_length [m]
+    # outputs
+    p[4] = 0.5*p1  # 0.5*spring_stiffness
+    p[5] = 2.0*p2  # 2.0*spring_length
+    p[6] = 455788.5141294439*p0  # 455788.5141294439*drive_torque
+    return 0

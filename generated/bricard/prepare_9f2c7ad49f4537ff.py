@@ -1,0 +1,18 @@
+"""Numbers that depend on parameters alone, for model `bricard`. Emitted by symgen; do not edit.
+
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 2 operations, 2 before sharing."""
+    # inputs
+    p2 = p[2]  # alpha
+    p3 = p[3]  # beta
+    # outputs
+    p[0] = 2.0*p2  # 2.0*alpha
+    p[1] = p3*p3  # beta*beta
+    return 0

@@ -1,0 +1,54 @@
+"""Numbers that depend on parameters alone, for model `four-bar`. Emitted by symgen; do not edit.
+
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 21 operations, 41 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # coupler_mass [kg]
+    p2 = p[2]  # rocker_mass [kg]
+    p30 = p[30]  # alpha
+    p31 = p[31]  # beta
+    # intermediate terms
+    s0 = 0.3333333333333333*p0
+    s1 = 9.81*p0
+    s2 = 5.333333333333333*p1
+    s3 = 9.81*p1
+    s4 = 2.083333333333333*p2
+    s5 = 9.81*p2
+    s6 = 2.0*p30
+    s7 = p31*p31
+    s8 = 1.0/p0
+    s9 = 1.0/p1
+    s10 = 1.0/p2
+    s11 = s1*s8
+    s12 = s3*s9
+    s13 = s5*s10
+    # outputs
+    p[15] = s1  # 9.81*crank_mass
+    p[16] = s3  # 9.81*coupler_mass
+    p[17] = s5  # 9.81*rocker_mass
+    p[18] = s6  # 2.0*alpha
+    p[19] = s7  # beta*beta
+    p[20] = s8  # 1.0/crank_mass
+    p[21] = 1.0/s0  # 1.0/(0.3333333333333333*crank_mass)
+    p[22] = s9  # 1.0/coupler_mass
+    p[23] = 1.0/s2  # 1.0/(5.333333333333333*coupler_mass)
+    p[24] = s10  # 1.0/rocker_mass
+    p[25] = 1.0/s4  # 1.0/(2.083333333333333*rocker_mass)
+    p[26] = s11  # 9.81*crank_mass*(1.0/crank_mass)
+    p[27] = s13  # 9.81*rocker_mass*(1.0/rocker_mass)
+    p[28] = s11 - s12
+    p[29] = s12 - s13
+    p[32] = s0  # 0.3333333333333333*crank_mass
+    p[33] = s2  # 5.333333333333333*coupler_mass
+    p[34] = s4  # 2.083333333333333*rocker_mass
+    p[35] = -s6  # -2.0*alpha
+    p[36] = -s7  # -beta*beta
+    return 0

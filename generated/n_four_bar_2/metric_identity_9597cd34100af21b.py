@@ -1,0 +1,350 @@
+"""Corrections in another metric, for model `n-four-bar-2`. Emitted by symgen; do not edit.
+
+digest 80662021c19a455162caa1f92b72ba31e49f4d38e94b865825f0146154f94f36, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+from .model import geometry as geometry_of_model
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def refactor(p, w):
+    """the factorisation of D D^T from D, without the rows that depend on others: 322 operations, 53607 before sharing."""
+    # inputs
+    reciprocal_1 = w[220]
+    reciprocal_3 = w[222]
+    reciprocal_4 = w[223]
+    reciprocal_5 = w[224]
+    reciprocal_6 = w[225]
+    reciprocal_7 = w[226]
+    reciprocal_9 = w[228]
+    reciprocal_10 = w[229]
+    reciprocal_11 = w[230]
+    reciprocal_12 = w[231]
+    reciprocal_13 = w[232]
+    jacobian_0 = w[162]  # D A0.x, vertical0.omega
+    jacobian_1 = w[163]  # D A0.y, vertical0.omega
+    jacobian_2 = w[164]  # D B0.x, vertical0.omega
+    jacobian_3 = w[165]  # D B0.x, coupler0.omega
+    jacobian_4 = w[166]  # D B0.y, vertical0.omega
+    jacobian_5 = w[167]  # D B0.y, coupler0.omega
+    jacobian_6 = w[168]  # D A1.x, vertical1.omega
+    jacobian_7 = w[169]  # D A1.y, vertical1.omega
+    jacobian_8 = w[170]  # D B1.x, vertical1.omega
+    jacobian_9 = w[171]  # D B1.x, coupler1.omega
+    jacobian_10 = w[172]  # D B1.y, vertical1.omega
+    jacobian_11 = w[173]  # D B1.y, coupler1.omega
+    jacobian_12 = w[174]  # D C1.x, coupler0.omega
+    jacobian_13 = w[175]  # D C1.x, vertical1.omega
+    jacobian_14 = w[176]  # D C1.y, coupler0.omega
+    jacobian_15 = w[177]  # D C1.y, vertical1.omega
+    jacobian_16 = w[178]  # D A2.x, vertical2.omega
+    jacobian_17 = w[179]  # D A2.y, vertical2.omega
+    jacobian_18 = w[180]  # D C2.x, coupler1.omega
+    jacobian_19 = w[181]  # D C2.x, vertical2.omega
+    jacobian_20 = w[182]  # D C2.y, coupler1.omega
+    jacobian_21 = w[183]  # D C2.y, vertical2.omega
+    # intermediate terms
+    s0 = jacobian_0*jacobian_1
+    s1 = -1.0 + jacobian_0*jacobian_2
+    s2 = jacobian_0*jacobian_4
+    s3 = -1.0 + jacobian_3*jacobian_12
+    s4 = jacobian_3*jacobian_14
+    s5 = jacobian_6*jacobian_7
+    s6 = -1.0 + jacobian_6*jacobian_8
+    s7 = jacobian_6*jacobian_10
+    s8 = 1.0 + jacobian_6*jacobian_13
+    s9 = jacobian_6*jacobian_15
+    s10 = -1.0 + jacobian_9*jacobian_18
+    s11 = jacobian_11*jacobian_18
+    s12 = jacobian_16*jacobian_17
+    s13 = 1.0 + jacobian_16*jacobian_19
+    s14 = jacobian_16*jacobian_21
+    s15 = 1.0/(1.0 + jacobian_0*jacobian_0)
+    s16 = s0*s15
+    s17 = s1*s15
+    s18 = s2*s15
+    s19 = jacobian_1*jacobian_2 - s1*s16
+    s20 = -1.0 + jacobian_1*jacobian_4 - s2*s16
+    s21 = 1.0*(reciprocal_1 > 0.0)/max(1.0 + jacobian_1*jacobian_1 - s0*s16, 1e-300)
+    s22 = s19*s21
+    s23 = s20*s21
+    s24 = jacobian_2*jacobian_4 + jacobian_3*jacobian_5 - s2*s17 - s20*s22
+    s25 = 1.0/(1.0 + jacobian_16*jacobian_16)
+    s26 = s12*s25
+    s27 = s13*s25
+    s28 = s14*s25
+    s29 = jacobian_17*jacobian_19 - s13*s26
+    s30 = 1.0 + jacobian_17*jacobian_21 - s14*s26
+    s31 = 1.0*(reciprocal_3 > 0.0)/max(1.0 + jacobian_17*jacobian_17 - s12*s26, 1e-300)
+    s32 = s29*s31
+    s33 = s30*s31
+    s34 = jacobian_18*jacobian_20 + jacobian_19*jacobian_21 - s14*s27 - s30*s32
+    s35 = 1.0*(reciprocal_4 > 0.0)/max(1.0 + 1.0 + jacobian_2*jacobian_2 + jacobian_3*jacobian_3 - s1*s17 - s19*s22, 1e-300)
+    s36 = s24*s35
+    s37 = s3*s35
+    s38 = s4*s35
+    s39 = jacobian_5*jacobian_12 - s3*s36
+    s40 = -1.0 + jacobian_5*jacobian_14 - s4*s36
+    s41 = max(1.0 + 1.0 + jacobian_4*jacobian_4 + jacobian_5*jacobian_5 - s2*s18 - s20*s23 - s24*s36, 1e-300)
+    s42 = 1.0*(reciprocal_5 > 0.0)/s41
+    s43 = s39*s42
+    s44 = s40*s42
+    s45 = max(1.0 + 1.0 + jacobian_18*jacobian_18 + jacobian_19*jacobian_19 - s13*s27 - s29*s32, 1e-300)
+    s46 = 1.0*(reciprocal_6 > 0.0)/s45
+    s47 = s34*s46
+    s48 = s10*s46
+    s49 = s11*s46
+    s50 = 1.0 + 1.0 + jacobian_20*jacobian_20 + jacobian_21*jacobian_21 - s14*s28 - s30*s33 - s34*s47
+    s51 = jacobian_9*jacobian_20 - s10*s47
+    s52 = -1.0 + jacobian_11*jacobian_20 - s11*s47
+    s53 = 1.0*(reciprocal_7 > 0.0)/max(s50, 1e-300)
+    s54 = s51*s53
+    s55 = s52*s53
+    s56 = 1.0/(1.0 + jacobian_6*jacobian_6)
+    s57 = s5*s56
+    s58 = s6*s56
+    s59 = s7*s56
+    s60 = s8*s56
+    s61 = s9*s56
+    s62 = jacobian_7*jacobian_8 - s6*s57
+    s63 = -1.0 + jacobian_7*jacobian_10 - s7*s57
+    s64 = jacobian_7*jacobian_13 - s8*s57
+    s65 = 1.0 + jacobian_7*jacobian_15 - s9*s57
+    s66 = 1.0*(reciprocal_9 > 0.0)/max(1.0 + jacobian_7*jacobian_7 - s5*s57, 1e-300)
+    s67 = s62*s66
+    s68 = s63*s66
+    s69 = s64*s66
+    s70 = s65*s66
+    s71 = 1.0 + 1.0 + jacobian_8*jacobian_8 + jacobian_9*jacobian_9 - s10*s48 - s51*s54 - s6*s58 - s62*s67
+    s72 = jacobian_8*jacobian_10 + jacobian_9*jacobian_11 - s11*s48 - s52*s54 - s7*s58 - s63*s67
+    s73 = -1.0 + jacobian_8*jacobian_13 - s8*s58 - s64*s67
+    s74 = jacobian_8*jacobian_15 - s9*s58 - s65*s67
+    s75 = 1.0 + 1.0 + jacobian_10*jacobian_10 + jacobian_11*jacobian_11 - s11*s49 - s52*s55 - s7*s59 - s63*s68
+    s76 = 1.0 + 1.0 + jacobian_12*jacobian_12 + jacobian_13*jacobian_13 - s3*s37 - s39*s43 - s8*s60 - s64*s69
+    s77 = 1.0 + 1.0 + jacobian_14*jacobian_14 + jacobian_15*jacobian_15 - s4*s38 - s40*s44 - s9*s61 - s65*s70
+    s78 = 1.0*(reciprocal_10 > 0.0)/max(s71, 1e-300)
+    s79 = s72*s78
+    s80 = s73*s78
+    s81 = s74*s78
+    s82 = jacobian_10*jacobian_13 - s8*s59 - s64*s68 - s73*s79
+    s83 = -1.0 + jacobian_10*jacobian_15 - s9*s59 - s65*s68 - s74*s79
+    s84 = jacobian_12*jacobian_14 + jacobian_13*jacobian_15 - s4*s37 - s40*s43 - s9*s60 - s65*s69 - s74*s80
+    s85 = 1.0*(reciprocal_11 > 0.0)/max(s75 - s72*s79, 1e-300)
+    s86 = s82*s85
+    s87 = s83*s85
+    s88 = s84 - s83*s86
+    s89 = 1.0*(reciprocal_12 > 0.0)/max(s76 - s73*s80 - s82*s86, 1e-300)
+    s90 = s88*s89
+    # outputs
+    w[233] = s16
+    w[234] = s17
+    w[235] = s18
+    w[236] = s22
+    w[237] = s23
+    w[238] = s26
+    w[239] = s27
+    w[240] = s28
+    w[241] = s32
+    w[242] = s33
+    w[243] = s36
+    w[244] = s37
+    w[245] = s38
+    w[246] = s43
+    w[247] = s44
+    w[248] = s47
+    w[249] = s48
+    w[250] = s49
+    w[251] = s54
+    w[252] = s55
+    w[253] = s57
+    w[254] = s58
+    w[255] = s59
+    w[256] = s60
+    w[257] = s61
+    w[258] = s67
+    w[259] = s68
+    w[260] = s69
+    w[261] = s70
+    w[262] = s79
+    w[263] = s80
+    w[264] = s81
+    w[265] = s86
+    w[266] = s87
+    w[267] = s90
+    w[268] = s15
+    w[269] = s21
+    w[270] = s25
+    w[271] = s31
+    w[272] = s35
+    w[273] = s42
+    w[274] = s46
+    w[275] = s53
+    w[276] = s56
+    w[277] = s66
+    w[278] = s78
+    w[279] = s85
+    w[280] = s89
+    w[281] = 1.0*(reciprocal_13 > 0.0)/max(s77 - s74*s81 - s83*s87 - s88*s90, 1e-300)
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def spread(p, w):
+    """the correction -D^+ times the section `residual`, of v, or of q by N: 212 operations, 110301 before sharing."""
+    # inputs
+    jacobian_0 = w[162]  # D A0.x, vertical0.omega
+    jacobian_1 = w[163]  # D A0.y, vertical0.omega
+    jacobian_2 = w[164]  # D B0.x, vertical0.omega
+    jacobian_3 = w[165]  # D B0.x, coupler0.omega
+    jacobian_4 = w[166]  # D B0.y, vertical0.omega
+    jacobian_5 = w[167]  # D B0.y, coupler0.omega
+    jacobian_6 = w[168]  # D A1.x, vertical1.omega
+    jacobian_7 = w[169]  # D A1.y, vertical1.omega
+    jacobian_8 = w[170]  # D B1.x, vertical1.omega
+    jacobian_9 = w[171]  # D B1.x, coupler1.omega
+    jacobian_10 = w[172]  # D B1.y, vertical1.omega
+    jacobian_11 = w[173]  # D B1.y, coupler1.omega
+    jacobian_12 = w[174]  # D C1.x, coupler0.omega
+    jacobian_13 = w[175]  # D C1.x, vertical1.omega
+    jacobian_14 = w[176]  # D C1.y, coupler0.omega
+    jacobian_15 = w[177]  # D C1.y, vertical1.omega
+    jacobian_16 = w[178]  # D A2.x, vertical2.omega
+    jacobian_17 = w[179]  # D A2.y, vertical2.omega
+    jacobian_18 = w[180]  # D C2.x, coupler1.omega
+    jacobian_19 = w[181]  # D C2.x, vertical2.omega
+    jacobian_20 = w[182]  # D C2.y, coupler1.omega
+    jacobian_21 = w[183]  # D C2.y, vertical2.omega
+    law_lower_0 = w[233]
+    law_lower_1 = w[234]
+    law_lower_2 = w[235]
+    law_lower_3 = w[236]
+    law_lower_4 = w[237]
+    law_lower_5 = w[238]
+    law_lower_6 = w[239]
+    law_lower_7 = w[240]
+    law_lower_8 = w[241]
+    law_lower_9 = w[242]
+    law_lower_10 = w[243]
+    law_lower_11 = w[244]
+    law_lower_12 = w[245]
+    law_lower_13 = w[246]
+    law_lower_14 = w[247]
+    law_lower_15 = w[248]
+    law_lower_16 = w[249]
+    law_lower_17 = w[250]
+    law_lower_18 = w[251]
+    law_lower_19 = w[252]
+    law_lower_20 = w[253]
+    law_lower_21 = w[254]
+    law_lower_22 = w[255]
+    law_lower_23 = w[256]
+    law_lower_24 = w[257]
+    law_lower_25 = w[258]
+    law_lower_26 = w[259]
+    law_lower_27 = w[260]
+    law_lower_28 = w[261]
+    law_lower_29 = w[262]
+    law_lower_30 = w[263]
+    law_lower_31 = w[264]
+    law_lower_32 = w[265]
+    law_lower_33 = w[266]
+    law_lower_34 = w[267]
+    law_reciprocal_0 = w[268]
+    law_reciprocal_1 = w[269]
+    law_reciprocal_2 = w[270]
+    law_reciprocal_3 = w[271]
+    law_reciprocal_4 = w[272]
+    law_reciprocal_5 = w[273]
+    law_reciprocal_6 = w[274]
+    law_reciprocal_7 = w[275]
+    law_reciprocal_8 = w[276]
+    law_reciprocal_9 = w[277]
+    law_reciprocal_10 = w[278]
+    law_reciprocal_11 = w[279]
+    law_reciprocal_12 = w[280]
+    law_reciprocal_13 = w[281]
+    residual_0 = w[61]  # A0.x
+    residual_1 = w[62]  # A0.y
+    residual_2 = w[63]  # B0.x
+    residual_3 = w[64]  # B0.y
+    residual_4 = w[65]  # A1.x
+    residual_5 = w[66]  # A1.y
+    residual_6 = w[67]  # B1.x
+    residual_7 = w[68]  # B1.y
+    residual_8 = w[69]  # C1.x
+    residual_9 = w[70]  # C1.y
+    residual_10 = w[71]  # A2.x
+    residual_11 = w[72]  # A2.y
+    residual_12 = w[73]  # C2.x
+    residual_13 = w[74]  # C2.y
+    # intermediate terms
+    s0 = law_lower_0*residual_0 - residual_1
+    s1 = law_lower_1*residual_0 - residual_2 - law_lower_3*s0
+    s2 = law_lower_5*residual_10 - residual_11
+    s3 = law_lower_6*residual_10 - residual_12 - law_lower_8*s2
+    s4 = law_lower_2*residual_0 - residual_3 - law_lower_4*s0 - law_lower_10*s1
+    s5 = law_lower_7*residual_10 - residual_13 - law_lower_9*s2 - law_lower_15*s3
+    s6 = law_lower_20*residual_4 - residual_5
+    s7 = law_lower_21*residual_4 - (residual_6 + law_lower_16*s3 + law_lower_18*s5) - law_lower_25*s6
+    s8 = law_lower_22*residual_4 - (residual_7 + law_lower_17*s3 + law_lower_19*s5) - law_lower_26*s6
+    s9 = law_lower_23*residual_4 - (residual_8 + law_lower_11*s1 + law_lower_13*s4) - law_lower_27*s6
+    s10 = law_lower_24*residual_4 - (residual_9 + law_lower_12*s1 + law_lower_14*s4) - law_lower_28*s6
+    s11 = s8 - law_lower_29*s7
+    s12 = s9 - law_lower_30*s7 - law_lower_32*s11
+    s13 = law_reciprocal_13*(s10 - law_lower_31*s7 - law_lower_33*s11 - law_lower_34*s12)
+    s14 = law_reciprocal_12*s12
+    s15 = law_lower_34*s13
+    s16 = s14 - s15
+    s17 = law_reciprocal_11*s11 - law_lower_32*s16
+    s18 = law_lower_33*s13
+    s19 = s17 - s18
+    s20 = law_reciprocal_10*s7 - law_lower_29*s19 - law_lower_30*s16
+    s21 = law_lower_31*s13
+    s22 = s20 - s21
+    s23 = law_reciprocal_9*s6 - law_lower_25*s22 - law_lower_26*s19 - law_lower_27*s16 - law_lower_28*s13
+    s24 = law_reciprocal_8*residual_4 + law_lower_20*s23 + law_lower_21*s22 + law_lower_22*s19 + law_lower_23*s16
+    s25 = s24 + law_lower_24*s13
+    s26 = law_reciprocal_7*s5 - law_lower_18*s22
+    s27 = law_lower_19*s19
+    s28 = s26 - s27
+    s29 = law_reciprocal_6*s3 - law_lower_15*s28 - law_lower_16*s22
+    s30 = law_lower_17*s19
+    s31 = s29 - s30
+    s32 = law_reciprocal_5*s4 - law_lower_13*s16
+    s33 = law_lower_14*s13
+    s34 = s32 - s33
+    s35 = law_reciprocal_4*s1 - law_lower_10*s34 - law_lower_11*s16
+    s36 = law_lower_12*s13
+    s37 = s35 - s36
+    s38 = law_reciprocal_3*s2 - law_lower_8*s31 - law_lower_9*s28
+    s39 = law_reciprocal_2*residual_10 + law_lower_5*s38 + law_lower_6*s31 + law_lower_7*s28
+    s40 = law_reciprocal_1*s0 - law_lower_3*s37 - law_lower_4*s34
+    s41 = law_reciprocal_0*residual_0 + law_lower_0*s40 + law_lower_1*s37 + law_lower_2*s34
+    s42 = jacobian_7*s23 - jacobian_6*s25 + jacobian_8*s22 + jacobian_10*s19 + jacobian_13*s16 + jacobian_15*s13
+    # outputs
+    w[103] = s36 - s35 - s41  # vertical0.vx
+    w[104] = s40 + s33 - s32  # vertical0.vy
+    w[105] = jacobian_1*s40 - jacobian_0*s41 + jacobian_2*s37 + jacobian_4*s34  # vertical0.omega
+    w[106] = s37 + s15 - s14  # coupler0.vx
+    w[107] = s34 - s13  # coupler0.vy
+    w[108] = jacobian_3*s37 + jacobian_5*s34 + jacobian_12*s16 + jacobian_14*s13  # coupler0.omega
+    w[109] = s16 + s21 - s20 - s25  # vertical1.vx
+    w[110] = s13 + s23 + s18 - s17  # vertical1.vy
+    w[111] = s42  # vertical1.omega
+    w[112] = s22 + s30 - s29  # coupler1.vx
+    w[113] = s19 + s27 - s26  # coupler1.vy
+    w[114] = jacobian_9*s22 + jacobian_11*s19 + jacobian_18*s31 + jacobian_20*s28  # coupler1.omega
+    w[115] = s31 - s39  # vertical2.vx
+    w[116] = s28 + s38  # vertical2.vy
+    w[117] = jacobian_17*s38 - jacobian_16*s39 + jacobian_19*s31 + jacobian_21*s28  # vertical2.omega
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def geometry(t, y, p, w):
+    """What the model's `geometry` leaves, and the factorisation of the law's own metric."""
+    geometry_of_model(t, y, p, w)
+    refactor(p, w)
+    return 0

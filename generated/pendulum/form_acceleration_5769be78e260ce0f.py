@@ -1,0 +1,70 @@
+"""Descriptor form, for model `pendulum`. Emitted by symgen; do not edit.
+
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def residual(t, y, k, p, w, r):
+    """F(t, y, k) of the descriptor form, and the power: 30 operations, 30 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    q0 = y[0]  # bob.x [m]
+    q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    p3 = p[3]  # 9.81*bob_mass
+    p4 = p[4]  # 2.0*(omega*mu)
+    p5 = p[5]  # omega*omega
+    p9 = p[9]  # 1.0/penalty
+    k0 = k[0]
+    k1 = k[1]
+    k2 = k[2]
+    k3 = k[3]
+    k4 = k[4]
+    # outputs
+    r[0] = k0 - v0
+    r[1] = k1 - v1
+    r[2] = p0*k2 + q0*k4
+    r[3] = p3 + p0*k3 + q1*k4
+    r[4] = v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p4 + 0.5*(q0*q0 + q1*q1 - 1.0)*p5 + q0*k2 + q1*k3 - p9*k4
+    w[18] = 0.0  # power
+    return 0
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def tangent(t, y, k, p, w, j):
+    """entries of dF/dk and dF/dy of the descriptor form: 18 operations, 18 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    q0 = y[0]  # bob.x [m]
+    q1 = y[1]  # bob.y [m]
+    v0 = y[2]  # bob.vx [m/s]
+    v1 = y[3]  # bob.vy [m/s]
+    p4 = p[4]  # 2.0*(omega*mu)
+    p5 = p[5]  # omega*omega
+    k2 = k[2]
+    k3 = k[3]
+    k4 = k[4]
+    p10 = p[10]  # -1.0/penalty
+    # outputs
+    j[0] = 1.0
+    j[1] = -1.0
+    j[2] = 1.0
+    j[3] = -1.0
+    j[4] = p0
+    j[5] = q0
+    j[6] = k4
+    j[7] = p0
+    j[8] = q1
+    j[9] = k4
+    j[10] = q0
+    j[11] = q1
+    j[12] = p10
+    j[13] = k2 + v0*p4 + p5*(0.5*(q0 + q0))
+    j[14] = k3 + v1*p4 + p5*(0.5*(q1 + q1))
+    j[15] = v0 + v0 + q0*p4
+    j[16] = v1 + v1 + q1*p4
+    return 0

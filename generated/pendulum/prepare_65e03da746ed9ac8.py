@@ -1,0 +1,25 @@
+"""Numbers that depend on parameters alone, for model `pendulum`. Emitted by symgen; do not edit.
+
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 5 operations, 7 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    p8 = p[8]  # alpha
+    p9 = p[9]  # beta
+    # intermediate terms
+    s0 = 9.81*p0
+    s1 = 1.0/p0
+    # outputs
+    p[3] = s0  # 9.81*bob_mass
+    p[4] = 2.0*p8  # 2.0*alpha
+    p[5] = p9*p9  # beta*beta
+    p[6] = s1  # 1.0/bob_mass
+    p[7] = s0*s1  # 9.81*bob_mass*(1.0/bob_mass)
+    return 0

@@ -1,0 +1,25 @@
+"""Numbers that depend on parameters alone, for model `pendulum`. Emitted by symgen; do not edit.
+
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 6 operations, 7 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    p6 = p[6]  # penalty
+    p7 = p[7]  # omega
+    p8 = p[8]  # mu
+    # intermediate terms
+    s0 = 1.0/p6
+    # outputs
+    p[3] = 9.81*p0  # 9.81*bob_mass
+    p[4] = 2.0*(p7*p8)  # 2.0*(omega*mu)
+    p[5] = p7*p7  # omega*omega
+    p[9] = s0  # 1.0/penalty
+    p[10] = -s0  # -1.0/penalty
+    return 0

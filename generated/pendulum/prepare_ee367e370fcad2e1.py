@@ -1,0 +1,20 @@
+"""Numbers that depend on parameters alone, for model `pendulum`. Emitted by symgen; do not edit.
+
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 4 operations, 4 before sharing."""
+    # inputs
+    p0 = p[0]  # bob_mass [kg]
+    p6 = p[6]  # alpha
+    p7 = p[7]  # beta
+    # outputs
+    p[3] = -9.81*p0  # -9.81*bob_mass
+    p[4] = 2.0*p6  # 2.0*alpha
+    p[5] = p7*p7  # beta*beta
+    return 0

@@ -1,0 +1,43 @@
+"""Numbers that depend on parameters alone, for model `slider-crank`. Emitted by symgen; do not edit.
+
+digest 6d92fc815bd77693475e0af9134199a5c8bbd4aa101da1c6d382d77c4d1faf26, format 3, templates a694aa875a452a90
+"""
+
+from numba import njit
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def prepare(p):
+    """numbers that depend on parameters alone: 17 operations, 32 before sharing."""
+    # inputs
+    p0 = p[0]  # crank_mass [kg]
+    p1 = p[1]  # rod_mass [kg]
+    p2 = p[2]  # slider_mass [kg]
+    p27 = p[27]  # alpha
+    p28 = p[28]  # beta
+    # intermediate terms
+    s0 = 9.81*p0
+    s1 = 9.81*p1
+    s2 = 9.81*p2
+    s3 = 1.0/p0
+    s4 = 1.0/p1
+    s5 = 1.0/p2
+    s6 = s0*s3
+    s7 = s1*s4
+    s8 = s2*s5
+    # outputs
+    p[13] = s0  # 9.81*crank_mass
+    p[14] = s1  # 9.81*rod_mass
+    p[15] = s2  # 9.81*slider_mass
+    p[16] = 2.0*p27  # 2.0*alpha
+    p[17] = p28*p28  # beta*beta
+    p[18] = s3  # 1.0/crank_mass
+    p[19] = 1.0/(0.001875*p0)  # 1.0/(0.001875*crank_mass)
+    p[20] = s4  # 1.0/rod_mass
+    p[21] = 1.0/(0.016875*p1)  # 1.0/(0.016875*rod_mass)
+    p[22] = s5  # 1.0/slider_mass
+    p[23] = s6  # 9.81*crank_mass*(1.0/crank_mass)
+    p[24] = s8  # 9.81*slider_mass*(1.0/slider_mass)
+    p[25] = s6 - s7
+    p[26] = s7 - s8
+    return 0
