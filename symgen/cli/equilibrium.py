@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -15,7 +15,13 @@ if TYPE_CHECKING:
     from symgen.analyses.equilibrium import Equilibrium
 
 
-@click.command("equilibrium", short_help="Find where a mechanism rests, and whether it stays there.")
+@click.command(
+    "equilibrium",
+    short_help="Find where a mechanism rests, and whether it stays there.",
+    epilog=examples(
+        "symgen equilibrium four-bar", 'symgen equilibrium four-bar --scan "crank.theta=lin(0,6.28,25)" --json'
+    ),
+)
 @click.argument("model")
 @click.option("--scan", metavar="NAME=lin(A,B,N)", help="Find all equilibria over a range of a coordinate.")
 @click.option("--steady", is_flag=True, help="Find the steady motion that the start leads to instead of a rest.")

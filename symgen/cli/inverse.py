@@ -7,11 +7,15 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import assignments, json_option, output_file, setting_options, time_list, words
+from symgen.cli._options import assignments, examples, json_option, output_file, setting_options, time_list, words
 from symgen.settings import Settings
 
 
-@click.command("inverse", short_help="Find the efforts that a motion needs.")
+@click.command(
+    "inverse",
+    short_help="Find the efforts that a motion needs.",
+    epilog=examples("symgen inverse driven-four-bar", 'symgen inverse driven-four-bar --times "lin(0,1,101)" --json'),
+)
 @click.argument("model")
 @click.option(
     "--from",

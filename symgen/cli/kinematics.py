@@ -7,11 +7,18 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import json_option, output_file, setting_options, time_list
+from symgen.cli._options import examples, json_option, output_file, setting_options, time_list
 from symgen.settings import Settings
 
 
-@click.command("kinematics", short_help="Move a driven mechanism without integrating.")
+@click.command(
+    "kinematics",
+    short_help="Move a driven mechanism without integrating.",
+    epilog=examples(
+        'symgen kinematics driven-four-bar --times "lin(0,1,101)"',
+        "symgen kinematics driven-four-bar --transmission C --plot motion.svg",
+    ),
+)
 @click.argument("model")
 @click.option(
     "--times",

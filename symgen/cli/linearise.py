@@ -8,14 +8,18 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._analyses import names, place_options
-from symgen.cli._options import json_option
+from symgen.cli._options import examples, json_option
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.analyses.linearise import LinearSystem
 
 
-@click.command("linearise", short_help="Find the linear system x' = A x + B u, y = C x + D u about a state.")
+@click.command(
+    "linearise",
+    short_help="Find the linear system x' = A x + B u, y = C x + D u about a state.",
+    epilog=examples("symgen linearise pendulum", "symgen linearise bicycle --at start --states lean,steer --json"),
+)
 @click.argument("model")
 @place_options
 @click.option("--instantaneous", is_flag=True, help="Give the system of the instant where a motion is not steady.")

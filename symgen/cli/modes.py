@@ -8,7 +8,7 @@ import click
 
 from symgen.cli import OK, write_files, write_json
 from symgen.cli._analyses import names, place_options
-from symgen.cli._options import json_option, output_file
+from symgen.cli._options import examples, json_option, output_file
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -17,7 +17,11 @@ if TYPE_CHECKING:
     from symgen.analyses.modes import Modes
 
 
-@click.command("modes", short_help="Find frequencies, damping and shapes about a state.")
+@click.command(
+    "modes",
+    short_help="Find frequencies, damping and shapes about a state.",
+    epilog=examples("symgen modes four-bar", "symgen modes four-bar --start crank.theta=4"),
+)
 @click.argument("model")
 @place_options
 @click.option("--count", type=int, metavar="N", help="Only that many of the lowest modes, by sparse matrices.")

@@ -312,7 +312,7 @@ def test_a_study_in_which_everything_failed_exits_1(cli):
         ("run four-bar --set crankmass=1", "did you mean 'crank_mass'?"),
         ("run four-bar --set crank_mass=0", "mass or inertia of crank: expected a value above 0, got 0"),
         ("run four-bar --option method.wieght=mass", "did you mean 'weight'?"),
-        ("run four-bar --option method.weight=length", "expected one of identity, mass, got 'length'"),
+        ("run four-bar --option method.weight=length", "expected one of identity, mass, body, got 'length'"),
         ("run four-bar --option lagrange.alpha=1", "expected method.NAME or integrator.NAME"),
         ("run four-bar --save run.xls", "--save: expected a file ending in .nc, .parquet, .csv, got 'run.xls'"),
         ("run four-bar --plot run.jpg", "--plot: expected a file ending in .png, .svg, .pdf, got 'run.jpg'"),
