@@ -36,7 +36,8 @@ def test_tables_json_csv_and_reports(cli, tmp_path):
     with (tmp_path / "cells.csv").open(newline="") as handle:
         assert len(list(csv.DictReader(handle))) == 4
     page = (tmp_path / "stress.html").read_text()
-    assert "Map of methods and cases" in page and page.count("data:image/svg+xml") == 2  # the map, and a sketch
+    # the sketch of the mechanism, and the map
+    assert "Map of methods and cases" in page and page.count("data:image/svg+xml") == 2
     assert "symgen stress pendulum --cases gravity --methods lagrange,auto --quick --output stress.html" in page
     assert "--resume" not in page and str(tmp_path) not in page
     code, _, _ = cli(*FEW, "--resume", journal, "-o", tmp_path / "stress.md")
