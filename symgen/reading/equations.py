@@ -160,7 +160,7 @@ class SymbolicEquations:
 
     @cached_property
     def power(self) -> Any:
-        """Power of the forces without potential [W]."""
+        """Power of the forces without potential [W]; that of drivers of prescribed coordinates is no part of it."""
         return self._matrix("power")[0, 0]
 
     def quantity(self, name: str) -> Any:
