@@ -110,7 +110,7 @@ class _Blocks:
 
     @staticmethod
     def _is_pure(line: str) -> bool:
-        return "@llvm." in line or "double @" in line
+        return "@llvm." in line or "double @" in line or "@symgen.sines" in line
 
     def _waits(self, name: str, instruction: str, once: bool, stored: bool) -> bool:
         """Whether an instruction is printed where it is wanted."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Iterable
 
+from symgen.native import sines
 from symgen.native.language import (
     Assign,
     Call,
@@ -64,7 +65,9 @@ _INTRINSICS = {
 }
 
 
-def module(function: Function, symbol: Callable[[Function], str], inlined: Callable[[Function], bool]) -> str:
+def module(
+    function: Function, symbol: Callable[[Function], str], inlined: Callable[[Function], bool], together: bool = True
+) -> str:
     """Return the text of a module that defines a function.
 
     Parameters
@@ -75,9 +78,14 @@ def module(function: Function, symbol: Callable[[Function], str], inlined: Calla
         Gives the name of a function in machine code.
     inlined : Callable
         Whether the body of a function that is called stands in the module too, for the compiler to copy.
+    together : bool
+        Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
     """
     functions, declared = _reached(function, inlined)
-    texts = [_Printer(f, symbol, "" if f is function else "available_externally ").text() for f in functions]
+    texts = [_Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
+    texts.extend(
+        sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
+    )
     texts.append(_c_function(function, symbol(function)))
     texts.extend(f"declare {_head(f, symbol(f), named=False)}" for f in declared)
     return "\n".join([*texts, *_declarations(texts), ""])
@@ -160,8 +168,11 @@ def _handed(parameter: Parameter, value: str) -> list[str]:
 class _Printer:
     """Prints one function."""
 
-    def __init__(self, function: Function, symbol: Callable[[Function], str], linkage: str) -> None:
+    def __init__(self, function: Function, symbol: Callable[[Function], str], linkage: str, together: bool) -> None:
         self.function, self.symbol, self.linkage = function, symbol, linkage
+        groups = sines.groups(function) if together else {}
+        self.before = {id(function.body[i]): calls for i, calls in groups.items()}
+        self.found: dict[tuple[str, Expression], str] = {}  # sines and cosines
         self.lines: list[str] = []
         self.slots: list[str] = []
         self.values: dict[str, str] = {}  # of fixed variables
@@ -219,6 +230,8 @@ class _Printer:
     def statements(self, statements: tuple[Statement, ...]) -> bool:
         """Print statements; return whether what follows them can be reached."""
         for statement in statements:
+            for angles in self.before.get(id(statement), ()):
+                self.take_sines(angles)
             if isinstance(statement, Assign):
                 self.assign(statement.name, self.value(statement.value))
             elif isinstance(statement, Store):
@@ -330,6 +343,8 @@ class _Printer:
     def operation(self, kind: Scalar, name: str, arguments: tuple[Expression, ...]) -> str:
         """Print an operation."""
         first = arguments[0].type
+        if name in sines.NAMES and (name, arguments[0]) in self.found:
+            return self.found[name, arguments[0]]
         if name == "pow" and arguments[1].type == "int":
             exponent = arguments[1]
             assert isinstance(exponent, Constant), "a power with a literal exponent"
@@ -399,6 +414,20 @@ class _Printer:
         called = f"@llvm.{_INTRINSICS[name]}.f64" if name in _INTRINSICS else f"@{name}"
         value = self.put(f"call contract double {called}({', '.join(f'double {v}' for v in values)})")
         return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil") else value
+
+    def take_sines(self, angles: tuple[Expression, ...]) -> None:
+        """Print sines and cosines of several angles; the first fills the vector up."""
+        values = [self.value(angle) for angle in angles]
+        n = sines.width(len(values))
+        vector = "undef"
+        for i in range(n):
+            value = values[i] if i < len(values) else values[0]
+            vector = self.put(f"insertelement <{n} x double> {vector}, double {value}, i32 {i}")
+        pair = self.put(f"call {sines.kind(n)} {sines.name(n)}(<{n} x double> {vector}) nounwind memory(none)")
+        for k, name in enumerate(sines.NAMES):
+            found = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
+            for i, angle in enumerate(angles):
+                self.found[name, angle] = self.put(f"extractelement <{n} x double> {found}, i32 {i}")
 
     def call(self, e: Call) -> str:
         """Print a call of another function."""

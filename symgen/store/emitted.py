@@ -41,9 +41,10 @@ if TYPE_CHECKING:
     from symgen.native.read import Kind
 
 #: Environment variable: "source", the default, for machine code from the source where that can be; "explain" for the
-#: same with a line on standard error for each function that is left to Numba; "numba" for all functions by Numba.
+#: same with a line on standard error for each function that is left to Numba; "libm" for the same with sines of the C
+#: library, one by one, which are Numba's to the last bit; "numba" for all functions by Numba.
 COMPILER = "SYMGEN_COMPILER"
-_COMPILERS = ("source", "explain", "numba")
+_COMPILERS = ("source", "explain", "libm", "numba")
 #: How emitted functions are decorated; with other options a function is Numba's to compile.
 _OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nopython": True, "boundscheck": None}
 #: Functions of up to so many statements are copied into those that call them, if LLVM thinks that good.
@@ -70,6 +71,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
     """A dispatcher that makes machine code from the source of its function, or else as every dispatcher does."""
 
     _origin: Origin | None = None
+    _together = True  # sines and cosines of several angles
     _symbols: dict[tuple[Kind, ...], str]
     _foreign: set[tuple[Kind, ...]]
 
@@ -98,6 +100,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
             # An object of its own would take as long to make as all else that loading does with a function.
             dispatcher.__class__ = cls
             dispatcher._origin, dispatcher._symbols, dispatcher._foreign = origin, {}, set()
+            dispatcher._together = _compiler() != "libm"
 
     def compile(self, sig: Any) -> Any:
         """Compile a signature, or load it from the cache."""
@@ -147,6 +150,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
     def _key(self, kinds: tuple[Kind, ...]) -> str:
         assert self._origin is not None, "a function of an emitted module"
         parts = (self.__name__, self._origin.stamp, repr(kinds), repr(codegen().magic_tuple()), environment())
+        parts += () if self._together else ("sines one by one",)
         return "\n".join(("from the source", *parts, sources_digest("native")))
 
     def _compile_directly(self, sig: Any) -> None:
@@ -205,7 +209,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
         called = tuple((names[id(f.source)], kinds_of_function(f)) for f in function.called)
         try:
-            code = compiled(module(function, _symbol, _is_short), _symbol(function))
+            code = compiled(module(function, _symbol, _is_short, self._together), _symbol(function))
         except RuntimeError as error:  # an LLVM that does not know the language any more
             return self._leave(str(error))
         counters["misses"] += 1
@@ -229,7 +233,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         """Return the text of a module that holds the function and all it calls."""
         from symgen.native.llvm import module
 
-        return module(self.read(kinds), _symbol, lambda called: True)
+        return module(self.read(kinds), _symbol, lambda called: True, self._together)
 
 
 def _compiler() -> str:

@@ -47,8 +47,12 @@ def by_numba() -> Iterator[None]:
 
 
 def load_twice(path: Path) -> tuple[ModuleType, ModuleType]:
-    """Return a module with functions made from their source, and one with functions compiled by Numba."""
-    direct = load_module(path)
+    """Return a module with functions made from their source, and one with functions compiled by Numba.
+
+    Sines are the C library's in both; those that are taken together are judged by `test_sines`.
+    """
+    with mock.patch.dict(os.environ, {COMPILER: "libm"}):
+        direct = load_module(path)
     with by_numba():
         return direct, load_module(path, f"by_numba.{path.parent.name.replace('.', '_')}.{path.stem}")
 
