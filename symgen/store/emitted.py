@@ -150,8 +150,8 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
     def _key(self, kinds: tuple[Kind, ...]) -> str:
         assert self._origin is not None, "a function of an emitted module"
         parts = (self.__name__, self._origin.stamp, repr(kinds), repr(codegen().magic_tuple()), environment())
-        parts += () if self._together else ("sines one by one",)
-        return "\n".join(("from the source", *parts, sources_digest("native")))
+        sines = () if self._together else ("sines one by one",)
+        return "\n".join(("from the source", *parts, *sines, sources_digest("native")))
 
     def _compile_directly(self, sig: Any) -> None:
         """Enter a result for a signature, if the function is in the language."""
