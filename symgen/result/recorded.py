@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
-from symgen.result.export import PREFIX, SAVED, need
+from symgen.result.export import PREFIX
+from symgen.result.saved import read_saved
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -102,17 +103,7 @@ def read_recorded(option: str, path: Path) -> Recorded:
     InputError
         If there is no such file, or it is none of a result.
     """
-    ending = path.suffix.lower()
-    if ending not in SAVED:
-        raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
-    need(option, *SAVED[ending])
-    if not path.is_file():
-        raise InputError(option, "a file of a result", f"'{path}', which is none")
-    try:
-        return _of_dataset(option, path) if ending == ".nc" else _of_columns(option, path)
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration) as error:
-        why = " ".join(str(error).split())[:80]
-        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
+    return read_saved(option, path, _of_dataset, _of_columns)
 
 
 def _of_dataset(option: str, path: Path) -> Recorded:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError
-from symgen.result.export import SAVED, need
+from symgen.result.saved import read_saved
 from symgen.runtime.last_state import LastState
 
 if TYPE_CHECKING:
@@ -46,19 +46,7 @@ def read_last_state(option: str, path: Path) -> LastState:
     InputError
         If there is no such file, or it is none of a result.
     """
-    ending = path.suffix.lower()
-    if ending not in SAVED:
-        raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
-    need(option, *SAVED[ending])
-    if not path.is_file():
-        raise InputError(option, "a file of a result", f"'{path}', which is none")
-    try:
-        return _of_dataset(option, path) if ending == ".nc" else _of_columns(_last_row(path))
-    except InputError:
-        raise
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration) as error:
-        why = " ".join(str(error).split())[:80]
-        raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None
+    return read_saved(option, path, _of_dataset, lambda _, path: _of_columns(_last_row(path)))
 
 
 def _of_dataset(option: str, path: Path) -> LastState:
