@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -173,8 +174,11 @@ class Assembly:
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, _START] == e.OPEN):
             joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
-            squares = np.bincount([joints.index(row.joint) for row in info.rows], residual**2)
-            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(squares), np.sqrt(squares.max())
+            open_by = {name: list[float]() for name in joints}
+            for row, x in zip(info.rows, residual.tolist(), strict=True):
+                open_by[row.joint].append(x)
+            sizes = [math.hypot(*values) for values in open_by.values()]  # squares may overflow
+            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(sizes), max(sizes)
         if self.strict:
             good = summaries[:, _START] == e.ASSEMBLED
             moved = good & (summaries[:, _MOVED] > 0.0) & (not len(self.layout.held))

@@ -134,6 +134,12 @@ def test_what_cannot_be_assembled_names_the_joint_and_the_gap(name, path, value,
     assert caught.value.exit_code == 2
 
 
+def test_a_gap_whose_square_overflows_is_named_without_a_warning():
+    """Warnings are errors in the tests; the gap of joint O is |x + 0.5| m, whose square no number holds."""
+    with pytest.raises(AssemblyError, match=r"joint 'O' stays open by 3e\+302 m or rad"):
+        start_of(changed("spherical-double-pendulum", "bodies", "upper", "position", [-3e302, 0.0, 0.0]))
+
+
 def test_velocities_that_no_motion_has_are_an_error():
     description = changed("four-bar", "joints", "motor", {"type": "driver", "joint": "A", "value": "pi/3 + 2*t"})
     description["joints"]["second"] = {"type": "driver", "joint": "D", "value": "1.8938968124057762 - 5*t"}
