@@ -178,6 +178,7 @@ def _mixed(items: Iterable[Line | Block]) -> list[str]:
 
 def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
     found = [r"\section*{Nomenclature}"]
+    notes = {p.name: f", {p.note}" for p in sheet.mechanism.parameters if p.note}
     for title, quantities in sheet.quantities():
         if not quantities:
             continue
@@ -188,7 +189,8 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
         for quantity in quantities:
             value = f"{values[quantity.name]:.6g}" if title == "Parameters" else ""
             symbol = latex(name(quantity.name))
-            found.append(rf"${symbol}$ & \raggedright {_words(quantity.name)} & {_words(quantity.unit)} & {value} \\")
+            told = _words(quantity.name + notes.get(quantity.name, ""))
+            found.append(rf"${symbol}$ & \raggedright {told} & {_words(quantity.unit)} & {value} \\")
         found.append(r"\end{longtable}")
     return found
 
