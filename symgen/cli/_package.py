@@ -184,8 +184,8 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             "    python simulate.py [METHOD [UNTIL [STEP]]]",
             "",
             f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. `Run` in"
-            " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for states taken. The"
-            " start closes the mechanism with the parameters that stand there; with others it has to be generated anew.",
+            " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states."
+            " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
         ]
     )

@@ -147,9 +147,11 @@ def write_page(
     model = load(name)
     check_size(model.mechanism)
     mechanism, choice, q = model.mechanism, choose_method(method or "direct-correction", options), None
+    compiled, begins = None, None
     try:
         started = Started.of(model, method, options, parameters, shape, coordinates)
         mechanism, choice, start, q = started.mechanism, started.choice, started.start, started.bodies
+        compiled, begins = started.compiled, start
         free = len(start.y) - 1 - started.compiled.info.nq - start.rank
         degrees = f"{free} degree{'' if free == 1 else 's'} of freedom"
         facts = [f"At the start D has rank {start.rank}: {degrees}.", *start.notes]
@@ -169,6 +171,8 @@ def write_page(
         q=q,
         facts=facts,
         text=text_of(name),
+        compiled=compiled,
+        start=begins,
     )
     written = write_whole(path, page(subject))
     click.echo(f"{written}  {written.stat().st_size} bytes")
