@@ -117,7 +117,7 @@ def write_document(
     values = model.parameters(parameters)
     found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
-    steps = law(method or "direct-correction", options)
+    steps = law(method or "direct-correction", options, found.derived.driving is not None)
     return document(found.mechanism, found.derived, steps, values, wanted)
 
 
@@ -161,12 +161,13 @@ def write_page(
             facts.append(f"Coordinates: {started.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
+    equations = formulate(mechanism)
     subject = Subject(
         whole=model.mechanism,
         mechanism=mechanism,
-        equations=formulate(mechanism),
+        equations=equations,
         choice=choice,
-        law=law(choice.method.name, choice.options),
+        law=law(choice.method.name, choice.options, equations.driving is not None),
         values=model.parameters(parameters),
         q=q,
         facts=facts,

@@ -20,6 +20,7 @@ from symgen.player.page import rates_script
 from symgen.reading.boxes import Box, name, row, sign
 from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
 from symgen.reading.law import Law
+from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
 from symgen.reading.sheet import Sheet
 from symgen.reading.source import Computed, computed, sections
@@ -192,8 +193,8 @@ class _Page:
             section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
-            section("file", "File", self._file()),
-            section("code", "Emitted code", self._code(listed)),
+            section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
+            section("code", "Emitted code", [_TOLD, *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
@@ -245,10 +246,11 @@ class _Page:
         found = []
         for title, quantities in self.sheet.quantities():
             if quantities:
-                lines = [["symbol", "name", "unit", "value"]] if title == "Parameters" else [["symbol", "name", "unit"]]
+                numbers = title in ("Parameters", "Inputs")
+                lines = [["symbol", "name", "unit", *(["value"] if numbers else [])]]
                 for quantity in quantities:
                     letter = math(name(quantity.name))
-                    value = [f"{self.subject.values[quantity.name]:.6g}"] if title == "Parameters" else []
+                    value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
                 found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
         return found
@@ -261,7 +263,9 @@ class _Page:
             links.append(f'<a href="#file-{place}">in the file, line {place}</a>')
         parts = [f"<p>{' · '.join(links)}</p>"]
         if not rows:
-            parts.append("<p>It carries a body in the tree: it has no rows.</p>")
+            prescribed = self.sheet.prescribed().get(joint.name)
+            told = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
+            parts.append(f"<p>{escape(told)}: it has no rows.</p>")
         phi = {line.key: line for line in self.sheet.phi(rows)}
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
@@ -309,7 +313,7 @@ class _Page:
             ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
             ("forces f; those not written are zero", equations(sheet.forces()) or "f = 0"),
-            ("energies, and the power of forces without potential", equations(sheet.energies())),
+            (_POWER if self.e.driving else _POWER.partition(";")[0], equations(sheet.energies())),
         ]
         found += [fold(title, text) for title, text in parts]
         shared = sheet.shared(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
@@ -349,6 +353,13 @@ class _Page:
             fold("by emitted function", table(blocks, numbers=2), True),
         ]
 
+    def _code(self, listed: frozenset[str]) -> list[str]:
+        if "model" in listed:
+            back = {c.line: c for found in self.computed.values() for c in found}
+            return code_listing(self.source, self.parts, listed, back)
+        size = len(self.source) + sum(map(len, self.parts.values()))
+        return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
+
     def _left_out(self) -> list[str]:
         found = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
         return (
@@ -357,47 +368,9 @@ class _Page:
             else ["<p>Nothing.</p>"]
         )
 
-    def _file(self) -> list[str]:
-        if not self.subject.text:
-            return ["<p>No file describes this mechanism, or one too long to show.</p>"]
-        back = {number: name for name, number in self.places.items() if name.startswith("joints.")}
-        lines = []
-        for number, line in enumerate(self.subject.text.splitlines(), 1):
-            name = back.get(number, "").removeprefix("joints.")
-            if name and any(joint.name == name for joint in self.subject.mechanism.joints):
-                lines.append(
-                    f'<span id="file-{number}">{escape(line)}  <a href="#rows-{attribute(name)}">rows</a></span>'
-                )
-            else:
-                lines.append(escape(line))
-        return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
-
-    def _code(self, listed: frozenset[str]) -> list[str]:
-        size = len(self.source) + sum(map(len, self.parts.values()))
-        if "model" not in listed:
-            left_out = (
-                f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"
-            )
-            return [_TOLD, left_out]
-        back: dict[int, Computed] = {c.line: c for found in self.computed.values() for c in found}
-        lines = []
-        for number, line in enumerate(self.source.splitlines(), 1):
-            c = back.get(number)
-            if c is None:
-                lines.append(escape(line))
-            else:
-                back_to = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
-                text = f"{escape(line.partition('  # ')[0])}  {back_to}"
-                lines.append(f'<span id="line-{number}">{text}</span>')
-        found = [_TOLD, fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
-        for stem, source in self.parts.items():
-            head = f"module {escape(stem)}, {source.count(chr(10))} lines"
-            shown = f"<pre>{escape(source)}</pre>" if stem in listed else small("Left out, for the size of this page.")
-            found.append(fold(head, shown))
-        return found
-
 
 _OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the rates of a state; y0 is the start's."
+_POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _MOTION = row(
     *(Box("name", text="M", width=1.0), Box("dot", (Box("name", text="v", width=1.0),), width=1.0), sign("+")),

@@ -91,6 +91,25 @@ def test_a_name_that_is_taken_is_left_to_its_owner():
     assert "l_2" in found["parameters"]
 
 
+def test_drivers_without_rows_are_said_and_numbers_stay_apart(capsys):
+    text = document(capsys, "driven-four-bar", "--coordinates", "joint", "--select", "nomenclature,energies,law")
+    assert "motor has no row: it prescribes A." in text and r"b \dot {v} + c" in text
+    assert not re.search(r"[0-9.]+ [0-9.]+ \\", text.partition("Energies")[2])
+    assert r"2.5 \cdot 9.81 \sin" in text
+
+
+def test_nonholonomic_rows_are_said(capsys):
+    assert re.search(r"Nonholonomic.*contact", document(capsys, "rolling-disc", "--select", "nu"))
+    assert "Nonholonomic" not in document(capsys, "four-bar", "--select", "nu")
+
+
+def test_inputs_are_no_parameters(capsys):
+    text = document(capsys, "cart-pole", "--select", "nomenclature")
+    assert r"\subsection*{Inputs}" in text
+    parameters, _, inputs = text.partition(r"\subsection*{Inputs}")
+    assert "force, beside" not in parameters and "force, beside" in inputs
+
+
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [

@@ -89,6 +89,12 @@ def test_joint_coordinates_have_their_tree(tmp_path):
     assert "It carries a body in the tree: it has no rows." in text
 
 
+def test_drivers_without_rows_are_said(tmp_path):
+    text, _ = page_of("driven-four-bar", tmp_path, "--coordinates", "joint")
+    assert "It prescribes A.angle = crank_start + crank_speed*t: it has no rows." in text
+    assert "that of drivers without rows" in text
+
+
 def test_text_of_a_file_is_text(tmp_path):
     path = tmp_path / "evil.toml"
     path.write_text(
