@@ -137,7 +137,7 @@ def write_page(
     from symgen.files import check_writable, write_whole
     from symgen.formulate.formulate import formulate
     from symgen.reading.law import law
-    from symgen.reading.page import Subject, check_size, page
+    from symgen.reading.page import MOST_STRAIGHT, Subject, check_size, page
     from symgen.reading.source import text_of
 
     path = Path(output)
@@ -146,6 +146,9 @@ def write_page(
     check_writable("inspect: -o", path)
     model = load(name)
     check_size(model.mechanism)
+    speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
+    if shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
+        shape = "straight"
     mechanism, choice, q = model.mechanism, choose_method(method or "direct-correction", options), None
     compiled, begins = None, None
     try:

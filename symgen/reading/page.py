@@ -38,6 +38,8 @@ LARGEST = 2_000_000
 MOST_ROWS = 1500
 #: Where the right-hand side is put, and what is said of it [with so many bytes at most]: text of files is escaped.
 _RATES, _TOLD, _SPARE = "<!--rates-->", "<!--told-->", 1000
+#: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
+MOST_STRAIGHT = 150
 #: Shared terms that stand together.
 _TOGETHER = 25
 #: Matrices up to this size are shown whole.

@@ -64,7 +64,7 @@ def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium,
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
     """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
-    started = Started.of(load(name), "direct-correction", {}, {}, "auto", coordinates)
+    started = Started.of(load(name), "direct-correction", {}, {}, "straight", coordinates)
     law, start, info = started.compiled.law_module, started.start, started.compiled.info
     plain, random = plainly_python(law.rhs), np.random.default_rng(3)
     states, expected, plainly = [], [], []
