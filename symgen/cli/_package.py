@@ -22,52 +22,71 @@ _SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight"
 _OURS = {"start.json": '"step_at"', "simulate.py": "Written by symgen", "__init__.py": "Written by symgen"}
 _OURS |= {"README.md": "Written by symgen"}
 
-_SIMULATE = '''"""Simulate this mechanism: python simulate.py [METHOD [UNTIL [STEP]]]. Written by symgen.
+_PACKAGE = '''"""Emitted code of `MECHANISM`, and a consistent start; see README.md. Written by symgen."""
 
-Needs numpy and numba alone.
-"""
-
-import importlib
 import json
-import sys
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
-HERE = Path(__file__).resolve().parent
-START = json.loads((HERE / "start.json").read_text(encoding="utf-8"))
+_HERE = Path(__file__).resolve().parent
+START = json.loads((_HERE / "start.json").read_text(encoding="utf-8"))
 
 
-def simulate(method=START["method"], until=START["until"], step=START["step"]):
-    """Return times and states (q, v, work) of a run with the classical Runge-Kutta scheme and constant steps."""
-    sys.path.insert(0, str(HERE.parent))
-    model, law = (importlib.import_module(f"{HERE.name}.{stem}") for stem in ("model", method))
-    told = json.loads((HERE / f"{method}.json").read_text(encoding="utf-8"))
-    own, first = [default for _, default in told["parameters"]], told["parameter_offset"]
-    p = np.zeros(first + len(own) + told["hoisted"])
-    p[: len(START["parameters"])], p[first : first + len(own)] = list(START["parameters"].values()), own
-    model.prepare(p), law.prepare(p)
-    y, w, iw, k = np.array(START["y"]), np.zeros(told["nw"]), np.zeros(START["counters"], np.int64), {}
-    for at, numbers in START["w"].values():
-        w[at : at + len(numbers)] = [float(number) for number in numbers]
-    law.accept(0.0, y, p, w, iw)
-    times, states, w[START["step_at"]] = [0.0], [y.copy()], step
-    for i in range(round(until / step)):
-        for stage, share in enumerate((0.0, 0.5, 0.5, 1.0)):
-            x = y + share * step * k[stage - 1] if stage else y.copy()
-            t, k[stage] = (i + share) * step, np.zeros(len(y))
-            if law.rhs(t, x, p, w, iw, k[stage]):  # a pivot is suspicious: which rows depend on others is decided anew
-                law.confirm(t, x, p, w, iw, k[stage])
-        y += step / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3])
-        if law.accept((i + 1) * step, y, p, w, iw) & 1:
-            raise ArithmeticError(f"the state at t = {(i + 1) * step} cannot be corrected")
-        times.append((i + 1) * step), states.append(y.copy())
-    return np.array(times), np.array(states)
+class Run:
+    """A method of this mechanism at its start: `y` holds q, v and the work, `p` parameters, `w` and `iw` scratch."""
 
+    def __init__(self, method=START["method"], step=START["step"]):
+        told = json.loads((_HERE / f"{method}.json").read_text(encoding="utf-8"))
+        model, self.law = (import_module(f".{stem}", __name__) for stem in ("model", method))
+        values, defaults = list(START["parameters"].values()), [default for _, default in told["parameters"]]
+        first = told["parameter_offset"]
+        self.p = np.zeros(first + len(defaults) + told["hoisted"])
+        self.p[: len(values)], self.p[first : first + len(defaults)] = values, defaults
+        model.prepare(self.p)
+        self.law.prepare(self.p)
+        self.w, self.iw = np.zeros(told["nw"]), np.zeros(START["counters"], np.int64)
+        for at, numbers in START["w"].values():
+            self.w[at : at + len(numbers)] = [float(number) for number in numbers]
+        self.y = self.corrected(0.0, np.array(START["y"]))
+        self.w[START["step_at"]] = step
 
-if __name__ == "__main__":
-    times, states = simulate(*sys.argv[1:2], *map(float, sys.argv[2:4]))
-    print(json.dumps({"t": times[-1], **dict(zip(START["names"], states[-1].tolist()))}, indent=1))
+    def rate(self, t, y):
+        """Return the rate of a state."""
+        y, ydot = np.array(y), np.zeros(len(y))
+        if self.law.rhs(t, y, self.p, self.w, self.iw, ydot):  # a pivot is suspicious: rows are chosen anew
+            self.law.confirm(t, y, self.p, self.w, self.iw, ydot)
+        return ydot
+
+    def corrected(self, t, y):
+        """Return a state that is taken, corrected as the method does."""
+        y = np.array(y)
+        if self.law.accept(t, y, self.p, self.w, self.iw) & 1:
+            raise ArithmeticError(f"the state at t = {t} cannot be corrected")
+        return y
+'''
+
+_SIMULATE = '''"""Simulate this mechanism: python simulate.py [METHOD [UNTIL [STEP]]]. Written by symgen."""
+import json, pathlib, sys  # the package needs numpy and numba, and nothing else
+here = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(here.parent))
+package = __import__(here.name)
+
+def simulate(method=package.START["method"], until=package.START["until"], h=package.START["step"]):
+    """Return times and states (q, v, work) of a run by the classical Runge-Kutta scheme with steps h."""
+    run = package.Run(method, h)
+    states = [(0.0, run.y)]
+    for i in range(1, round(until / h) + 1):
+        t, y = states[-1]
+        k1 = run.rate(t, y)
+        k2 = run.rate(t + h / 2, y + h / 2 * k1)
+        k3 = run.rate(t + h / 2, y + h / 2 * k2)
+        k4 = run.rate(t + h, y + h * k3)
+        states.append((i * h, run.corrected(i * h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))))
+    return states
+t, y = simulate(*sys.argv[1:2], *map(float, sys.argv[2:4]))[-1]
+print(json.dumps({"t": t, **dict(zip(package.START["names"], y.tolist()))}, indent=1))
 '''
 
 
@@ -108,7 +127,8 @@ def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> 
         except AssemblyError as error:
             why = harmless(error)
     name = harmless(model.name)
-    files["__init__.py"] = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
+    bare = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
+    files["__init__.py"] = _PACKAGE.replace("MECHANISM", name) if "start.json" in files else bare
     files["README.md"] = _readme(model, explicit, why if "start.json" not in files else "")
     return files
 
@@ -163,8 +183,9 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             *lines,
             "    python simulate.py [METHOD [UNTIL [STEP]]]",
             "",
-            f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. The start"
-            " closes the mechanism with the parameters that stand there; with others it has to be generated anew.",
+            f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. `Run` in"
+            " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states."
+            " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
         ]
     )

@@ -117,7 +117,7 @@ def write_document(
     values = model.parameters(parameters)
     found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
-    steps = law(method or "direct-correction", options)
+    steps = law(method or "direct-correction", options, found.derived.driving is not None)
     return document(found.mechanism, found.derived, steps, values, wanted)
 
 
@@ -137,7 +137,7 @@ def write_page(
     from symgen.files import check_writable, write_whole
     from symgen.formulate.formulate import formulate
     from symgen.reading.law import law
-    from symgen.reading.page import Subject, check_size, page
+    from symgen.reading.page import MOST_STRAIGHT, Subject, check_size, page
     from symgen.reading.source import text_of
 
     path = Path(output)
@@ -146,10 +146,15 @@ def write_page(
     check_writable("inspect: -o", path)
     model = load(name)
     check_size(model.mechanism)
+    speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
+    if shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
+        shape = "straight"
     mechanism, choice, q = model.mechanism, choose_method(method or "direct-correction", options), None
+    compiled, begins = None, None
     try:
         started = Started.of(model, method, options, parameters, shape, coordinates)
         mechanism, choice, start, q = started.mechanism, started.choice, started.start, started.bodies
+        compiled, begins = started.compiled, start
         free = len(start.y) - 1 - started.compiled.info.nq - start.rank
         degrees = f"{free} degree{'' if free == 1 else 's'} of freedom"
         facts = [f"At the start D has rank {start.rank}: {degrees}.", *start.notes]
@@ -159,16 +164,19 @@ def write_page(
             facts.append(f"Coordinates: {started.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
+    equations = formulate(mechanism)
     subject = Subject(
         whole=model.mechanism,
         mechanism=mechanism,
-        equations=formulate(mechanism),
+        equations=equations,
         choice=choice,
-        law=law(choice.method.name, choice.options),
+        law=law(choice.method.name, choice.options, equations.driving is not None),
         values=model.parameters(parameters),
         q=q,
         facts=facts,
         text=text_of(name),
+        compiled=compiled,
+        start=begins,
     )
     written = write_whole(path, page(subject))
     click.echo(f"{written}  {written.stat().st_size} bytes")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -89,7 +89,37 @@ def live_part(mechanism: Mechanism, compiled: CompiledModel, start: Start, step:
     return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint)), ""
 
 
-def emitted(compiled: CompiledModel) -> str:
+def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]:
+    """Return the right-hand side alone, for pages that show no motion, or nothing and why there is none.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Code for one method.
+    start : Start
+        Parameters, and what a start settles.
+
+    Returns
+    -------
+    list of Live, str
+        Whole; then without the function that decides anew which rows depend on others, half as long, which gives no
+        numbers where that would be needed.
+    """
+    if compiled.shape != "straight":
+        return [], "the code of a run is looped"
+    if not hasattr(compiled.law_module, "rhs"):
+        return [], "the method has none"
+    spec, found = _rates_spec(compiled, start), list[Live]()
+    try:
+        for names in (("rhs", "confirm", "masses"), ("rhs", "masses")):
+            code = HELPERS + emitted(compiled, names)
+            found.append(Live(code, {**spec, "partial": "confirm" not in names}))
+    except Foreign as error:
+        return [], f"its code has {error}"
+    return (found if len(found[1].code) < len(found[0].code) else found[:1]), ""
+
+
+def emitted(compiled: CompiledModel, names: Container[str] = (*_LAW, *_MODEL)) -> str:
     """Return the functions of a compiled model that a page calls, as JavaScript.
 
     Raises
@@ -99,10 +129,11 @@ def emitted(compiled: CompiledModel) -> str:
     """
     wanted: dict[str, Any] = {}
     for module, table in ((compiled.law_module, _LAW), (compiled.model, _MODEL)):
-        wanted |= {name: getattr(module, name).read(kinds) for name, kinds in table.items() if hasattr(module, name)}
+        kept = [name for name in table if name in names and hasattr(module, name)]
+        wanted |= {name: getattr(module, name).read(table[name]) for name in kept}
     wanted["prepareModel"] = compiled.model.prepare.read((_A,))
     wanted["prepareLaw"] = compiled.law_module.prepare.read((_A,))
-    if "geometry" not in wanted:
+    if "geometry" in names and "geometry" not in wanted:
         wanted["geometry"] = compiled.model.geometry.read(_LAW["geometry"])
     return javascript(wanted)
 
@@ -143,28 +174,40 @@ def _index(place: str) -> str:
     return place.removeprefix("p[").removesuffix("]")
 
 
-def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool) -> dict[str, Any]:
+def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
+    """Return what a page has to know to evaluate the right-hand side."""
     info = compiled.info
     values = [float(start.p[i]) for i in range(len(info.parameters))]
+    kept = [i for name in _KEPT for i in range(info.sections[name][0], sum(info.sections[name]))]
+    return {
+        "ny": info.ny,
+        "nw": len(start.w),
+        "p0": [float(x) for x in start.p],
+        "w0": [[i, float(start.w[i])] for i in kept if start.w[i] != 0.0 and np.isfinite(start.w[i])],
+        "masked": [i for i in kept if np.isinf(start.w[i])],
+        "parameters": [
+            {"name": q.name, "unit": q.unit, "value": value} for q, value in zip(info.parameters, values, strict=True)
+        ],
+        "method": compiled.law.method,
+    }
+
+
+def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool) -> dict[str, Any]:
+    info, rates = compiled.info, _rates_spec(compiled, start)
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
-    kept = [i for name in _KEPT for i in range(info.sections[name][0], sum(info.sections[name]))]
     return {
+        **rates,
         "nq": info.nq,
         "nv": info.nv,
-        "ny": info.ny,
         "m": info.m,
         "np": len(start.p),
-        "nw": len(start.w),
         "windings": info.windings,
         "joint": joint,
         "nb": sum(len(b.coordinates) for b in mechanism.bodies),
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
-        "p0": [float(x) for x in start.p],
-        "w0": [[i, float(start.w[i])] for i in kept if start.w[i] != 0.0 and np.isfinite(start.w[i])],
-        "masked": [i for i in kept if np.isinf(start.w[i])],
         "lengths": [int(x) for x in lengths_of(info)],
         "angular": [int(x.unit != "m/s") for x in info.velocities],
         "rows": [int(row.unit == "m") for row in info.rows],
@@ -172,13 +215,12 @@ def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: flo
         "at": sections,
         "status": {"length": abi.LENGTH, "first": abi.WINDING},
         "parameters": [
-            {"name": q.name, "unit": q.unit, "value": value, "follows": bool(own.formula)}
-            for q, value, own in zip(info.parameters, values, mechanism.parameters, strict=False)
+            {**told, "follows": bool(own.formula)}
+            for told, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
         "fixed": [] if joint else _fixed(mechanism, compiled),
         "step": step,
-        "method": compiled.law.method,
     }
 
 
@@ -200,4 +242,4 @@ def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     return sorted(found)
 
 
-__all__ = ["Live", "Script", "emitted", "live_part"]
+__all__ = ["Live", "Script", "emitted", "live_part", "rates_parts"]

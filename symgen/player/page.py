@@ -91,7 +91,18 @@ def _script(live: Live | None) -> str:
     wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()
     optional = [name for name in ("confirm", "move", "bodies") if f"function {name}(" in live.code]
     code = f"{live.code}const emitted = {{ {', '.join([*wanted, *optional])} }};\n"
-    return f"(() => {{\n'use strict';\n{code}{_web('live.js')}{own}}})();"
+    return f"(() => {{\n'use strict';\n{code}{_web('rates.js')}{_web('live.js')}{own}}})();"
+
+
+def rates_script(live: Live) -> str:
+    """Return a script that is a function: the rates of a state, given time, state and parameters."""
+    wanted = [
+        name for name in ("confirm", "rhs", "masses", "prepareModel", "prepareLaw") if f"function {name}(" in live.code
+    ]
+    code = f"{live.code}const emitted = {{ {', '.join([*wanted, 'derive: () => {}'])} }};\n"
+    return (
+        f"(() => {{\n'use strict';\n{code}{_web('rates.js')}return makeRates({_json(live.spec)}, emitted).rates;\n}})()"
+    )
 
 
 def scene_data(scene: Scene) -> dict[str, Any]:

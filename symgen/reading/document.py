@@ -20,6 +20,7 @@ SECTIONS = ("nomenclature", "Phi", "D", "nu", "gamma", "N", "M", "f", "energies"
 #: Equations of one environment: TeX keeps it in memory as a whole.
 _TOGETHER = 24
 
+_POWER = r"Energies and power; that of drivers without rows is $b \dot v + c$"
 _HEAD = r"""\documentclass[10pt,a4paper]{article}
 \usepackage[utf8]{inputenc}
 \usepackage{amsmath,amssymb,longtable}
@@ -61,6 +62,8 @@ def document(
     wanted, joints = selected(equations, select)
     sheet = Sheet(mechanism, equations, joints)
     e = equations
+    prescribed = sheet.prescribed()
+    free = ", ".join(_words(r.name) for r in e.rows if r.phi is None)
     kind = "bodies" if mechanism.topology is None else "the joints of a tree"
     parts = [
         _HEAD,
@@ -71,7 +74,9 @@ def document(
         rf"Mechanism \texttt{{{_breakable(mechanism.name)}}} in coordinates of {kind}: {e.nq} coordinates, {e.nv} "
         rf"velocities, {e.m} constraint rows. Its motion follows from",
         r"\[ M \dot v + D^T \lambda = f, \qquad D v = \nu, \qquad D \dot v = \gamma, \qquad \dot q = N v. \]",
-        r"Numbers are rounded to six digits.",
+        *(rf"\par {_words(driver)} has no row: it prescribes {_words(what)}." for driver, what in prescribed.items()),
+        *([rf"\par Nonholonomic, conditions on velocities without $\Phi$: {free}."] if free else []),
+        r"\par Numbers are rounded to six digits.",
     ]
     sections: dict[str, list[str]] = {
         "nomenclature": _nomenclature(sheet, values),
@@ -82,7 +87,7 @@ def document(
         "N": _section(r"Rates of the coordinates $\dot q = N v$", _lines(sheet.rates()) or [r"$\dot q = v$"]),
         "M": _section(r"Mass matrix $M$; what is not written is zero or symmetric", _mixed(sheet.mass())),
         "f": _section(r"Forces $f$", _lines(sheet.forces()) or [r"$f = 0$"]),
-        "energies": _section("Energies and power", _lines(sheet.energies())),
+        "energies": _section(_POWER if e.driving else "Energies and power", _lines(sheet.energies())),
     }
     if not e.m:
         for part in ("Phi", "D", "nu", "gamma"):
@@ -178,6 +183,7 @@ def _mixed(items: Iterable[Line | Block]) -> list[str]:
 
 def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
     found = [r"\section*{Nomenclature}"]
+    notes = {p.name: f", {p.note}" for p in sheet.mechanism.parameters if p.note}
     for title, quantities in sheet.quantities():
         if not quantities:
             continue
@@ -186,9 +192,10 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
             r"\begin{longtable}{@{}p{0.3\textwidth}p{0.36\textwidth}p{0.12\textwidth}r@{}}",
         ]
         for quantity in quantities:
-            value = f"{values[quantity.name]:.6g}" if title == "Parameters" else ""
+            value = f"{values[quantity.name]:.6g}" if title in ("Parameters", "Inputs") else ""
             symbol = latex(name(quantity.name))
-            found.append(rf"${symbol}$ & \raggedright {_words(quantity.name)} & {_words(quantity.unit)} & {value} \\")
+            told = _words(quantity.name + notes.get(quantity.name, ""))
+            found.append(rf"${symbol}$ & \raggedright {told} & {_words(quantity.unit)} & {value} \\")
         found.append(r"\end{longtable}")
     return found
 

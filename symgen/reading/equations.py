@@ -16,8 +16,8 @@ from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError, nearest
 from symgen.formulate.display import Display, latex_name
 from symgen.formulate.formulate import formulate
-from symgen.ir.derivative import jacobian
 from symgen.reading.interpolated import functions
+from symgen.reading.quantities import OF_DRIVERS, QUANTITIES, Entries, nodes_of
 from symgen.reading.structure import shared_terms, structure
 
 if TYPE_CHECKING:
@@ -27,19 +27,6 @@ if TYPE_CHECKING:
 
 #: Quantities with more operations, written out without sharing, are written with shared terms.
 LARGEST = 30_000
-#: What the equations consist of: attribute, LaTeX, words.
-QUANTITIES = {
-    "Phi": (r"\Phi", "constraints, 0 where a row has none"),
-    "D": ("D", "Jacobian, D v = nu"),
-    "nu": (r"\nu", "right-hand side of the velocity constraints"),
-    "gamma": (r"\gamma", "right-hand side of the acceleration constraints, D v' = gamma"),
-    "N": ("N", "kinematic map, q' = N v"),
-    "M": ("M", "mass matrix"),
-    "f": ("f", "forces, M v' + D^T lambda = f"),
-    "T": ("T", "kinetic energy"),
-    "V": ("V", "potential energy"),
-    "power": ("P", "power of the forces without potential"),
-}
 
 
 @dataclass(frozen=True)
@@ -47,8 +34,9 @@ class SymbolicEquations:
     """Equations of motion of a mechanism as SymPy matrices and symbols with the names of the file.
 
     ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v``; `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and
-    `power` are made when they are first asked for. Quantities with more than `LARGEST` operations are written with
-    shared terms, whose meaning stands in `definitions`; `notes` says which.
+    `power` are made when they are first asked for, in coordinates of joints also `b` and `c`. Quantities with
+    more than `LARGEST` operations are written with shared terms, whose meaning stands in `definitions`; `notes` says
+    which.
 
     Parameters
     ----------
@@ -163,8 +151,23 @@ class SymbolicEquations:
         """Power of the forces without potential [W]; that of drivers of prescribed coordinates is no part of it."""
         return self._matrix("power")[0, 0]
 
+    @cached_property
+    def b(self) -> Any:
+        """What v' is multiplied by in the power of the drivers that prescribe coordinates, b v' + c; shape (1, nv)."""
+        return self._matrix("b")
+
+    @cached_property
+    def c(self) -> Any:
+        """The power of the drivers that prescribe coordinates where v' is 0 [W]; 0 without such drivers."""
+        return self._matrix("c")[0, 0]
+
+    @cached_property
+    def _quantities(self) -> tuple[str, ...]:
+        """Names of the quantities; of those of drivers only where there are some."""
+        return tuple(k for k in QUANTITIES if self.derived.driving is not None or k not in OF_DRIVERS)
+
     def quantity(self, name: str) -> Any:
-        """Return one of `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V` and `power` by its name.
+        """Return one of `Phi`, `D`, `nu`, `gamma`, `N`, `M`, `f`, `T`, `V`, `power`, `b` and `c` by its name.
 
         Raises
         ------
@@ -186,13 +189,13 @@ class SymbolicEquations:
     @cached_property
     def definitions(self) -> Mapping[Any, Any]:
         """What the names of shared terms stand for, by symbol, each written with earlier ones; empty without any."""
-        used = QUANTITIES if self.sharing else [name for name in QUANTITIES if self._is_large(name)]
+        used = self._quantities if self.sharing else [name for name in self._quantities if self._is_large(name)]
         return MappingProxyType(self._definitions([n for name in used for *_, n in self.nodes[name][1]]))
 
     @cached_property
     def notes(self) -> tuple[str, ...]:
         """A sentence about each quantity that is written with shared terms because it would be too large."""
-        large = [] if self.sharing else [name for name in QUANTITIES if self._is_large(name)]
+        large = [] if self.sharing else [name for name in self._quantities if self._is_large(name)]
         return tuple(
             f"{name} would have {self._size(name)} operations written out, more than {LARGEST}: it is written with "
             "shared terms, see definitions"
@@ -279,7 +282,7 @@ class SymbolicEquations:
         """
         from symgen.reading.law import law
 
-        return law(method, options)
+        return law(method, options, self.derived.driving is not None)
 
     # -- writing ---------------------------------------------------------------------------------------------------
 
@@ -289,7 +292,7 @@ class SymbolicEquations:
         Lines are as long as they are: a document with broken lines is what ``symgen inspect --document`` writes.
         """
         lines = []
-        for name in names or QUANTITIES:
+        for name in names or self._quantities:
             lines.append(f"{QUANTITIES.get(name, (name,))[0]} = {self._latex(self.quantity(name))}")
         lines += [f"{self._latex(symbol)} = {self._latex(value)}" for symbol, value in self._of(names).items()]
         return " \\\\\n".join(lines)
@@ -307,8 +310,8 @@ class SymbolicEquations:
         e = self.derived
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, in {self.coordinates} coordinates"
         parts = [f"<p><b>{escape(e.name)}</b>: {escape(sizes)}</p>"]
-        for name, (_, words) in QUANTITIES.items():
-            count = self._size(name)
+        for name in self._quantities:
+            words, count = QUANTITIES[name][1], self._size(name)
             head = f"<summary><code>{name}</code>: {escape(words)}, {count} operations</summary>"
             text = f"$$\\begin{{gathered}}{self.latex(name)}\\end{{gathered}}$$" if count <= 400 else "too long to show"
             parts.append(f"<details>{head}{escape(text)}</details>")
@@ -321,29 +324,9 @@ class SymbolicEquations:
     # -- from nodes ------------------------------------------------------------------------------------------------
 
     @cached_property
-    def nodes(self) -> Mapping[str, tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]]:
+    def nodes(self) -> Mapping[str, Entries]:
         """For each quantity its shape, and row, column and node of its entries."""
-        e = self._written
-        rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
-        zero = e.graph.zero
-
-        def column(found: Iterable[int]) -> tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]:
-            listed = list(found)
-            return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
-
-        mass = (
-            (i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns)
-        )
-        return {
-            "Phi": column(zero if row.phi is None else row.phi for row in e.rows),
-            "D": ((e.m, e.nv), tuple((i, j, node) for i, row in enumerate(e.rows) for j, node in row.entries)),
-            "nu": column(row.nu for row in e.rows),
-            "gamma": column(row.gamma for row in e.rows),
-            "N": ((e.nq, e.nv), tuple((i, j, n) for i, row in enumerate(rates) for (_, j), n in sorted(row.items()))),
-            "M": ((e.nv, e.nv), tuple(mass)),
-            "f": column(e.forces),
-            **{k: column([n]) for k, n in (("T", e.kinetic), ("V", e.potential), ("power", e.power))},
-        }
+        return nodes_of(self._written)
 
     @cached_property
     def _plain(self) -> Display:
@@ -383,7 +366,7 @@ class SymbolicEquations:
 
     def _of(self, names: Iterable[str]) -> Mapping[Any, Any]:
         """Return the definitions that quantities need; of all unless some are named."""
-        used = [name for name in names or QUANTITIES if self.sharing or self._is_large(name)]
+        used = [name for name in names or self._quantities if self.sharing or self._is_large(name)]
         return self._definitions([n for name in used for *_, n in self.nodes[name][1]])
 
     def _latex(self, expression: Any) -> str:

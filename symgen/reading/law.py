@@ -115,7 +115,7 @@ class Law:
         return "\n".join(lines)
 
 
-def law(method: str, options: Mapping[str, str] | None = None) -> Law:
+def law(method: str, options: Mapping[str, str] | None = None, driven: bool = False) -> Law:
     """Return the law of a method as steps.
 
     Parameters
@@ -124,6 +124,8 @@ def law(method: str, options: Mapping[str, str] | None = None) -> Law:
         Name of the method.
     options : mapping, optional
         Its structural options; defaults are filled in.
+    driven : bool
+        Whether drivers prescribe coordinates, so that they work where there is no row: b v' + c.
 
     Raises
     ------
@@ -132,7 +134,7 @@ def law(method: str, options: Mapping[str, str] | None = None) -> Law:
     """
     found = METHODS.get(method, "law")
     complete = found.complete_options(options or {})
-    record = record_law(found, complete)
+    record = record_law(found, complete, driven)
     steps = [step for part in record.parts for step in _Reader(record, part).steps()]
     return Law(found.name, found.summary, record.form, complete, tuple(steps))
 
@@ -153,9 +155,12 @@ class _Reader:
             for operand in self.operations[index].operands:
                 uses[operand] = uses.get(operand, 0) + 1
         places = {index: _place(place) for place, index in self.part.outputs}
-        letters = iter("xyzabcdeghijklnoprsu")
+        ends_as: dict[int, Box] = {}
+        letters = iter("xyzadeghijklnoprsu")
         for index in order:
             operation = self.operations[index]
+            if operation.kind == "driving":  # works with the rate as it is called, not as it is computed
+                self.known |= {i: places[i] for i in operation.operands if i in places}
             box = self._box(operation)
             if operation.kind == "solve":
                 unknown = places.get(index) or (name("lambda") if operation.size == "m" else name(next(letters)))
@@ -166,10 +171,10 @@ class _Reader:
                 short = name(next(letters))
                 self._add(short, box)
                 box = short
-            self.known[index] = box
+            self.known[index] = ends_as[index] = box
         for place, index in self.part.outputs:
             if self.operations[index].kind != "solve":
-                self._add(_place(place), self.known[index])
+                self._add(_place(place), ends_as[index])
         return self.found
 
     def _add(self, left: Box, right: Box, solved: bool = False) -> None:
@@ -216,6 +221,8 @@ def _times(*boxes: Box) -> Box:
 
 
 _D, _M, _G = name("D"), name("M"), name("G")
+#: The identity of bodies' velocities u = B v + b, pulled back to those of the state.
+_BODIES = row(transposed(name("B")), name("B"))
 _FORMS: dict[str, Callable[..., Box]] = {
     "neg": lambda x: row(sign("-"), _factor(x)),
     "mul": lambda a, b: _times(a, b),
@@ -241,13 +248,17 @@ _FORMS: dict[str, Callable[..., Box]] = {
     "rank": lambda: row(_D, _G, transposed(_D)),
     "weighted_mass": lambda r: row(_D, _inverse(_M), transposed(_D)),
     "weighted_identity": lambda r: row(_D, transposed(_D)),
+    "weighted_body": lambda r: row(_D, _inverse(bracket(_BODIES)), transposed(_D)),
+    "body_entries": lambda: _BODIES,
+    "body_inverse": lambda x: _times(_inverse(bracket(_BODIES)), x),
     "weighted_dependent": lambda r: row(_D, name("P"), _G, transposed(_D)),
     "geometry": lambda r: row(name("Phi"), sign(","), name("nu"), sign(","), _D),
     "gauged": lambda x: _times(_G, x),
     "partition_quality": lambda a, b: over(call("det", [b]), call("det", [a])),
     "zeros": lambda: number(0.0),
     "power": lambda: name("P"),
-    "at_velocity": lambda x, v: row(x, sign("|"), v),
+    "driving": lambda a: row(name("b"), _factor(a), sign("+"), name("c")),
+    "at_velocity": lambda x, v: row(_factor(x), sign("|"), v),
     "mass_rate": lambda x, v: row(dot(_M), _factor(x)),
     "constraint_rate_transposed": lambda y, v: row(transposed(dot(_D)), _factor(y)),
     "flag": lambda: name("flag"),

@@ -8,54 +8,89 @@ from typing import Any
 #: Keys whose numbers are lengths, by section; directions, angles and masses are left.
 _KEYS = {
     "bodies": ("points", "centre_of_mass"),
-    "joints": ("at", "length", "radius", "radii", "offset", "centre", "on"),
+    "joints": ("at", "length", "radius", "radii", "offset", "pitch", "centre", "on"),
     "forces": ("at", "free_length"),
 }
+_AXES, _WHEELS = ("x", "y", "z"), ("first", "second", "third")
 
 
 def with_symbols(raw: Mapping[str, Any]) -> dict[str, Any]:
     """Return a description in which each length that is a number is a parameter ``l_1``, ``l_2``, ... of its value.
 
-    Numbers of one magnitude have one symbol. The equations derived from it are those of the file with names in place
-    of numbers.
+    A symbol belongs to the place where its number stands, in the order of the file, and says so in its note: two
+    lengths that happen to have one value have two symbols. Only a point of a body that several joints or forces write
+    with the same coordinates is one point. Zeros stay zeros, and a negative number is the symbol of its magnitude with
+    a sign. The equations derived from it are those of the file with names in place of numbers.
 
     Parameters
     ----------
     raw : mapping
         The tables of a file, not yet validated.
     """
-    known: dict[float, str] = {}
     parameters = raw.get("parameters", {})
-    taken = set(parameters) if isinstance(parameters, Mapping) else set()
-
-    def symbol(value: float) -> str:
-        size = abs(float(value))
-        if size not in known:
-            number = len(known) + 1
-            while f"l_{number}" in taken:
-                number += 1
-            known[size] = f"l_{number}"
-            taken.add(known[size])
-        return known[size] if value > 0 else f"-{known[size]}"
-
-    def replaced(value: Any) -> Any:
-        if isinstance(value, Mapping):
-            return {key: replaced(part) for key, part in value.items()}
-        if isinstance(value, list):
-            return [replaced(part) for part in value]
-        is_length = isinstance(value, int | float) and not isinstance(value, bool) and value != 0
-        return symbol(value) if is_length else value
-
+    if not isinstance(parameters, Mapping):
+        return dict(raw)  # what is wrong with it is said where it is read
+    symbols = _Symbols(parameters)
     found = dict(raw)
     for section, keys in _KEYS.items():
         tables = raw.get(section)
         if isinstance(tables, Mapping):
             found[section] = {
-                name: {key: replaced(value) if key in keys else value for key, value in table.items()}
-                if isinstance(table, Mapping)
-                else table
+                name: symbols.table(table, keys, f"{section}.{name}") if isinstance(table, Mapping) else table
                 for name, table in tables.items()
             }
-    if known and isinstance(parameters, Mapping):
-        found["parameters"] = {**parameters, **{n: {"value": size, "unit": "m"} for size, n in known.items()}}
+    if symbols.given:
+        found["parameters"] = {**parameters, **symbols.given}
     return found
+
+
+class _Symbols:
+    """The symbols given so far: parameters as a file has them."""
+
+    def __init__(self, taken: Mapping[str, Any]) -> None:
+        self.taken = taken
+        self.given: dict[str, dict[str, Any]] = {}
+        self._points: dict[tuple[str, tuple[float, ...]], Any] = {}
+
+    def table(self, table: Mapping[str, Any], keys: tuple[str, ...], place: str) -> dict[str, Any]:
+        """Return a body, joint or force with symbols."""
+        found = dict(table)
+        for key in keys:
+            angle = key == "offset" and "ratio" in table  # of a gear
+            if key in table and not angle:
+                where = f"{place}.{key}"
+                found[key] = self._at(table, where) if key == "at" else self._value(table[key], where)
+        return found
+
+    def _at(self, table: Mapping[str, Any], place: str) -> Any:
+        """Return one point, or one for each of two bodies."""
+        at, bodies = table["at"], table.get("between")
+        if not isinstance(bodies, list) or not isinstance(at, list):
+            return self._point(at, table.get("body"), place)
+        return [self._point(part, body, f"{place}.{body}") for part, body in zip(at, bodies, strict=False)] + at[2:]
+
+    def _point(self, point: Any, body: Any, place: str) -> Any:
+        if not isinstance(point, list) or not all(map(_is_number, point)) or not isinstance(body, str):
+            return self._value(point, place)
+        key = body, tuple(map(float, point))
+        if key not in self._points:
+            self._points[key] = self._value(point, place)
+        return self._points[key]
+
+    def _value(self, value: Any, place: str) -> Any:
+        if isinstance(value, Mapping):
+            return {key: self._value(part, f"{place}.{key}") for key, part in value.items()}
+        if isinstance(value, list):
+            names = _WHEELS if place.endswith(".radii") else _AXES
+            return [self._value(part, f"{place}.{name}") for part, name in zip(value, names, strict=False)] + value[3:]
+        if not _is_number(value) or value == 0:
+            return value
+        number = len(self.given) + 1
+        while f"l_{number}" in self.taken or f"l_{number}" in self.given:
+            number += 1
+        self.given[f"l_{number}"] = {"value": abs(float(value)), "unit": "m", "note": place}
+        return f"l_{number}" if value > 0 else f"-l_{number}"
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -15,9 +15,12 @@ from symgen.emit.emit import emit_law, emit_model
 from symgen.errors import InputError
 from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
+from symgen.player.live import rates_parts
+from symgen.player.page import rates_script
 from symgen.reading.boxes import Box, name, row, sign
 from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
 from symgen.reading.law import Law
+from symgen.reading.listing import code_listing, file_listing
 from symgen.reading.patterns import of_factor, of_jacobian, picture
 from symgen.reading.sheet import Sheet
 from symgen.reading.source import Computed, computed, sections
@@ -26,11 +29,17 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Joint, Mechanism
     from symgen.formulate.equations import Equations
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
 
 #: Largest page [bytes]; emitted code is left out of a page that would be larger.
 LARGEST = 2_000_000
 #: Mechanisms with more rows and velocities have no page.
 MOST_ROWS = 1500
+#: Where the right-hand side is put, and what is said of it [with so many bytes at most]: text of files is escaped.
+_RATES, _TOLD, _SPARE = "<!--rates-->", "<!--told-->", 1000
+#: Up to so many velocities of bodies a page has the code of a run in straight lines, unless asked otherwise.
+MOST_STRAIGHT = 150
 #: Shared terms that stand together.
 _TOGETHER = 25
 #: Matrices up to this size are shown whole.
@@ -65,6 +74,10 @@ class Subject:
         Sentences about the start, and what was chosen.
     text : str
         The file, where there is one.
+    compiled : CompiledModel, optional
+        The code of a run, from which the page has its right-hand side.
+    start : Start, optional
+        Where the run begins.
     """
 
     whole: Mechanism
@@ -76,6 +89,8 @@ class Subject:
     q: Sequence[float] | None = None
     facts: Sequence[str] = ()
     text: str = ""
+    compiled: CompiledModel | None = None
+    start: Start | None = None
 
 
 def check_size(mechanism: Mechanism) -> None:
@@ -94,7 +109,9 @@ def check_size(mechanism: Mechanism) -> None:
 
 
 def page(subject: Subject) -> str:
-    """Return the page, without emitted code where it would be larger than `LARGEST`.
+    """Return the page, without the listing of emitted code where it would be larger than `LARGEST`.
+
+    What room is left holds the right-hand side as a script calls it.
 
     Raises
     ------
@@ -102,14 +119,26 @@ def page(subject: Subject) -> str:
         If it is larger without the code, too.
     """
     made = _Page(subject)
-    size = 0
-    for code in (True, False):
-        found = made.text(code)
-        size = len(found.encode())
-        if size <= LARGEST:
-            return found
+    scripts, why = made.rates()
+    fits, size = "", 0
+    for listed in made.listings():
+        text = made.text(listed)
+        size = len(text.encode())
+        if size > LARGEST:
+            continue
+        script = next((each for each in scripts if size + len(each) + _SPARE <= LARGEST), "")
+        if script or not scripts:
+            return _with_rates(text, script, why)
+        fits = fits or text
+    if fits:
+        return _with_rates(fits, "", f"its {min(map(len, scripts))} characters are more than this page has room for")
     expected = f"a mechanism whose page has at most {LARGEST} bytes"
     raise InputError("inspect: -o", expected, f"one with {size} without its code", "--json has no such limit")
+
+
+def _with_rates(text: str, script: str, why: str) -> str:
+    told = _OFFERED if script else f"This page offers no right-hand side to scripts: {why}."
+    return text.replace(_RATES, script or "null", 1).replace(_TOLD, f'<p class="small">{escape(told)}</p>', 1)
 
 
 class _Page:
@@ -130,9 +159,25 @@ class _Page:
             found.setdefault(line.row, []).append(line)
         return found
 
-    def text(self, code: bool) -> str:
-        """Return the page."""
-        s, e = self.subject, self.e
+    def listings(self) -> list[frozenset[str]]:
+        """Return which modules are listed, from all to none: those go first that no link leads to."""
+        rest = sorted((stem for stem in self.parts if not stem.startswith("rhs_")), key=lambda s: len(self.parts[s]))
+        found = [frozenset(("model", *self.parts))]
+        for stem in reversed(rest):
+            found.append(found[-1] - {stem})
+        return [*found, frozenset(("model",)), frozenset()]
+
+    def rates(self) -> tuple[list[str], str]:
+        """Return the right-hand side as scripts, the best first, or why there is none."""
+        compiled, start = self.subject.compiled, self.subject.start
+        if compiled is None or start is None:
+            return [], "the mechanism does not close"
+        parts, why = rates_parts(compiled, start)
+        return [rates_script(part) for part in parts], why
+
+    def text(self, listed: frozenset[str]) -> str:
+        """Return the page, with these modules listed; what evaluates the rates is put in afterwards."""
+        s, e, code = self.subject, self.e, "model" in listed
         title = s.whole.title or s.whole.name
         kind = "bodies" if s.mechanism.topology is None else "the joints of a tree"
         sizes = f"{e.nq} coordinates, {e.nv} velocities, {e.m} constraint rows, {len(e.parameters)} parameters"
@@ -150,14 +195,14 @@ class _Page:
             section("law", f"The law of {s.choice.method.name}, as solved", self._law()),
             section("operations", "Operations", self._operations()),
             section("left-out", "Left out", self._left_out()),
-            section("file", "File", self._file()),
-            section("code", "Emitted code", self._code(code)),
+            section("file", "File", file_listing(s.text, self.places, {joint.name for joint in s.mechanism.joints})),
+            section("code", "Emitted code", [_TOLD, *self._code(listed)]),
         ]
         data: dict[str, Any] = {
             "t": 0.0,
             "q": None if s.q is None else [float(x) for x in s.q],
             "names": [f"{b.name}.{c}" for b in s.whole.bodies for c in b.coordinates],
-            "rates": None,
+            "y0": None if s.start is None else [float(x) for x in s.start.y],
             "state": [x.name for x in (*e.coordinates, *e.velocities)],
             "rows": [r.name for r in e.rows],
         }
@@ -168,7 +213,8 @@ class _Page:
             '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,">'
             f"<title>{escape(title)}: equations</title><style>{_web('style.css')}</style></head><body>"
         )
-        tail = f'<script type="application/json" id="data">{told}</script><script>{_web("script.js")}</script>'
+        script = f"const rates = {_RATES};\n{_web('script.js')}"
+        tail = f'<script type="application/json" id="data">{told}</script><script>{script}</script>'
         return "\n".join([head, *body, tail, "</body></html>\n"])
 
     # -- sections --------------------------------------------------------------------------------------------------
@@ -202,10 +248,11 @@ class _Page:
         found = []
         for title, quantities in self.sheet.quantities():
             if quantities:
-                lines = [["symbol", "name", "unit", "value"]] if title == "Parameters" else [["symbol", "name", "unit"]]
+                numbers = title in ("Parameters", "Inputs")
+                lines = [["symbol", "name", "unit", *(["value"] if numbers else [])]]
                 for quantity in quantities:
                     letter = math(name(quantity.name))
-                    value = [f"{self.subject.values[quantity.name]:.6g}"] if title == "Parameters" else []
+                    value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
                 found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))
         return found
@@ -218,7 +265,9 @@ class _Page:
             links.append(f'<a href="#file-{place}">in the file, line {place}</a>')
         parts = [f"<p>{' · '.join(links)}</p>"]
         if not rows:
-            parts.append("<p>It carries a body in the tree: it has no rows.</p>")
+            prescribed = self.sheet.prescribed().get(joint.name)
+            told = "It carries a body in the tree" if prescribed is None else f"It prescribes {prescribed}"
+            parts.append(f"<p>{escape(told)}: it has no rows.</p>")
         phi = {line.key: line for line in self.sheet.phi(rows)}
         nu = {line.key: line for line in self.sheet.nu(rows)}
         gamma = {line.key: line for line in self.sheet.gamma(rows)}
@@ -266,7 +315,7 @@ class _Page:
             ("rates of the coordinates", equations(sheet.rates()) or "q' = v"),
             ("mass matrix M; what is not written is zero or symmetric", equations(sheet.mass())),
             ("forces f; those not written are zero", equations(sheet.forces()) or "f = 0"),
-            ("energies, and the power of forces without potential", equations(sheet.energies())),
+            (_POWER if self.e.driving else _POWER.partition(";")[0], equations(sheet.energies())),
         ]
         found += [fold(title, text) for title, text in parts]
         shared = sheet.shared(sheet.nodes(("Phi", "D", "nu", "gamma", "N", "M", "f", "energies")))
@@ -306,6 +355,13 @@ class _Page:
             fold("by emitted function", table(blocks, numbers=2), True),
         ]
 
+    def _code(self, listed: frozenset[str]) -> list[str]:
+        if "model" in listed:
+            back = {c.line: c for found in self.computed.values() for c in found}
+            return code_listing(self.source, self.parts, listed, back)
+        size = len(self.source) + sum(map(len, self.parts.values()))
+        return [f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"]
+
     def _left_out(self) -> list[str]:
         found = [f"<li>{escape(o.what)}: {escape(o.why)}</li>" for o in self.e.omissions]
         return (
@@ -314,43 +370,9 @@ class _Page:
             else ["<p>Nothing.</p>"]
         )
 
-    def _file(self) -> list[str]:
-        if not self.subject.text:
-            return ["<p>No file describes this mechanism, or one too long to show.</p>"]
-        back = {number: name for name, number in self.places.items() if name.startswith("joints.")}
-        lines = []
-        for number, line in enumerate(self.subject.text.splitlines(), 1):
-            name = back.get(number, "").removeprefix("joints.")
-            if name and any(joint.name == name for joint in self.subject.mechanism.joints):
-                lines.append(
-                    f'<span id="file-{number}">{escape(line)}  <a href="#rows-{attribute(name)}">rows</a></span>'
-                )
-            else:
-                lines.append(escape(line))
-        return [fold(f"{len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
 
-    def _code(self, code: bool) -> list[str]:
-        size = len(self.source) + sum(map(len, self.parts.values()))
-        if not code:
-            return [
-                f"<p>It has {size} characters and is left out, as the page would be larger than {LARGEST} bytes.</p>"
-            ]
-        back: dict[int, Computed] = {c.line: c for found in self.computed.values() for c in found}
-        lines = []
-        for number, line in enumerate(self.source.splitlines(), 1):
-            c = back.get(number)
-            if c is None:
-                lines.append(escape(line))
-            else:
-                back_to = f'<a href="#row-{attribute(c.row)}"># {escape(c.row)}: {escape(c.what)}</a>'
-                text = f"{escape(line.partition('  # ')[0])}  {back_to}"
-                lines.append(f'<span id="line-{number}">{text}</span>')
-        found = [fold(f"module model, {len(lines)} lines", f"<pre>{chr(10).join(lines)}</pre>")]
-        for stem, source in self.parts.items():
-            found.append(fold(f"module {escape(stem)}, {source.count(chr(10))} lines", f"<pre>{escape(source)}</pre>"))
-        return found
-
-
+_OFFERED = "Scripts find it at work: window.symgen.rates(t, y, p) returns the rates of a state; y0 is the start's."
+_POWER = "energies, and the power of forces without potential; b v' + c is that of drivers without rows"
 _SKETCH = "A joint in the picture leads to its rows; these lead to the file and to the lines that compute them."
 _MOTION = row(
     *(Box("name", text="M", width=1.0), Box("dot", (Box("name", text="v", width=1.0),), width=1.0), sign("+")),

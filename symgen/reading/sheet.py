@@ -7,9 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from symgen.describe.printer import to_text
 from symgen.reading.boxes import Box, bracket, dot, name, row, sign
 from symgen.reading.structure import structure
 from symgen.reading.typeset import Sum, Typesetter, as_box, columns
+from symgen.vocabulary.expressions import call
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -56,7 +58,7 @@ class Sheet:
         g = equations.graph
         ends = [n for r in self.rows for n in (r.phi, r.nu, r.gamma, *(x for _, x in r.entries)) if n is not None]
         ends += [n for block in equations.mass for line in block.entries for n in line]
-        ends += [*equations.forces, equations.kinetic, equations.potential, equations.power]
+        ends += [*equations.forces, *self._energies]
         ends += [*(n for n in equations.q_rates if g.nodes[n].op != "input"), g.zero]
         taken = {quantity.name for quantity in equations.parameters}
         self.writer = Typesetter(equations, ends, self._names(), taken)
@@ -174,9 +176,28 @@ class Sheet:
         return [Line(dot(name(q.name)), self.writer.sum(n), q.name) for q, n in found if g.nodes[n].op != "input"]
 
     def energies(self) -> list[Line]:
-        """Return T, V and the power of forces without potential."""
+        """Return T, V, the power of forces without potential, and that of drivers without rows, b v' + c."""
         e = self.equations
-        return [Line(name(k), self.writer.sum(n)) for k, n in (("T", e.kinetic), ("V", e.potential), ("P", e.power))]
+        lefts = [name("T"), name("V"), name("P")]
+        if e.driving is not None:
+            lefts += [*(row(name("b"), _of(e.velocities[j].name)) for j, _ in e.driving.entries), name("c")]
+        return [Line(left, self.writer.sum(n)) for left, n in zip(lefts, self._energies, strict=True)]
+
+    @property
+    def _energies(self) -> list[int]:
+        e = self.equations
+        driving = [] if e.driving is None else [*(n for _, n in e.driving.entries), e.driving.rest]
+        return [e.kinetic, e.potential, e.power, *driving]
+
+    def prescribed(self) -> dict[str, str]:
+        """Return what each driver prescribes that has no row, as a sentence, by its name."""
+        topology = self.mechanism.topology
+        joints = {} if topology is None else {link.body: link.joint for link in topology.links}
+        found = {}
+        for p in () if topology is None else topology.prescribed:
+            value = to_text(p.value if p.sign > 0 else call("neg", p.value))
+            found[p.driver] = f"{joints[p.body] or p.body}.{p.label} = {value}"
+        return found
 
     def shared(self, nodes: Iterable[int]) -> list[Line]:
         """Return what the names of shared terms that `nodes` need stand for."""
@@ -193,14 +214,15 @@ class Sheet:
             "N": list(e.q_rates),
             "M": [n for block in e.mass for line in block.entries for n in line],
             "f": list(e.forces),
-            "energies": [e.kinetic, e.potential, e.power],
+            "energies": self._energies,
         }
         return [n for part in what for n in known.get(part, ())]
 
     def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
-        """Return coordinates, velocities and parameters under their headings."""
+        """Return coordinates, velocities, parameters and inputs under their headings."""
         e = self.equations
-        return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", e.parameters)]
+        own, inputs = (tuple(p for p in e.parameters if (p.name in e.inputs) == given) for given in (False, True))
+        return [("Coordinates", e.coordinates), ("Velocities", e.velocities), ("Parameters", own), ("Inputs", inputs)]
 
 
 def indexed(letter: str, index: str) -> Box:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import of_table
@@ -31,10 +32,20 @@ class Term:
     @property
     def box(self) -> Box:
         """The product without its sign."""
-        above = self.factors[0] if len(self.factors) == 1 else row(*self.factors)
+        above = _side_by_side(self.factors)
         if not self.below:
             return above
-        return over(above, self.below[0] if len(self.below) == 1 else row(*self.below))
+        return over(above, _side_by_side(self.below))
+
+
+def _side_by_side(factors: Sequence[Box]) -> Box:
+    """Return a product; between numbers, which would read as one, stands a dot."""
+    if len(factors) == 1:
+        return factors[0]
+    parts = [factors[0]]
+    for before, factor in pairwise(factors):
+        parts += [sign("*"), factor] if is_number(before) and is_number(factor) else [factor]
+    return row(*parts)
 
 
 Sum = tuple[Term, ...]

@@ -25,8 +25,8 @@ MEASURE = types.FunctionType(types.int64(_F8, _A, _A, _A))
 MOVE = types.FunctionType(types.int64(_A, _A))
 #: observe(t, y, p, w, ydot, out).
 OBSERVE = types.FunctionType(types.int64(_F8, _A, _A, _A, _A, _A))
-#: decide(hunt, n, notes, following, h, hunting, width, y) of `symgen.runtime.searching`.
-DECIDE = types.FunctionType(types.int64(_A, types.int64, types.int64, _F8, _F8, types.int64, types.int64, _A))
+#: decide(hunt, n, notes, following, h, hunting, width, y, w, iw) of `symgen.runtime.searching`.
+DECIDE = types.FunctionType(types.int64(_A, types.int64, types.int64, _F8, _F8, types.int64, types.int64, _A, _A, _I))
 
 # -- positions in the status section at the beginning of w, and in iw --------------------------------------------------
 PHI = STATUS.index("position_violation")

@@ -110,11 +110,11 @@ def look(system: Any, run: Any) -> None:
     """Do nothing: where events are looked for, see on which side of each of them a run begins."""
 
 
-def remember(run: Any) -> None:
+def remember(system: Any, run: Any) -> None:
     """Do nothing: where events are looked for, keep what emitted functions remember at the beginning of a step."""
 
 
-def recall(run: Any) -> None:
+def recall(system: Any, run: Any) -> None:
     """Do nothing: where events are looked for, have that again."""
 
 
@@ -246,7 +246,7 @@ def integrate(
             crossing = False
         # -- the step to try
         if EVENTS and hunting != _NOTHING:
-            recall(run)
+            recall(system, run)
             h = run.hunt[_TRY]
             following = whole_following if h == whole else t + h
         elif ADAPTIVE:
@@ -270,7 +270,7 @@ def integrate(
             h, following = times[out] - t, times[out]
         elif hunting == _NOTHING:
             whole, whole_following = h, following
-            remember(run)
+            remember(system, run)
         probing = between or hunting == _SEEK
         note_step(run, h)
         error = attempt(system, scheme, span, run, t, following, h, probing)

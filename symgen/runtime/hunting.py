@@ -26,23 +26,20 @@ from symgen.runtime.records import OUTPUTS, SIZES, SPAN
 from symgen.runtime.searching import (
     COLUMNS,
     COUNT,
-    D_START,
     DIRECTION,
-    FIRED,
-    G_START,
-    GRAZING,
+    GIVE_BACK,
+    KEEP,
     LEAVES,
+    LOOK,
     N_COLUMNS,
     N_HEAD,
     NEEDS_RATES,
     NOTED,
     NOTES,
-    SIDE,
-    asked,
-    side_of,
+    RECALL,
+    REMEMBER,
 )
 from symgen.runtime.vectors import copied
-from symgen.store.jit import jit
 
 if TYPE_CHECKING:
     from symgen.runtime.records import Sizes
@@ -50,6 +47,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _EVALUATIONS, _TIME = abi.EVALUATIONS, abi.TIME
+_LOOK, _REMEMBER, _RECALL, _KEEP, _GIVE_BACK = LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
@@ -76,78 +74,50 @@ def scheme_of(scheme: Any) -> Any:
 @called
 def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
     """Evaluate switching functions and their rates at a state; emitted functions remember nothing of it."""
-    width, nw, ni, hunt = system.sizes.width, run.w.shape[0], run.iw.shape[0], run.hunt
+    width, hunt, w, iw = system.sizes.width, run.hunt, run.w, run.iw
     n = int(hunt[COUNT])
-    at = N_HEAD + N_COLUMNS * n
+    at, notes = N_HEAD + N_COLUMNS * n, notes_at(n, width, w.shape[0], iw.shape[0])
     out, state, rate = part(hunt, at, 2 * n), part(hunt, at + 2 * n, width), part(hunt, at + 2 * n + width, width)
     if hunt[NEEDS_RATES] != 0.0:
-        kept = at + 2 * n + 2 * width + nw + ni
-        for i in range(nw):
-            hunt[kept + i] = run.w[i]
-        for i in range(ni):
-            hunt[kept + nw + i] = run.iw[i]
+        system.decide(hunt, n, notes, t, 0.0, _KEEP, width, y, w, iw)
         copied(width, y, state)
         evaluate(system, run, t, state, rate)  # which may close coordinates that depend on others
         run.control[_EVALUATIONS] += 1
-        system.happens(t, y, run.p, run.w, rate, out)
-        for i in range(nw):
-            run.w[i] = hunt[kept + i]
-        for i in range(ni):
-            run.iw[i] = int(hunt[kept + nw + i])
-    else:
-        system.happens(t, y, run.p, run.w, rate, out)
+    system.happens(t, y, run.p, w, rate, out)
+    if hunt[NEEDS_RATES] != 0.0:
+        system.decide(hunt, n, notes, t, 0.0, _GIVE_BACK, width, y, w, iw)
 
 
 def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
     """Look for events in a step whose end is good enough; return what to do next, see `decide`."""
-    width = system.sizes.width
     evaluate_events(system, run, following, run.trial)
-    n = int(run.hunt[COUNT])
+    n, width = int(run.hunt[COUNT]), system.sizes.width
     notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
-    return int(system.decide(run.hunt, n, notes, following, h, hunting, width, run.trial))
+    return int(system.decide(run.hunt, n, notes, following, h, hunting, width, run.trial, run.w, run.iw))
 
 
-@called
 def look(system: Any, run: Any) -> None:
     """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
-    hunt = run.hunt
-    n, at = int(hunt[COUNT]), N_HEAD
     evaluate_events(system, run, run.clock[_TIME], run.y)
-    out = at + N_COLUMNS * n
-    for k in range(n):
-        g, rate = hunt[out + k], hunt[out + n + k]
-        if hunt[at + SIDE * n + k] == 0.0:  # not known yet: the run begins
-            hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
-        elif hunt[at + FIRED * n + k] != 0.0:
-            # the state lies on the event up to rounding, so the rate says where it goes to; at rest it may happen again
-            hunt[at + SIDE * n + k] = side_of(rate, -hunt[at + SIDE * n + k])
-            hunt[at + GRAZING * n + k] = 1.0 if hunt[at + SIDE * n + k] * g < 0.0 and rate != 0.0 else 0.0
-        elif not asked(hunt[at + DIRECTION * n + k], hunt[at + SIDE * n + k], side_of(g, hunt[at + SIDE * n + k])):
-            hunt[at + SIDE * n + k] = side_of(g, hunt[at + SIDE * n + k])  # what velocities jump to is no event
-        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
+    n, width = int(run.hunt[COUNT]), system.sizes.width
+    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
+    system.decide(run.hunt, n, notes, run.clock[_TIME], 0.0, _LOOK, width, run.y, run.w, run.iw)
 
 
-def remember(run: Any) -> None:
+def remember(system: Any, run: Any) -> None:
     """Keep what emitted functions remember at the beginning of a step."""
-    nw, ni, n = run.w.shape[0], run.iw.shape[0], int(run.hunt[COUNT])
-    at = N_HEAD + (N_COLUMNS + 2) * n + 2 * run.trial.shape[0]
-    for i in range(nw):
-        run.hunt[at + i] = run.w[i]
-    for i in range(ni):
-        run.hunt[at + nw + i] = run.iw[i]
+    n, width = int(run.hunt[COUNT]), system.sizes.width
+    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
+    system.decide(run.hunt, n, notes, 0.0, 0.0, _REMEMBER, width, run.y, run.w, run.iw)
 
 
-def recall(run: Any) -> None:
+def recall(system: Any, run: Any) -> None:
     """Have again what `remember` kept."""
-    nw, ni, n = run.w.shape[0], run.iw.shape[0], int(run.hunt[COUNT])
-    at = N_HEAD + (N_COLUMNS + 2) * n + 2 * run.trial.shape[0]
-    for i in range(nw):
-        run.w[i] = run.hunt[at + i]
-    for i in range(ni):
-        run.iw[i] = int(run.hunt[at + nw + i])
+    n, width = int(run.hunt[COUNT]), system.sizes.width
+    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
+    system.decide(run.hunt, n, notes, 0.0, 0.0, _RECALL, width, run.y, run.w, run.iw)
 
 
-@jit()
 def notes_at(n: int, width: int, nw: int, ni: int) -> int:
     """Return where notes begin."""
     return N_HEAD + (N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)

@@ -19,8 +19,10 @@ from typing import Any
 
 from symgen.runtime import abi
 from symgen.runtime.frame import CROWD, MEET, NOTHING, SEEK, TAKE, TRY
-from symgen.store.jit import jit
+from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
+from symgen.store.emitted import plain
 
+A = Any
 #: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
 #: where rates need v', the bracket that is looked at, the whole step, what time resolves, attempts at extrema, rounds
 #: in a bracket, its width three rounds ago, events found in the step, notes, and notes that found no room.
@@ -70,6 +72,9 @@ N_HEAD, N_COLUMNS = len(HEAD), len(COLUMNS)
 ) = range(N_COLUMNS)
 assert _FIRST == TRY, "the frame reads it there"
 _NOTHING, _SEEK, _TAKE, _MEET, _CROWD = NOTHING, SEEK, TAKE, MEET, CROWD
+#: What else is done with what is kept.
+LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK = range(CROWD + 1, CROWD + 6)
+_COUNTERS = abi.N_COUNTERS
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 #: Notes that there is room for; a loop is left where half of it is taken.
@@ -78,120 +83,41 @@ NOTES = 256
 _RESOLVED = 4e-16
 #: Attempts at extrema, rounds in a bracket and events in a single step, at most.
 _MOST_PROBES, _MOST_ROUNDS, _MOST_FOUND = 12, 200, 100
-#: An extremum of g below this part of its ends is rounding.
-_ROUNDING = 1e-14
-
-
-# -- the cubic through values and slopes at both ends of (0, 1) --------------------------------------------------------
-
-
-@jit()
-def cubic(g0: float, d0: float, g1: float, d1: float, x: float) -> float:
-    """Return the value at x of the cubic with values g0, g1 and slopes d0, d1 at 0 and 1."""
-    rise = g1 - g0
-    return g0 + x * (d0 + x * (3.0 * rise - 2.0 * d0 - d1 + x * (d0 + d1 - 2.0 * rise)))
-
-
-@jit()
-def extremum(g0: float, d0: float, g1: float, d1: float, which: int) -> float:
-    """Return where the cubic has its first or second extremum inside (0, 1), 2 where it has none."""
-    rise = g1 - g0
-    c, b, a = d0, 3.0 * rise - 2.0 * d0 - d1, 3.0 * (d0 + d1 - 2.0 * rise)  # a x^2 + 2 b x + c
-    square = b * b - a * c
-    if not square > 0.0:
-        return 2.0
-    q = -(b + math.copysign(math.sqrt(square), b))
-    first = c / q if q != 0.0 else 2.0
-    second = q / a if a != 0.0 else 2.0
-    first = first if 0.0 < first < 1.0 else 2.0
-    second = second if 0.0 < second < 1.0 else 2.0
-    return min(first, second) if which == 0 else max(first, second)
-
-
-@jit()
-def side_of(g: float, before: float) -> float:
-    """Return the side that g is on, 1 or -1; that of before where g is 0 or no number."""
-    return 1.0 if g > 0.0 else -1.0 if g < 0.0 else before
-
-
-@jit()
-def asked(direction: float, before: float, after: float) -> bool:
-    """Return whether a change of sides is one that is asked for."""
-    return before != after and (direction == 0.0 or direction == after)
-
-
-@jit()
-def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float:
-    """Return where the cubic first leaves a side, g1 being on the other one; 0 where it has left it already."""
-    low, below = 0.0, side * g0 >= 0.0
-    for k in range(3):
-        high = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
-        if high > 1.0:
-            continue
-        above = k == 2 or not side * cubic(g0, d0, g1, d1, high) >= 0.0
-        if below and above:
-            for _ in range(60):
-                middle = 0.5 * (low + high)
-                if side * cubic(g0, d0, g1, d1, middle) >= 0.0:
-                    low = middle
-                else:
-                    high = middle
-            return 0.5 * (low + high)
-        low, below = high, not above
-    return 0.0
-
-
-@jit()
-def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: float) -> float:
-    """Return an extremum that is first on the other side, where this hides a change that is asked for; else 2."""
-    first, found, before = 2.0, False, side
-    least = _ROUNDING * (abs(g0) + abs(g1))
-    for k in range(3):
-        x = 1.0 if k == 2 else extremum(g0, d0, g1, d1, k)
-        if x > 1.0:
-            continue
-        g = g1 if k == 2 else cubic(g0, d0, g1, d1, x)
-        after = side_of(g, before) if abs(g) > least else before
-        if after != before:
-            found = found or asked(direction, before, after)
-            first = x if first > 1.0 and k < 2 else first
-        before = after
-    return first if found else 2.0
 
 
 # -- the search --------------------------------------------------------------------------------------------------------
 
 
-@jit()
-def candidate(hunt: Any, n: int) -> float:
+@plain
+def candidate(hunt: A, n: int) -> float:
     """Return where to look next for the first change of sides in a bracket."""
     at = N_HEAD
     low, high, rounds = hunt[LOW], hunt[HIGH], int(hunt[ROUNDS])
     width = high - low
     if rounds % 3 == 0:
-        slow = rounds > 0 and width > 0.25 * hunt[WIDTH]
+        before = hunt[WIDTH]
         hunt[WIDTH] = width
-        if slow:
+        if rounds > 0 and width > 0.25 * before:
             return float(0.5 * (low + high))
     x = 1.0
     for k in range(n):
         side, g1 = hunt[at + LOCAL * n + k], hunt[at + G_HIGH * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(g1, side)):
+        if asked(hunt[at + DIRECTION * n + k], side, side_of(g1, side)) == 1:
             d0, d1 = width * hunt[at + D_LOW * n + k], width * hunt[at + D_HIGH * n + k]
-            root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if math.isfinite(d0 + d1) else 0.5
+            root = first_root(hunt[at + G_LOW * n + k], d0, g1, d1, side) if is_finite(d0 + d1) == 1 else 0.5
             x = min(x, root)
     x = low + x * width
     # a little beyond the root, seen from the nearer end, so that the bracket has it between two near ends
-    ahead = x - low < high - x
-    distance = x - low if ahead else high - x
+    ahead = 1 if x - low < high - x else 0
+    distance = x - low if ahead == 1 else high - x
     beyond = distance * min(0.1, math.sqrt(distance / hunt[WHOLE])) if rounds > 0 else 0.0
-    x += beyond if ahead else -beyond
+    x += beyond if ahead == 1 else -beyond
     least = 0.5 * hunt[RESOLUTION]
     return float(min(max(x, low + least), high - least))
 
 
-@jit()
-def move_on(hunt: Any, n: int) -> None:
+@plain
+def move_on(hunt: A, n: int) -> int:
     """Look at the rest of the step, behind the bracket."""
     at = N_HEAD
     for k in range(n):
@@ -201,15 +127,16 @@ def move_on(hunt: Any, n: int) -> None:
         hunt[at + G_HIGH * n + k] = hunt[at + G_END * n + k]
         hunt[at + D_HIGH * n + k] = hunt[at + D_END * n + k]
     hunt[LOW], hunt[HIGH], hunt[ROUNDS] = hunt[HIGH], hunt[WHOLE], 0.0
+    return 0
 
 
-@jit()
-def note(hunt: Any, n: int, notes: int, t: float, width: int, y: Any) -> None:
+@plain
+def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     """Note the time and the state of all events that happen at the end of the bracket."""
     at = N_HEAD
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)):
+        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
             i = int(hunt[NOTED])
             if i < NOTES:
                 to = notes + i * (2 + width)
@@ -219,37 +146,39 @@ def note(hunt: Any, n: int, notes: int, t: float, width: int, y: Any) -> None:
                 hunt[NOTED] += 1.0
             else:
                 hunt[LOST] += 1.0
+    return 0
 
 
-@jit()
-def settle(hunt: Any, n: int, ends: bool) -> None:
-    """Have the end of the step, or of the bracket, as the beginning of the next step."""
+@plain
+def settle(hunt: A, n: int, ends: int) -> int:
+    """Have the end of the step, or of the bracket where `ends` is 0, as the beginning of the next step."""
     at = N_HEAD
-    g, d = (G_END, D_END) if ends else (G_HIGH, D_HIGH)
+    g, d = G_END if ends == 1 else G_HIGH, D_END if ends == 1 else D_HIGH
     for k in range(n):
         local, side = hunt[at + LOCAL * n + k], side_of(hunt[at + g * n + k], hunt[at + LOCAL * n + k])
-        leaves = not ends and asked(hunt[at + DIRECTION * n + k], local, side)
-        hunt[at + FIRED * n + k] = 1.0 if leaves else 0.0
+        fired = asked(hunt[at + DIRECTION * n + k], local, side)
+        hunt[at + FIRED * n + k] = 1.0 if ends == 0 and fired == 1 else 0.0
         hunt[at + GRAZING * n + k] *= 1.0 if side * hunt[N_HEAD + N_COLUMNS * n + k] < 0.0 else 0.0
         hunt[at + SIDE * n + k] = side
         hunt[at + G_START * n + k] = hunt[at + g * n + k]
         hunt[at + D_START * n + k] = hunt[at + d * n + k]
+    return 0
 
 
-@jit()
-def crossed(hunt: Any, n: int, column: int, leaving: bool) -> bool:
-    """Return whether an event happens between the lower end of the bracket and where a column has g."""
+@plain
+def crossed(hunt: A, n: int, column: int, leaving: int) -> int:
+    """Return 1 where an event, one that ends the loop if `leaving`, is between the bracket's beginning and a column."""
     at = N_HEAD
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
-        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + column * n + k], side)):
-            if not leaving or hunt[at + LEAVES * n + k] != 0.0:
-                return True
-    return False
+        if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + column * n + k], side)) == 1:
+            if leaving == 0 or hunt[at + LEAVES * n + k] != 0.0:
+                return 1
+    return 0
 
 
-@jit()
-def take_in(hunt: Any, n: int, h: float, following: float, hunting: int) -> None:
+@plain
+def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
     """Take the values at the state that was tried, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     for k in range(n):
@@ -265,25 +194,67 @@ def take_in(hunt: Any, n: int, h: float, following: float, hunting: int) -> None
             hunt[at + LOCAL * n + k] = hunt[at + SIDE * n + k]
             hunt[at + G_LOW * n + k] = hunt[at + G_START * n + k]
             hunt[at + D_LOW * n + k] = hunt[at + D_START * n + k]
-            hunt[at + G_HIGH * n + k] = hunt[at + G_END * n + k] = hunt[out + k]
-            hunt[at + D_HIGH * n + k] = hunt[at + D_END * n + k] = hunt[out + n + k]
-        return
-    inside = h == hunt[HIGH]
+            hunt[at + G_HIGH * n + k], hunt[at + G_END * n + k] = hunt[out + k], hunt[out + k]
+            hunt[at + D_HIGH * n + k], hunt[at + D_END * n + k] = hunt[out + n + k], hunt[out + n + k]
+        return 0
+    inside = 1 if h == hunt[HIGH] else 0
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
-        inside = inside or asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[out + k], side))
-    g, d = (G_HIGH, D_HIGH) if inside else (G_LOW, D_LOW)
+        inside = max(inside, asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[out + k], side)))
+    g, d = G_HIGH if inside == 1 else G_LOW, D_HIGH if inside == 1 else D_LOW
     for k in range(n):
-        if not inside:
+        if inside == 0:
             hunt[at + LOCAL * n + k] = side_of(hunt[out + k], hunt[at + LOCAL * n + k])
         hunt[at + g * n + k] = hunt[out + k]
         hunt[at + d * n + k] = hunt[out + n + k]
-    hunt[HIGH if inside else LOW] = h
+    hunt[HIGH if inside == 1 else LOW] = h
+    return 0
 
 
-@jit(abi.DECIDE.signature)
-def decide(hunt: Any, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: Any) -> int:
+@plain
+def look(hunt: A, n: int) -> int:
+    """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
+    at, out = N_HEAD, N_HEAD + N_COLUMNS * n
+    for k in range(n):
+        g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
+        if side == 0.0:  # not known yet: the run begins
+            hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
+        elif hunt[at + FIRED * n + k] != 0.0:
+            # the state lies on the event up to rounding, so the rate says where it goes to; at rest it may happen again
+            side = side_of(rate, -side)
+            hunt[at + SIDE * n + k] = side
+            hunt[at + GRAZING * n + k] = 1.0 if side * g < 0.0 and rate != 0.0 else 0.0
+        elif asked(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
+            hunt[at + SIDE * n + k] = side_of(g, side)  # what velocities jump to is no event
+        hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
+    return 0
+
+
+@plain
+def keep(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
+    """Keep what emitted functions remember."""
+    for i in range(nw):
+        hunt[first + i] = w[i]
+    for i in range(_COUNTERS):
+        hunt[first + nw + i] = iw[i]
+    return 0
+
+
+@plain
+def give_back(hunt: A, first: int, nw: int, w: A, iw: A) -> int:
+    """Give back what was kept."""
+    for i in range(nw):
+        w[i] = hunt[first + i]
+    for i in range(_COUNTERS):
+        iw[i] = int(hunt[first + nw + i])
+    return 0
+
+
+@plain
+def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int, width: int, y: A, w: A, iw: A) -> int:
     """Take in what was found at a state and return what to do next, one of `NOTHING`, `SEEK`, `TAKE`, `MEET`, `CROWD`.
+
+    All that loops do with what is kept is done here, so that it is compiled once and by itself.
 
     Parameters
     ----------
@@ -294,27 +265,42 @@ def decide(hunt: Any, n: int, notes: int, following: float, h: float, hunting: i
     following, h : float
         End and length of the step that was tried [s].
     hunting : int
-        What the step was tried for.
+        What the step was tried for; or what else is to be done with what is kept: `LOOK`, `REMEMBER` at the beginning
+        of a step and `RECALL`, `KEEP` at a state that is looked at and `GIVE_BACK`.
     width, y : int, Array
         The state at its end.
+    w, iw : Array
+        What emitted functions remember.
     """
     at = N_HEAD
+    if hunting >= LOOK:
+        first = N_HEAD + (N_COLUMNS + 2) * n + 2 * width
+        size = (notes - first) // 2
+        if hunting == LOOK:
+            return int(look(hunt, n))
+        if hunting == REMEMBER:
+            return int(keep(hunt, first, size - _COUNTERS, w, iw))
+        if hunting == RECALL:
+            return int(give_back(hunt, first, size - _COUNTERS, w, iw))
+        if hunting == KEEP:
+            return int(keep(hunt, first + size, size - _COUNTERS, w, iw))
+        return int(give_back(hunt, first + size, size - _COUNTERS, w, iw))
     if hunting == _TAKE and hunt[DOING] == _WHOLE_STEP:
-        settle(hunt, n, True)
+        settle(hunt, n, 1)
         return _CROWD if 2 * hunt[NOTED] >= NOTES else _NOTHING
     take_in(hunt, n, h, following, hunting)
     if hunting == _TAKE:
         note(hunt, n, notes, following, width, y)
-        settle(hunt, n, False)
+        settle(hunt, n, 0)
         return _MEET
     while True:
         low, high = hunt[LOW], hunt[HIGH]
-        if crossed(hunt, n, G_HIGH, False):
+        if crossed(hunt, n, G_HIGH, 0) == 1:
             if high - low > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
                 hunt[ROUNDS] += 1.0
                 return _SEEK
-            if crossed(hunt, n, G_HIGH, True):
+            if crossed(hunt, n, G_HIGH, 1) == 1:
                 hunt[DOING], hunt[TRY] = _TO_EVENT, high
                 return _TAKE
             if h != high:
@@ -336,7 +322,7 @@ def decide(hunt: Any, n: int, notes: int, following: float, h: float, hunting: i
             for k in range(n):
                 g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
                 d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
-                if math.isfinite(d0 + d1):
+                if is_finite(d0 + d1) == 1:
                     x = min(x, hidden(g0, d0, g1, d1, hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]))
         if x < 1.0:
             hunt[PROBES] += 1.0
@@ -347,7 +333,7 @@ def decide(hunt: Any, n: int, notes: int, following: float, h: float, hunting: i
             break
         move_on(hunt, n)
     if hunting == _NOTHING:
-        settle(hunt, n, True)
+        settle(hunt, n, 1)
         return _NOTHING
     hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]
     return _TAKE

@@ -13,6 +13,7 @@ and names the functions it calls, which are loaded first.
 from __future__ import annotations
 
 import ast
+import contextlib
 import functools
 import gc
 import hashlib
@@ -22,6 +23,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from numba import njit
 from numba.core import event, sigutils
 from numba.core.compiler_lock import global_compiler_lock
 from numba.core.registry import CPUDispatcher
@@ -30,7 +32,7 @@ from symgen.errors import InputError, nearest
 from symgen.native.library import Library, arguments_of, kinds_of, kinds_of_function, result
 from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
-from symgen.store.identity import digest, sources_digest
+from symgen.store.identity import digest, source_stamp, sources_digest
 from symgen.store.jit import Loading, MachineCode, attach, environment, plain_name, unusable
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
@@ -234,6 +236,33 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         from symgen.native.llvm import module
 
         return module(self.read(kinds), _symbol, lambda called: True, self._together)
+
+
+def plain(function: Any) -> Any:
+    """Compile a function of symgen's own like emitted ones: on numbers and flat arrays whose types are plain to see.
+
+    Parameters
+    ----------
+    function : plain function
+        In the language of `symgen.native`, decorated by nothing else, its definition on one line; functions that it
+        calls are of the same kind, in the same module.
+
+    Returns
+    -------
+    EmittedFunction
+        The plain function where nothing is compiled.
+    """
+    path = Path(function.__code__.co_filename)
+    made = njit(error_model="numpy", fastmath={"contract"})(function)
+    with contextlib.suppress(OSError):  # a program without sources: Numba's to compile, from the bytes of its code
+        EmittedFunction.of(made, Origin(source_stamp(function), path, _content(path)))
+    return made
+
+
+@functools.lru_cache(maxsize=4)
+def _content(path: Path) -> str:
+    """Return the digest of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _compiler() -> str:

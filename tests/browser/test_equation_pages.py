@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from symgen import catalogue
+from symgen.api import load
 from symgen.cli import main
+from symgen.cli._reading import Started
 from tests.browser.chromium import Chromium
+from tests.browser.test_pages import plainly_python
 
 pytestmark = pytest.mark.browser
 
@@ -54,6 +59,37 @@ def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium,
         "document.getElementById(decodeURIComponent(a.getAttribute('href').slice(1))))"
     )
     assert chromium.run("window.symgen.names.length") > 0
+    rates_are_those_of_the_compiled_code(name, coordinates, chromium)
+
+
+def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
+    """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
+    started = Started.of(load(name), "direct-correction", {}, {}, "straight", coordinates)
+    law, start, info = started.compiled.law_module, started.start, started.compiled.info
+    plain, random = plainly_python(law.rhs), np.random.default_rng(3)
+    states, expected, plainly = [], [], []
+    for k in range(20):
+        y = start.y.copy()
+        y[: info.work] += (k > 0) * 1e-3 * random.standard_normal(info.work)
+        both = []
+        for rhs in (law.rhs, plain):
+            ydot, iw = np.zeros(info.ny), np.zeros(16, dtype=np.int64)
+            suspicious = rhs(0.0, y, start.p, start.w.copy(), iw, ydot)
+            both.append(ydot)
+        if suspicious == 0:
+            states.append(y.tolist())
+            expected.append(both[0])
+            plainly.append(both[1])
+    assert states
+    found = np.array(chromium.run(f"{json.dumps(states)}.map((y) => window.symgen.rates(0, y))"), dtype=np.float64)
+    largest = np.abs(expected).max(axis=1, keepdims=True)
+    off, fused = (float(np.max(np.abs(x - expected) / largest)) for x in (found, np.array(plainly)))
+    assert off <= max(1e-12, 4.0 * fused)
+    assert chromium.run("window.symgen.y0") == start.y.tolist()
+    # parameters given for one call: those of the file give what no parameters give
+    given = json.dumps(start.p[: len(info.parameters)].tolist())
+    again = chromium.run(f"window.symgen.rates(0, {json.dumps(states[0])}, {given})")
+    assert np.array_equal(np.array(again, dtype=np.float64), found[0])
 
 
 CLICK = "(() => {{ const e = {}; e.dispatchEvent(new MouseEvent('click', {{ bubbles: true, cancelable: true }})); }})()"

@@ -78,6 +78,7 @@ def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=Fal
 def test_a_package_gives_the_numbers_of_a_run(alone, tmp_path):
     found = agrees("four-bar", alone, tmp_path)
     assert next(iter(found)) == "t" and list(found)[-1] == "work"
+    assert len((tmp_path / "emitted" / "simulate.py").read_text().splitlines()) <= 20
 
 
 def test_a_package_says_what_it_is(tmp_path, capsys):

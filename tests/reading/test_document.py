@@ -39,7 +39,40 @@ def test_sections_and_joints_are_selected(capsys):
 def test_lengths_become_symbols(capsys):
     text = document(capsys, "four-bar", "--symbols", "--select", "nomenclature,Phi")
     assert r"l_{1} \cos \theta_{\mathrm{crank}}" in text
-    assert r"$l_{2}$ & \raggedright l\_\allowbreak 2 & m & 4" in text
+    told = re.findall(r"\$l_\{(\d)\}\$ & \\raggedright (.*?) & m & (\S+) ", text.replace(r"\allowbreak ", ""))
+    assert told == [
+        ("1", r"l\_1, bodies.crank.points.A.x", "1"),
+        ("2", r"l\_2, bodies.crank.points.B.x", "1"),
+        ("3", r"l\_3, bodies.coupler.points.B.x", "4"),
+        ("4", r"l\_4, bodies.coupler.points.C.x", "4"),
+        ("5", r"l\_5, bodies.rocker.points.D.x", "2.5"),
+        ("6", r"l\_6, bodies.rocker.points.C.x", "2.5"),
+        ("7", r"l\_7, joints.D.at.ground.x", "10"),
+    ]
+
+
+def test_lengths_are_known_by_where_they_stand():
+    bar = {"mass": 1.0, "inertia": 1.0, "points": {"P": [-0.3, 0], "Q": [0.3, "h"]}}
+    pin = {"type": "revolute", "between": ["ground", "a"], "at": [[0.3, 0.0], "P"]}
+    spring = {"type": "spring-damper", "between": ["ground", "b"], "at": [[0.3, 0.0], [0.3, 0.3]], "free_length": 0.3}
+    gears = {
+        "one": {"type": "gear", "between": ["a", "b"], "radii": [0.3, 0.3], "offset": 0.3},
+        "two": {"type": "gear", "between": ["a", "b"], "ratio": 0.3, "offset": 0.3},
+    }
+    raw = {"bodies": {"a": bar, "b": bar}, "joints": {"pin": pin, **gears}, "forces": {"s": spring}}
+    found = with_symbols(raw)
+    assert found["bodies"]["a"] == {"mass": 1.0, "inertia": 1.0, "points": {"P": ["-l_1", 0], "Q": ["l_2", "h"]}}
+    assert found["bodies"]["b"]["points"] == {"P": ["-l_3", 0], "Q": ["l_4", "h"]}
+    assert found["joints"]["pin"]["at"] == [["l_5", 0.0], "P"]
+    assert found["joints"]["one"]["radii"] == ["l_6", "l_7"] and found["joints"]["one"]["offset"] == "l_8"
+    assert found["joints"]["two"] == gears["two"]  # there the offset is an angle
+    # the spring hangs on the same point of the ground as the pin, with a length of its own
+    assert (
+        found["forces"]["s"]["at"] == [["l_5", 0.0], ["l_9", "l_10"]] and found["forces"]["s"]["free_length"] == "l_11"
+    )
+    assert {p["value"] for p in found["parameters"].values()} == {0.3}
+    assert found["parameters"]["l_5"]["note"] == "joints.pin.at.ground.x"
+    assert found["parameters"]["l_7"]["note"] == "joints.one.radii.second"
 
 
 def test_symbols_change_names_only():
@@ -56,6 +89,25 @@ def test_a_name_that_is_taken_is_left_to_its_owner():
     found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l_1": 3.0}})
     assert found["parameters"]["l_1"] == 3.0
     assert "l_2" in found["parameters"]
+
+
+def test_drivers_without_rows_are_said_and_numbers_stay_apart(capsys):
+    text = document(capsys, "driven-four-bar", "--coordinates", "joint", "--select", "nomenclature,energies,law")
+    assert "motor has no row: it prescribes A." in text and r"b \dot {v} + c" in text
+    assert not re.search(r"[0-9.]+ [0-9.]+ \\", text.partition("Energies")[2])
+    assert r"2.5 \cdot 9.81 \sin" in text
+
+
+def test_nonholonomic_rows_are_said(capsys):
+    assert re.search(r"Nonholonomic.*contact", document(capsys, "rolling-disc", "--select", "nu"))
+    assert "Nonholonomic" not in document(capsys, "four-bar", "--select", "nu")
+
+
+def test_inputs_are_no_parameters(capsys):
+    text = document(capsys, "cart-pole", "--select", "nomenclature")
+    assert r"\subsection*{Inputs}" in text
+    parameters, _, inputs = text.partition(r"\subsection*{Inputs}")
+    assert "force, beside" not in parameters and "force, beside" in inputs
 
 
 @pytest.mark.parametrize(

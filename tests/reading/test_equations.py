@@ -175,3 +175,65 @@ def test_a_model_with_equations_can_be_pickled():
     model = symgen.load("pendulum")
     assert model.equations.T != 0
     assert pickle.loads(pickle.dumps(model)).equations.M == model.equations.M
+
+
+ARM = """
+[mechanism]
+name = "arm"
+gravity = [0, -9.81]
+[parameters]
+speed = 1.3
+[inputs]
+push = 0.4
+[bodies.upper]
+mass = 1.2
+inertia = 0.2
+centre_of_mass = [0.3, 0.1]
+[bodies.fore]
+mass = 0.8
+inertia = 0.1
+centre_of_mass = [0.2, 0.0]
+position = [0.5, 0.0]
+[joints.shoulder]
+type = "revolute"
+between = ["ground", "upper"]
+at = [[0, 0], [0, 0]]
+[joints.elbow]
+type = "revolute"
+between = ["upper", "fore"]
+at = [[0.5, 0], [0, 0]]
+[joints.motor]
+type = "driver"
+joint = "shoulder"
+value = "speed*t + 0.3*sin(2*t)"
+[forces.wind]
+type = "force"
+body = "fore"
+at = [0.4, 0]
+force = ["push", "-0.1*fore.vy"]
+"""
+
+
+def test_the_power_of_drivers_without_rows_is_what_energy_gains(tmp_path):
+    """By the chain rule over T and V with v' = M^-1 f, at random states: no row, so nothing else does work."""
+    path = tmp_path / "arm.toml"
+    path.write_text(ARM)
+    e = symgen.load(str(path)).equations_in("joint")
+    assert len(e.v) == 1 and e.b.shape == (1, 1)
+    q, v, t = next(iter(e.q.values())), next(iter(e.v.values())), e.t
+    acceleration = (e.M.inv() * e.f)[0]
+    total = e.T + e.V
+    gained = sp.diff(total, t) + sp.diff(total, q) * (e.N * sp.Matrix([v]))[0] + sp.diff(total, v) * acceleration
+    given = e.power + e.b[0] * acceleration + e.c
+    symbols = [t, q, v, *e.parameters.values()]
+    both = sp.lambdify(symbols, [gained, given], "math")
+    rng = np.random.default_rng(4)
+    for _ in range(20):
+        left, right = both(*rng.uniform(-2, 2, len(symbols)))
+        assert left == pytest.approx(right, rel=1e-11, abs=1e-11)
+    assert "b =" in e.latex() and "c =" in e.latex()
+    assert "power of the drivers" in e._repr_html_()
+    bodies = symgen.load(str(path)).equations
+    assert (
+        bodies.b == sp.zeros(1, len(bodies.v)) and bodies.c == 0 and "power of the drivers" not in bodies._repr_html_()
+    )

@@ -1,5 +1,7 @@
 """Laws as steps: what is read from the tape is what the methods' pages say."""
 
+import itertools
+
 import pytest
 
 import symgen
@@ -22,6 +24,28 @@ def test_the_law_of_direct_correction_is_the_textbooks():
 def test_options_change_the_steps():
     found = [str(step) for step in law("direct-correction", {"weight": "mass"}).steps]
     assert found[-1] == "delta = M^-1 D^T lambda"
+
+
+def test_bodies_can_be_the_weight_and_drivers_work_without_rows():
+    found = [str(step) for step in law("direct-correction", {"weight": "body"}, driven=True).steps]
+    assert "W' = P + b v' + c - lambda^T nu" in found
+    assert found[-2:] == ["solve D (B^T B)^-1 D^T lambda = - r", "delta = (B^T B)^-1 D^T lambda"]
+    assert "b v' + c" in str(symgen.load("driven-four-bar").equations_in("joint").law("null-space"))
+    assert "b v'" not in str(symgen.load("driven-four-bar").equations.law())
+
+
+def words(method, driven):
+    options = METHODS.get(method, "law").options
+    for chosen in itertools.product(*([(o.name, value) for value in o.values] for o in options)):
+        yield str(law(method, dict(chosen), driven))
+
+
+@pytest.mark.parametrize("method", METHODS.names)
+def test_nothing_is_called_as_the_tape_calls_it(method):
+    internal = ("weighted_", "body_entries", "body_inverse", "driving", "at_velocity", "schur")
+    for text in (*words(method, False), *words(method, True)):
+        assert not [word for word in internal if word in text]
+        assert ("b v' + c" in text) == (" b " in text)
 
 
 def test_baumgarte_has_its_gains():

@@ -89,6 +89,12 @@ def test_joint_coordinates_have_their_tree(tmp_path):
     assert "It carries a body in the tree: it has no rows." in text
 
 
+def test_drivers_without_rows_are_said(tmp_path):
+    text, _ = page_of("driven-four-bar", tmp_path, "--coordinates", "joint")
+    assert "It prescribes A.angle = crank_start + crank_speed*t: it has no rows." in text
+    assert "that of drivers without rows" in text
+
+
 def test_text_of_a_file_is_text(tmp_path):
     path = tmp_path / "evil.toml"
     path.write_text(
@@ -108,6 +114,24 @@ def test_a_page_that_would_be_too_large_leaves_out_the_code(tmp_path, monkeypatc
     text, found = page_of("four-bar", tmp_path)
     assert "is left out, as the page would be larger than 50000 bytes" in text
     assert {link[1:] for link in found.links} <= set(found.ids)
+
+
+def test_listings_make_room_for_the_right_hand_side(four_bar, tmp_path, monkeypatch):
+    text, _ = four_bar
+    script = re.search(r"const rates = (\(\(\) => \{.*?\}\)\(\));", text, re.DOTALL)[1]
+    assert "function rhs(" in script and "function confirm(" in script and "Left out, for the size" not in text
+    whole = len(text.encode())
+    monkeypatch.setattr(pages, "LARGEST", whole - 1)
+    smaller, found = page_of("four-bar", tmp_path)
+    assert "Left out, for the size" in smaller or "function confirm(" not in smaller
+    assert "function rhs(" in smaller and len(smaller.encode()) < whole
+    assert {link[1:] for link in found.links} <= set(found.ids)
+
+
+def test_a_page_without_a_right_hand_side_says_why(tmp_path):
+    text, _ = page_of("pendulum", tmp_path, "--shape", "looped")
+    assert "const rates = null;" in text
+    assert "offers no right-hand side to scripts: the code of a run is looped." in text
 
 
 def test_a_page_that_is_too_large_without_its_code_is_refused(tmp_path, monkeypatch, capsys):

@@ -30,5 +30,5 @@
     joint.addEventListener("keydown", (event) => { if (event.key === "Enter") go("rows-" + joint.dataset.name); });
   });
   if (location.hash) show(decodeURIComponent(location.hash.slice(1)));
-  window.symgen = data;
+  window.symgen = { ...data, rates };
 })();

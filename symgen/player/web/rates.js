@@ -1,0 +1,68 @@
+// The emitted right-hand side at work in a page: parameters, scratch, rates of states.
+
+function makeRates(spec, code) {
+  const { ny } = spec;
+  const p = Float64Array.from(spec.p0);
+  const w = new Float64Array(spec.nw);
+  const iw = new Float64Array(16);
+  const given = new Set();
+
+  function scratch() {
+    w.fill(0);
+    for (const [i, x] of spec.w0) w[i] = x;
+    for (const i of spec.masked) w[i] = Infinity;
+    iw.fill(0);
+  }
+
+  function prepare() {
+    code.derive(p, given);
+    code.prepareModel(p);
+    code.prepareLaw(p);
+    code.masses(p, w);
+  }
+
+  function setParameters(values) {
+    for (const [i, x] of values) {
+      p[i] = x;
+      given.add(i);
+    }
+    prepare();
+  }
+
+  function rhs(t, y, ydot) {
+    if (!code.rhs(t, y, p, w, iw, ydot)) return;
+    if (code.confirm) {
+      iw[0] = 1;
+      code.confirm(t, y, p, w, iw, ydot);
+      iw[0] = 0;
+    } else if (spec.partial) ydot.fill(NaN); // other rows depend on others here, and the page has no room to find them
+  }
+
+  // The state's rates; parameters that are given replace those of the page for this one call.
+  function rates(t, y, values) {
+    const ydot = new Float64Array(ny), kept = p.slice(), state = new Float64Array(ny);
+    state.set(Array.from(y).slice(0, ny));
+    if (values) {
+      for (let i = 0; i < spec.parameters.length; i++) if (values[i] !== undefined) p[i] = values[i];
+      code.prepareModel(p);
+      code.prepareLaw(p);
+      code.masses(p, w);
+    }
+    rhs(t, state, ydot);
+    if (values) {
+      p.set(kept);
+      code.masses(p, w);
+    }
+    return Array.from(ydot);
+  }
+
+  function reset() {
+    given.clear();
+    p.set(spec.p0);
+    scratch();
+    prepare();
+  }
+
+  reset();
+  return { p, w, iw, scratch, prepare, setParameters, rhs, rates, reset };
+}

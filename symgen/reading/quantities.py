@@ -1,0 +1,56 @@
+"""What derived equations consist of, with the nodes of their entries."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from symgen.ir.derivative import jacobian
+
+if TYPE_CHECKING:
+    from symgen.formulate.equations import Equations
+
+#: What the equations consist of: attribute, LaTeX, words.
+QUANTITIES = {
+    "Phi": (r"\Phi", "constraints, 0 where a row has none"),
+    "D": ("D", "Jacobian, D v = nu"),
+    "nu": (r"\nu", "right-hand side of the velocity constraints"),
+    "gamma": (r"\gamma", "right-hand side of the acceleration constraints, D v' = gamma"),
+    "N": ("N", "kinematic map, q' = N v"),
+    "M": ("M", "mass matrix"),
+    "f": ("f", "forces, M v' + D^T lambda = f"),
+    "T": ("T", "kinetic energy"),
+    "V": ("V", "potential energy"),
+    "power": ("P", "power of the forces without potential"),
+    "b": ("b", "power of the drivers that prescribe coordinates, b v' + c: by acceleration"),
+    "c": ("c", "the same: what is left where v' is 0"),
+}
+#: Those that exist where drivers prescribe coordinates.
+OF_DRIVERS = ("b", "c")
+
+#: Shape of a matrix; row, column and node of its entries.
+Entries = tuple[tuple[int, int], tuple[tuple[int, int, int], ...]]
+
+
+def nodes_of(e: Equations) -> Mapping[str, Entries]:
+    """Return for each quantity its shape, and row, column and node of its entries; N is added to the graph."""
+    rates = jacobian(e.graph, e.q_rates, [("v", j) for j in range(e.nv)])
+    zero = e.graph.zero
+
+    def column(found: Iterable[int]) -> Entries:
+        listed = list(found)
+        return (len(listed), 1), tuple((i, 0, n) for i, n in enumerate(listed))
+
+    mass = ((i, j, b.entries[r][c]) for b in e.mass for r, i in enumerate(b.columns) for c, j in enumerate(b.columns))
+    return {
+        "Phi": column(zero if row.phi is None else row.phi for row in e.rows),
+        "D": ((e.m, e.nv), tuple((i, j, node) for i, row in enumerate(e.rows) for j, node in row.entries)),
+        "nu": column(row.nu for row in e.rows),
+        "gamma": column(row.gamma for row in e.rows),
+        "N": ((e.nq, e.nv), tuple((i, j, n) for i, row in enumerate(rates) for (_, j), n in sorted(row.items()))),
+        "M": ((e.nv, e.nv), tuple(mass)),
+        "f": column(e.forces),
+        **{k: column([n]) for k, n in (("T", e.kinetic), ("V", e.potential), ("power", e.power))},
+        "b": ((1, e.nv), () if e.driving is None else tuple((0, j, n) for j, n in e.driving.entries)),
+        "c": column([zero if e.driving is None else e.driving.rest]),
+    }
