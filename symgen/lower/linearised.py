@@ -17,7 +17,7 @@ from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
-from symgen.vocabulary.measures import Measure
+from symgen.vocabulary.measures import Holonomic, Measure
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
@@ -72,6 +72,7 @@ def lower_linearised(
     turning: Sequence[Measure],
     sections: Mapping[str, tuple[int, int]],
     rows: Mapping[str, int],
+    groups: Sequence[str] = (),
 ) -> LinearisedProgram:
     """Lower the descriptor form with its derivatives.
 
@@ -83,6 +84,8 @@ def lower_linearised(
         Parameters that it is differentiated by, beside t, q, v, v' and lambda.
     turning, sections, rows
         As for `symgen.lower.side.lower_side`.
+    groups : sequence of str
+        Groups that are wanted, with derivatives by state, v' and multipliers alone; everything unless given.
 
     Raises
     ------
@@ -92,11 +95,11 @@ def lower_linearised(
     equations = formulate(mechanism)
     model = SideModel(mechanism, turning=turning, rows=rows)
     g = model.graph
-    values = _descriptor(model, equations)
+    values = {name: nodes for name, nodes in _descriptor(model, equations).items() if not groups or name in groups}
+    elements, parts = ((), []) if groups else _elements(model)
+    values |= {"elements": parts}
     sizes = {name: len(nodes) for name, nodes in values.items()}
-    elements, parts = _elements(model)
-    values, sizes = values | {"elements": parts}, sizes | {"elements": len(parts)}
-    functions, nodes = _functions(model, equations)
+    functions, nodes = ((), []) if groups else _functions(model, equations)
     count = sum(sizes.values())
     outputs = [node for group in sizes for node in values[group]] + nodes
     names = [p.name for p in mechanism.parameters]
@@ -105,7 +108,7 @@ def lower_linearised(
     keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
     keys += [("p", names.index(name)) for name in by]
-    timed = [node for group in TIMED for node in values[group]]
+    timed = [] if groups else [node for group in TIMED for node in values[group]]
     by_time = dict(zip(timed, jacobian(g, timed, [("t", 0)]), strict=True))
     pattern, derivatives = [], []
     for i, slopes in enumerate(jacobian(g, outputs, keys)):
@@ -121,6 +124,19 @@ def lower_linearised(
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
     side = side_program(mechanism, (block,), sections, labels)
     return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
+
+
+def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[str, int]) -> bool:
+    """Whether a force depends on velocities, or a joint is a condition on them: else motions at rest only oscillate."""
+    if any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
+        return True
+    model = SideModel(mechanism, turning=turning, rows=rows)
+    for force in mechanism.forces:
+        totals = [exertion(model, effort).total for effort in force.efforts]
+        found = (model.graph.nodes[n] for n in model.graph.needed(totals))
+        if any(o.op == "input" and isinstance(o.payload, tuple) and o.payload[0] == "v" for o in found):
+            return True
+    return False
 
 
 def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
