@@ -86,7 +86,7 @@ def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> A
     matrix : Array, shape (nq + nv, nq + nv)
         All zero where nothing can decay: no force depends on velocities, and no joint is a condition on them.
     """
-    nq, nv, m = compiled.info.nq, compiled.info.nv, compiled.info.m
+    nq, nv = compiled.info.nq, compiled.info.nv
     result, form = np.zeros((nq + nv, nq + nv)), compile_growth(mechanism, compiled)
     if form is None:
         return result

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.compiling.side import READ
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
 from symgen.lower.windings import winding_order
@@ -198,9 +199,9 @@ def _compiled(
     sections = {section: info.sections[section] for section in READ if section in info.sections}
     rows = {row.name: i for i, row in enumerate(info.rows)}
     folder = folder_of(mechanism)
-    text = "\n".join(
-        [str(sorted(sections.items())), str(rows), repr(turning), str(by), str(groups), generator_digest()]
-    )
+    formulas = repr(derived(mechanism.parameters)) if by else ""
+    parts = [str(sorted(sections.items())), str(rows), repr(turning), str(by), formulas, str(groups)]
+    text = "\n".join([*parts, generator_digest()])
     stem = f"{NAME}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     known = store.get(folder, stem)
     if known is None:

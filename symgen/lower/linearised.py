@@ -10,11 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
+from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
 from symgen.vocabulary.measures import Holonomic, Measure
@@ -81,7 +83,8 @@ def lower_linearised(
     mechanism : Mechanism
         A validated mechanism, with or without a tree.
     by : sequence of str
-        Parameters that it is differentiated by, beside t, q, v, v' and lambda.
+        Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
+        the description follows them here too.
     turning, sections, rows
         As for `symgen.lower.side.lower_side`.
     groups : sequence of str
@@ -107,11 +110,13 @@ def lower_linearised(
     nq, nv = equations.nq, equations.nv
     keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
-    keys += [("p", names.index(name)) for name in by]
+    following = _following(model, by)
+    keys += [("p", names.index(name)) for name in (*by, *following)]
     timed = [] if groups else [node for group in TIMED for node in values[group]]
     by_time = dict(zip(timed, jacobian(g, timed, [("t", 0)]), strict=True))
     pattern, derivatives = [], []
     for i, slopes in enumerate(jacobian(g, outputs, keys)):
+        slopes = _followed(g, slopes, following, names, by)
         slopes = {**slopes, **(by_time.get(outputs[i], {}) if i < count else {})}
         for space, index in sorted(slopes):
             pattern.append((i, spaces[space], index - nq if space == "ydot" else index))
@@ -124,6 +129,39 @@ def lower_linearised(
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
     side = side_program(mechanism, (block,), sections, labels)
     return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
+
+
+def _following(model: SideModel, by: Sequence[str]) -> dict[str, dict[str, int]]:
+    """Return the parameters that follow from others by formulas, with their derivatives by each of `by`."""
+    g, names = model.graph, [p.name for p in model.mechanism.parameters]
+    found: dict[str, dict[str, int]] = {}
+    for name, formula in derived(model.mechanism.parameters) if by else ():
+        node = model.expression(formula)
+        slopes = jacobian(g, [node], [("p", i) for i in range(len(names))])[0]
+        total: dict[str, int] = {}
+        for (_, i), slope in sorted(slopes.items()):
+            for base, more in (*([(names[i], g.one)] if names[i] in by else []), *found.get(names[i], {}).items()):
+                total[base] = g.add(total.get(base, g.zero), g.mul(slope, more))
+        if total:
+            found[name] = total
+    return found
+
+
+def _followed(
+    g: Graph,
+    slopes: Mapping[Key, int],
+    following: Mapping[str, Mapping[str, int]],
+    names: Sequence[str],
+    by: Sequence[str],
+) -> dict[Key, int]:
+    """Return derivatives by `by`: those by parameters that follow are parts of those by what they follow."""
+    places: dict[Key, Mapping[str, int]] = {("p", names.index(name)): bases for name, bases in following.items()}
+    found = {key: slope for key, slope in slopes.items() if key[0] != "p" or names[key[1]] in by}
+    for key, bases in places.items():
+        for base, more in bases.items() if key in slopes else ():
+            at = ("p", names.index(base))
+            found[at] = g.add(found.get(at, g.zero), g.mul(slopes[key], more))
+    return found
 
 
 def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[str, int]) -> bool:
