@@ -257,7 +257,11 @@ def asked_modes(
             )
         return lowest_modes(mechanism, settings, arguments.whole("count", count, 1, 10_000))
     subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
-    return modes(subject, y, None, states)
+
+    def bodies() -> Subject:
+        return subject_of(mechanism, replace(settings, coordinates="absolute"))
+
+    return modes(subject, y, None, states, bodies=bodies)
 
 
 def asked_system(
