@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.algebra import eigenvalues_of, ranking
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.steady import at_rest, check_steady, chosen, found_states, system, with_rates
 from symgen.analyses.subject import Subject
@@ -51,11 +52,7 @@ class LinearSystem:
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
-        return (
-            in_order(np.asarray(np.linalg.eigvals(self.A), dtype=np.complex128))
-            if len(self.A)
-            else np.zeros(0, dtype=np.complex128)
-        )
+        return in_order(eigenvalues_of(self.A)[0])
 
     def state_space(self) -> Any:
         """Return the system as `scipy.signal.StateSpace`."""
@@ -90,8 +87,7 @@ class LinearSystem:
 def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
     found = np.asarray(values, dtype=np.complex128) + 0.0
-    grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
-    return found[np.lexsort((-found.imag, -np.round(found.real / grain)))]
+    return found[ranking(found)]
 
 
 def linear_system(

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.algebra import eigenvalues_of, ranking, split, symmetric
 from symgen.analyses.equilibrium import rounded
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
@@ -140,17 +140,16 @@ def modes(
         if still is not None:
             return _of_squares(x, *still, bodies)
     if states or not resting:
-        values, shapes = np.linalg.eig(system(x, names)[0])
+        values, shapes = eigenvalues_of(system(x, names)[0])
         rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
         vectors = np.linalg.lstsq(rows, shapes, rcond=1e-11)[0]
         about = {name: x.quantity(name).value for name in names}
         largest = np.abs(shapes).max(axis=0, initial=0.0)
     else:
-        values, vectors = np.linalg.eig(x.matrix)
+        values, vectors = eigenvalues_of(x.matrix)
         names, shapes, about = _coordinates(subject), x.q[:, : x.size] @ vectors, subject.named(y)
         largest = np.sqrt([_twice_kinetic(x, change) for change in _velocities(x, vectors)])
-    order = [int(np.flatnonzero(values == value)[0]) for value in dict.fromkeys(in_order(values))]
-    kept = [i for i in order if values[i].imag >= 0.0]
+    kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
     found = shares(x, vectors[:, kept], bodies)
     return Modes(
         in_order(values),

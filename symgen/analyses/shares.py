@@ -76,13 +76,13 @@ def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] |
     for joint, geometric in _geometric(subject, y, a, lam, x.t):
         restoring[joint] = restoring.get(joint, 0.0) + _work(dr, geometric @ dq)
     whole = _work(dr, e.by("balance", "q") @ dq)
-    size = energy * float((np.abs(whole) / energy).max(initial=0.0))
+    heavy = np.maximum(_work(dr, e.by("balance", "a") @ dr), 1e-300)
     taken, drag = _by_force(subject, e, dv, dv, "v"), _work(dv, e.by("balance", "v") @ dv)
     rest = "gravity and turning" if moving else "gravity"
     return Shares(
         {name: part / energy for name, part in kinetic.items()},
-        _parts(restoring, whole, size, rest),
-        _parts(taken, drag, energy * float((np.abs(drag) / energy).max(initial=0.0)), "turning"),
+        _parts(restoring, whole, heavy, rest),
+        _parts(taken, drag, energy, "turning"),
     )
 
 
@@ -127,12 +127,16 @@ def _geometric(subject: Subject, y: Array, a: Array, lam: Array, t: float) -> li
     return found
 
 
-def _parts(parts: dict[str, Array], whole: Array, size: Array, rest: str) -> dict[str, Array]:
-    """Return parts over their whole; what is left is a part as well, and where the whole is nothing all are 0."""
-    left = whole - sum(parts.values(), np.zeros(len(whole)))
-    if np.any(np.abs(left) > REST * size):
+def _parts(parts: dict[str, Array], whole: Array, measure: Array, rest: str) -> dict[str, Array]:
+    """Return parts over their whole; what is left is a part as well, and where the whole is nothing all are 0.
+
+    It is nothing where it is the rounding of its parts, or of the whole of the mode that has most by a measure.
+    """
+    left, sizes = whole - sum(parts.values(), np.zeros(len(whole))), sum(map(np.abs, parts.values()), np.abs(whole))
+    if np.any(np.abs(left) > REST * sizes):
         parts = {**parts, rest: left}
-    there = np.abs(whole) > NONE * np.maximum(size, 1e-300)
+    largest = float((np.abs(whole) / measure).max(initial=0.0))
+    there = (np.abs(whole) > NONE * largest * measure) & (np.abs(whole) > REST * sizes)
     with np.errstate(all="ignore"):
         found = {name: np.where(there, part / whole, 0.0) for name, part in parts.items()}
     return found if np.any(there) else {}
