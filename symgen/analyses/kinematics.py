@@ -238,7 +238,8 @@ def kinematics(
     mechanism : Mechanism
         The description.
     settings : Settings
-        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+        Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count: a start is near the branch that
+        is wanted.
     times : array, optional
         Increasing, of any sign [s]; the outputs of a run of the file unless given.
     transmission : sequence of str

@@ -216,7 +216,8 @@ class Analysed:
         transmission : sequence of str
             Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
         **changes
-            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``. Of
+            several ways to close the mechanism that nearest to a start such as ``{"rocker.theta": -1.5}`` is taken.
 
         Raises
         ------

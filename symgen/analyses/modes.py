@@ -142,7 +142,7 @@ def modes(
     if states or not resting:
         values, shapes = eigenvalues_of(system(x, names)[0])
         rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-        vectors = np.linalg.lstsq(rows, shapes, rcond=1e-11)[0]
+        vectors = np.asarray(np.linalg.lstsq(rows, shapes, rcond=1e-11)[0], dtype=np.complex128)
         about = {name: x.quantity(name).value for name in names}
         largest = np.abs(shapes).max(axis=0, initial=0.0)
     else:

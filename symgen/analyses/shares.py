@@ -86,7 +86,7 @@ def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] |
     )
 
 
-def _of_bodies(x: Tangent, bodies: Subject, vectors: Array | Complex) -> tuple[Array, Complex, Complex]:
+def _of_bodies(x: Tangent, bodies: Subject, vectors: Array | Complex) -> tuple[Array, Array | Complex, Array | Complex]:
     """Return state and changes of bodies' own coordinates from those of joints."""
     y, changes = np.zeros_like(bodies.y), list[Array]()
     for i, name in enumerate(bodies.state_names):
