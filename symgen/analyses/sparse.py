@@ -39,11 +39,11 @@ Solver = Callable[[Array, Array], tuple[Array, Array]]
 #: Steps of a search at most, and what part of the forces counts as none.
 MOST_STEPS, TOLERANCE = 300, 1e-12
 #: How long a step downhill may be, in lengths of the mechanism and radians.
-REACH = 0.3
+REACH = 0.5
 #: A closing step as long as this has no way; what everything is moved by then, in metres and radians.
 SINGULAR, ASTRAY = 1e6, 0.01
-#: What s is multiplied with where a step is too long, and divided by where one was short.
-FASTER = 4.0
+#: What s is multiplied with where a step is too long, and the least part of its root that is left behind a short one.
+FASTER, LEAST = 4.0, 0.1
 
 
 @dataclass(frozen=True)
@@ -258,7 +258,7 @@ def _down(
                 ahead = float(change @ then) <= 0.5 * steep
                 closed = np.linalg.norm(open_) <= max(OPENED * sparse.lengths.max(), float(np.linalg.norm(gaps)))
                 if ahead and closed:
-                    return (change, more), shift / FASTER if long < 0.5 * REACH else shift
+                    return (change, more), shift * min(1.0, max(LEAST, 0.7 * long / REACH) ** 2)
         shift *= FASTER
     raise AnalysisError("no equilibrium was found from this start: no step leads downhill; another start may do")
 
