@@ -65,7 +65,10 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     names = tuple(q.name for q in sparse.compiled.info.coordinates)
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
-    return Modes(in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, about=about)
+    owners = np.array([v.name.partition(".")[0] for v in sparse.compiled.info.velocities])
+    energy = vectors * (mass @ vectors)
+    bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
+    return Modes(in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about)
 
 
 def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:

@@ -36,6 +36,9 @@ def test_the_lowest_modes_of_a_long_chain(n):
     assert np.all(np.diff(zeros) > 0.0) and 0.9 < zeros[0] / (1.4458 / (n + 0.5)) < 1.1  # j_0^2 / 4 over n + 1/2
     assert_allclose(found.omega_squared, rods.GRAVITY * zeros, rtol=1e-10)
     assert found.degrees_of_freedom == n and len(found.eigenvalues) == 20
+    assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)
+    moved = np.abs(found.shapes[:, -2:]) ** 2  # masses are 1 kg, and shapes normalised by them
+    assert_allclose(found.participation[f"m{n - 1}"], moved.sum(axis=1), rtol=1e-9)
 
 
 def test_what_lowest_modes_are_not_for():
