@@ -24,7 +24,7 @@ import numpy as np
 from rich.table import Table
 
 import symgen
-from benchmarks.peers.analyses import CHAINS, FOUR_BAR, GRAVITY, places
+from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE, places
 from benchmarks.show import show
 from symgen.analyses.asked import subject_at
 from symgen.analyses.modes import modes
@@ -67,6 +67,22 @@ def rods(kind: str) -> symgen.Model:
     return symgen.Model(builder.build())
 
 
+def catenary(n: int = 10) -> symgen.Model:
+    """Return links of 2 m in all on pins 1 m apart, in a V that closes."""
+    builder, half, x, y = symgen.MechanismBuilder("catenary", gravity=(0.0, -GRAVITY)), 1.0 / n, 0.0, 0.0
+    for i in range(n):
+        angle = -SLOPE if i < n // 2 else SLOPE
+        place = (x + half * math.cos(angle), y + half * math.sin(angle))
+        ends = {"A": (-half, 0.0), "B": (half, 0.0)}
+        inertia = 2 * half * (2 * half) ** 2 / 12
+        builder.body(f"l{i}", mass=2 * half, inertia=inertia, position=place, angle=angle, points=ends)
+        before = ("ground", (0.0, 0.0)) if i == 0 else (f"l{i - 1}", "B")
+        builder.joint(f"j{i}", "revolute", between=(before[0], f"l{i}"), at=(before[1], "A"))
+        x, y = x + 2 * half * math.cos(angle), y + 2 * half * math.sin(angle)
+    builder.joint("end", "revolute", between=("ground", f"l{n - 1}"), at=((1.0, 0.0), "B"))
+    return symgen.Model(builder.build())
+
+
 def fastest(call: Callable[[], Any]) -> tuple[float, Any]:
     """Return the least time of a few calls behind a first one, and the answer."""
     call()
@@ -106,6 +122,12 @@ def own() -> list[dict[str, Any]]:
         rows.append({"problem": f"chain of {n}", "way": "modes(count=10), sparse", "error": error, "call": call})
         call, _ = fastest(partial(model.equilibrium, shape="looped"))
         rows.append({"problem": f"chain of {n}", "way": "equilibrium, sparse", "error": math.nan, "call": call})
+    model = catenary()
+    for shape in ("straight", "looped"):
+        call, rest = fastest(partial(model.equilibrium, shape=shape))
+        error = abs(rest.q["l0.theta"] / CATENARY - 1.0)
+        way = f"equilibrium, {shape}, {rest.iterations} steps"
+        rows.append({"problem": "catenary", "way": way, "error": error, "call": call})
     return [{"peer": "symgen", "version": symgen.__version__, **row} for row in rows]
 
 

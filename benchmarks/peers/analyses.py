@@ -4,9 +4,10 @@
 
 Chains are N point masses of 1 kg on massless links of 1 m: squares of frequencies are g times the zeros of Laguerre's
 polynomial. The four-bar is that of rods of 1, 3 and 3 m and kg on pins 4 m apart, its value by minimal coordinates with
-30 digits. Errors are the largest relative ones of all squares. Seconds are those of the question asked of a model that
-stands; SymPy's are those from its equations to the numbers, as its linear system is formulas. Every peer gets the
-operating point; MuJoCo is asked in its own coordinates, hinges, where that is possible.
+30 digits. The catenary is that of ten links of 2 m in all on pins 1 m apart, from a V that closes: the first angle at
+rest. Errors are the largest relative ones of all squares, or of the angle. Seconds are those of the question asked of a
+model that stands; SymPy's are those from its equations to the numbers, as its linear system is formulas. Every peer
+gets the operating point; MuJoCo is asked in its own coordinates, hinges, where that is possible.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ from scipy.special import roots_laguerre
 GRAVITY = 9.81
 FOUR_BAR = 4.358800068629289, 22.57021890188508
 CHAINS = (2, 10, 40)
+#: First angle of the catenary at rest, and where its links begin.
+CATENARY, SLOPE = -1.321141266113, math.pi / 3
 
 
 def places() -> tuple[list[list[float]], list[float]]:
@@ -75,6 +78,15 @@ def exudyn(problem: str, n: int) -> tuple[Any, str]:
             body = rod([0.0, -1.0 - i], -math.pi / 2, 1.0, 1e-12)
             pin(before, marker(body, [-1.0, 0.0]))
             before = marker(body, [0.0, 0.0])
+    elif problem == "catenary":
+        before, place, half = marker(ground, [0.0, 0.0]), np.zeros(2), 0.1
+        for i in range(n):
+            angle = -SLOPE if i < n // 2 else SLOPE
+            along = half * np.array([math.cos(angle), math.sin(angle)])
+            body = rod((place + along).tolist(), angle, 2 * half, 2 * half * (2 * half) ** 2 / 12)
+            pin(before, marker(body, [-half, 0.0]))
+            before, place = marker(body, [half, 0.0]), place + 2 * along
+        pin(before, marker(ground, [1.0, 0.0]))
     else:
         centres, angles = places()
         crank, coupler, rocker = (
@@ -86,14 +98,23 @@ def exudyn(problem: str, n: int) -> tuple[Any, str]:
         pin(marker(ground, [4.0, 0.0]), marker(rocker, [-1.5, 0.0]))
     system.Assemble()
     start = time.perf_counter()
+    if problem == "catenary":
+        settings = exu.SimulationSettings()
+        settings.staticSolver.numberOfLoadSteps = 100
+        settings.staticSolver.stabilizerODE2term = 1.0
+        system.SolveStatic(settings, updateInitialValues=True)
+        turned = system.GetNodeOutput(0, exu.OutputVariableType.Coordinates)[2]
+        return (np.array([turned - SLOPE]), time.perf_counter() - start), "SolveStatic, 100 load steps"
     values = system.ComputeODE2Eigenvalues()[0]
     return (np.array(values), time.perf_counter() - start), "ComputeODE2Eigenvalues, null space of the rows"
 
 
-def mujoco(problem: str, n: int) -> tuple[Any, str]:
-    """Return squares of frequencies, and the way."""
+def mujoco(problem: str, n: int) -> tuple[Any, str] | None:
+    """Return squares of frequencies, and the way; it has no search for an equilibrium."""
     import mujoco as mj
 
+    if problem == "catenary":
+        return None
     option = f'<option gravity="0 0 -{GRAVITY}" timestep="1e-3"><flag contact="disable"/></option>'
 
     def body(inner: str, mass: float, inertia: float, place: str, centre: str, angle: float = 0.0) -> str:
@@ -142,7 +163,7 @@ def sympy(problem: str, n: int) -> tuple[Any, str] | None:
     import sympy as sp
     from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
-    if problem == "four-bar" or n > 10:
+    if problem in ("four-bar", "catenary") or n > 10:
         return None
     start = time.perf_counter()
     time_ = dynamicsymbols._t
@@ -168,6 +189,7 @@ def sympy(problem: str, n: int) -> tuple[Any, str] | None:
 def measured(answer: Callable[[str, int], tuple[Any, str] | None], problem: str, n: int) -> dict[str, Any]:
     """Return one row: the largest relative error of the squares, and seconds; the best of three."""
     truth = {"rod": np.array([1.5 * GRAVITY]), "four-bar": np.array([FOUR_BAR[1]])}.get(problem)
+    truth = np.array([CATENARY]) if problem == "catenary" else truth
     truth = GRAVITY * roots_laguerre(n)[0] if truth is None else truth
     best: dict[str, Any] = {"problem": problem if problem != "chain" else f"chain of {n}", "seconds": None}
     for _ in range(1 if answer is sympy else 3):
@@ -198,7 +220,7 @@ def main() -> None:
         except ImportError:
             sys.stderr.write(f"{peer.__name__}: not installed\n")
             continue
-        for problem, n in (("rod", 1), *(("chain", n) for n in CHAINS), ("four-bar", 3)):
+        for problem, n in (("rod", 1), *(("chain", n) for n in CHAINS), ("four-bar", 3), ("catenary", 10)):
             rows.append({"peer": peer.__name__, "version": version, **measured(peer, problem, n)})
             sys.stdout.write(json.dumps(rows[-1]) + "\n")
     if asked.json is not None:
