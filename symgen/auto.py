@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.linearised import GROWTH, compile_growth
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
 from symgen.plan import make_plan
 from symgen.run_setup import ready
 from symgen.runtime import abi
-from symgen.runtime.assembly import state_scales
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
+
+Array = NDArray[np.float64]
 
 #: What asks for an automatic choice.
 AUTO = "auto"
@@ -47,7 +49,8 @@ class Facts:
     massless : bool
         Whether a body has no mass.
     fastest_decay, fastest_oscillation : float
-        Largest negative real part and imaginary part of the eigenvalues of the linearised motion at the start [1/s].
+        Largest negative real part and imaginary part of the eigenvalues of the linearised motion at the start [1/s]; 0
+        where no force depends on velocities and no joint is a condition on them.
     slowest_change : float
         Rate at which the state changes by its own size [1/s].
     """
@@ -66,30 +69,48 @@ class Facts:
         return self.fastest_decay / 3.0 / max(self.slowest_change * _STEPS_A_CHANGE, 1e-300)
 
 
-def linearised(compiled: CompiledModel, start: Start, scales: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the Jacobian of (q', v') with respect to (q, v) at the start, by central differences: an estimate only.
+def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> Array:
+    """Return the Jacobian of (q', v') with respect to (q, v) at the start, from derivatives on the graph.
 
     Parameters
     ----------
+    mechanism : Mechanism
+        What moves.
     compiled : CompiledModel
-        A method whose rates are those of the state.
+        Its compiled form; any method will do.
     start : Start
         Where to linearise.
-    scales : Array, shape (nq + nv,)
-        What the state is compared with, from `symgen.runtime.assembly.state_scales`.
+
+    Returns
+    -------
+    matrix : Array, shape (nq + nv, nq + nv)
+        All zero where nothing can decay: no force depends on velocities, and no joint is a condition on them.
     """
-    width, rhs = len(start.y) - 1, Ready(compiled.law_module.rhs, abi.RHS)
-    result = np.zeros((width, width))
-    iw = np.zeros(len(COUNTERS), dtype=np.int64)
-    for j in range(width):
-        step = 1e-6 * max(scales[j], abs(float(start.y[j])))
-        sides = []
-        for sign in (1.0, -1.0):
-            y, rate = start.y.copy(), np.zeros_like(start.y)
-            y[j] += sign * step
-            rhs(start.t, y, start.p, start.w.copy(), iw, rate)
-            sides.append(rate[:width])
-        result[:, j] = (sides[0] - sides[1]) / (2.0 * step)
+    nq, nv = compiled.info.nq, compiled.info.nv
+    result, form = np.zeros((nq + nv, nq + nv)), compile_growth(mechanism, compiled)
+    if form is None:
+        return result
+    w = start.w.copy()
+    lam, kept = compiled.section(w, "multipliers"), compiled.section(w, "mask") == 0.0
+    lam[:] = 0.0
+    still = form.at(start.t, start.y, np.zeros(nv), start.p, w)
+    rows = still.by("accelerations", "a")[kept]
+    matrix = np.block([[still.by("balance", "a"), rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+
+    def solved(balance: Array, accelerations: Array) -> Array:
+        right = -np.concatenate([balance, accelerations[kept]])
+        return np.asarray(np.linalg.lstsq(matrix, right, rcond=1e-14)[0], dtype=np.float64)
+
+    if not np.all(np.isfinite(still.out)):
+        return np.full_like(result, np.nan)
+    found = solved(still.value("balance"), still.value("accelerations"))
+    lam[kept] = found[nv:]
+    e = form.at(start.t, start.y, found[:nv], start.p, w)
+    if not np.all(np.isfinite(e.out)):
+        return np.full_like(result, np.nan)
+    by_state = [np.hstack([e.by(group, "q"), e.by(group, "v")]) for group in GROWTH]
+    result[:nq] = by_state[0]
+    result[nq:] = solved(by_state[1], by_state[2])[:nv]
     return result
 
 
@@ -121,8 +142,7 @@ def gather(
     compiled, start = ready(mechanism, plan, parameters)
     nq, width = compiled.info.nq, len(start.y) - 1
     small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
-    scales = state_scales(compiled, start.w, plan.spec.until)
-    jacobian = linearised(compiled, start, scales) if small else np.zeros((1, 1))
+    jacobian = linearised(mechanism, compiled, start) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)

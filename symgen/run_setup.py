@@ -28,6 +28,8 @@ from symgen.runtime.pieces import Piece, pieces_of
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Hold, Mechanism
     from symgen.describe.numbers import Scalars
@@ -87,6 +89,7 @@ def start_of(
     strict: bool = False,
     held: Held | Sequence[Hold] | None = None,
     ask_light: bool = False,
+    near: NDArray[np.float64] | None = None,
 ) -> Start:
     """Return the consistent start of a run.
 
@@ -102,6 +105,8 @@ def start_of(
         See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
         What is kept while everything else moves; what the description holds unless given.
+    near : array, optional
+        Coordinates that the mechanism is closed from; those that are described unless given.
 
     Raises
     ------
@@ -113,6 +118,8 @@ def start_of(
     values = parameter_values(mechanism, parameters)
     numbers = scalars(values)
     q, v = described_start(mechanism, numbers)
+    if near is not None:
+        q = [float(x) for x in near]
     if not isinstance(held, Held):
         held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
@@ -163,9 +170,13 @@ def compiled_for(mechanism: Mechanism, choice: MethodChoice) -> CompiledModel:
 
 
 def ready(
-    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
+    mechanism: Mechanism,
+    plan: Plan,
+    parameters: Mapping[str, float] | None = None,
+    strict: bool = False,
+    near: NDArray[np.float64] | None = None,
 ) -> tuple[CompiledModel, Start]:
-    """Return the compiled model and the consistent start of a plan.
+    """Return the compiled model and the consistent start of a plan, closed from coordinates `near` by if given.
 
     Where light bodies spoil the elimination of v' and the plan leaves the choice, the same law is solved with
     M + W D^T D instead, and a note says so.
@@ -173,12 +184,13 @@ def ready(
     if plan.last is not None:
         return _going_on(mechanism, plan, plan.last, parameters, strict)
     compiled = compiled_for(mechanism, plan.choice)
-    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds, plan.solver_is_free)
+    method, free = plan.method_parameters, plan.solver_is_free
+    start = start_of(mechanism, compiled, parameters, method, strict, plan.holds, free, near)
     if not start.light:
         return compiled, start
     choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
     compiled = compiled_for(mechanism, choice)
-    start = start_of(mechanism, compiled, parameters, plan.method_parameters, strict, plan.holds)
+    start = start_of(mechanism, compiled, parameters, method, strict, plan.holds, False, near)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
 

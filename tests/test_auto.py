@@ -2,6 +2,7 @@
 
 from functools import cache
 
+import numpy as np
 import pytest
 from support.emitted import mechanism_of
 from support.models import parallelogram
@@ -9,10 +10,16 @@ from support.models import parallelogram
 from benchmarks.pairs import forms_in_common
 from benchmarks.stiff import model as stiff_model
 from symgen.api import Model, load
-from symgen.auto import STIFF_RATIO, Facts, decide, gather, resolve
+from symgen.auto import STIFF_RATIO, Facts, decide, gather, linearised, resolve
+from symgen.compiling.linearised import compile_growth
+from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
 from symgen.plan import make_plan
 from symgen.result import agreement
+from symgen.run_setup import ready
+from symgen.runtime import abi
+from symgen.runtime.assembly import state_scales
+from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 
 CALM = Facts(
@@ -129,6 +136,33 @@ def test_the_facts_of_the_stiff_case():
     assert found.fastest_decay == pytest.approx(5.5e4, rel=0.05)  # damping over the reduced mass
 
 
+@pytest.mark.parametrize("name", ["stiff", "rolling-disc"])
+def test_derivatives_of_the_motion_are_those_of_differences(name):
+    """Central differences of the emitted right-hand side have half of the digits."""
+    mechanism = stiff_model().mechanism if name == "stiff" else load(name).mechanism
+    plan = make_plan(mechanism, Settings(method="lagrange", integrator="dop853"))
+    compiled, start = ready(mechanism, plan)
+    found, rate = linearised(mechanism, compiled, start), Ready(compiled.law_module.rhs, abi.RHS)
+    differences = np.zeros_like(found)
+    for j, size in enumerate(state_scales(compiled, start.w, plan.spec.until)):
+        ends = []
+        for sign in (1.0, -1.0):
+            y, ydot = start.y.copy(), np.zeros_like(start.y)
+            y[j] += sign * 1e-6 * max(size, abs(y[j]))
+            ends.append(y[j])
+            rate(start.t, y, start.p, start.w.copy(), np.zeros(len(COUNTERS), dtype=np.int64), ydot)
+            differences[:, j] += sign * ydot[: len(found)]
+        differences[:, j] /= ends[0] - ends[1]
+    assert np.abs(found - differences).max() < 1e-8 * np.abs(found).max()
+
+
+def test_what_cannot_decay_needs_no_derivatives():
+    mechanism = load("four-bar").mechanism
+    compiled, start = ready(mechanism, make_plan(mechanism, Settings(method="lagrange", integrator="dop853")))
+    assert compile_growth(mechanism, compiled) is None
+    assert not linearised(mechanism, compiled, start).any()
+
+
 # -- the check ---------------------------------------------------------------------------------------------------------
 
 
@@ -140,8 +174,6 @@ def test_two_runs_agree():
 
 def test_tolerances_fall_until_two_runs_agree(monkeypatch):
     """What is reported then is as near to an independent reference as the runs are to each other."""
-    import numpy as np
-
     from symgen.result.points import Points
     from symgen.study.references.reference import reference
 

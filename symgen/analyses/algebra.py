@@ -6,9 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 #: Singular values of D below this fraction of the largest one count as zero.
 DEPENDENT = 1e-9
+#: Singular values of a linear system's matrix of n rows below n times this part of the largest one count as zero.
+ZERO = 1e-14
 
 
 def split(d: Array) -> tuple[Array, Array, Array]:
@@ -42,3 +45,32 @@ def split(d: Array) -> tuple[Array, Array, Array]:
 def symmetric(a: Array) -> Array:
     """Return the symmetric part of a matrix."""
     return 0.5 * (a + a.T)
+
+
+def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:
+    """Return eigenvalues and eigenvectors, with exact zeros where the rank says so.
+
+    A cyclic coordinate or a body that is free to go gives two zeros and one vector, which rounding parts into a pair of
+    the square root of its own size. How many zeros there are is a decision of rank: the dimension of what the matrix
+    maps to zero, then that of what it maps there, and so on.
+    """
+    values, vectors = np.linalg.eig(a)
+    values, n = values.astype(np.complex128), len(a)
+    count, largest, rest = 0, 0.0, a
+    while len(rest):
+        _, s, vt = np.linalg.svd(rest)
+        largest = largest or float(s[0])
+        none = s <= n * ZERO * largest
+        if not none.any():
+            break
+        count += int(none.sum())
+        rest = vt[~none] @ rest @ vt[~none].T
+    values[np.argsort(np.abs(values))[:count]] = 0.0
+    return values, np.asarray(vectors, dtype=np.complex128)
+
+
+def ranking(values: Array | Complex) -> NDArray[np.int64]:
+    """Return the order by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
+    found = np.asarray(values, dtype=np.complex128)
+    grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
+    return np.asarray(np.lexsort((-found.imag, -np.round(found.real / grain))), dtype=np.int64)

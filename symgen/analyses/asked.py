@@ -15,7 +15,7 @@ from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import settle
-from symgen.analyses.subject import Subject, subject_of
+from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
 if TYPE_CHECKING:
@@ -49,8 +49,19 @@ def place_of(at: object, where: str = "at") -> str | float:
     return arguments.number(where, at, positive=True)
 
 
+def is_large(mechanism: Mechanism, settings: Settings) -> bool:
+    """Whether sparse matrices are asked for, or a mechanism is so large that they are taken."""
+    size = sum(len(body.coordinates) for body in mechanism.bodies)
+    return settings.shape == "looped" or (settings.shape == "auto" and size > LARGE)
+
+
 def subject_at(
-    mechanism: Mechanism, settings: Settings, at: str | float, run: Callable[[Settings], Result], cyclic: Sequence[str]
+    mechanism: Mechanism,
+    settings: Settings,
+    at: str | float,
+    run: Callable[[Settings], Result],
+    cyclic: Sequence[str],
+    by: Sequence[str] = (),
 ) -> tuple[Subject, Array]:
     """Return what is analysed, and the state that it is analysed about.
 
@@ -67,6 +78,8 @@ def subject_at(
         Settings -> result of a run.
     cyclic : sequence of str
         Coordinates that turn on in a steady motion; found unless given.
+    by : sequence of str
+        Parameters that derivatives are wanted by.
 
     Raises
     ------
@@ -76,7 +89,7 @@ def subject_at(
         If no equilibrium or steady motion is found, or the run fails.
     """
     if at == "steady":
-        subject = subject_of(mechanism, replace(settings, coordinates="joint"))
+        subject = subject_of(mechanism, replace(settings, coordinates="joint"), by)
         return subject, steady_motion(subject, cyclic)[0]
     if cyclic:
         raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(cyclic))
@@ -85,7 +98,7 @@ def subject_at(
         if result.status == "failed":
             raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
         settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
-    subject = subject_of(mechanism, settings)
+    subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":
         return subject, equilibria(subject)[0].y
     if not subject.closed:
@@ -182,6 +195,10 @@ def scanned(
 
 def asked_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     """Return the equilibrium that the start leads to; see `symgen.api.Model.equilibrium`."""
+    if settings.coordinates == "absolute" and is_large(mechanism, settings):
+        from symgen.analyses.large import large_equilibrium
+
+        return large_equilibrium(mechanism, settings)
     try:
         subject = subject_of(mechanism, settings)
     except AssemblyError:  # a tree is put together from bodies that close
@@ -240,7 +257,11 @@ def asked_modes(
             )
         return lowest_modes(mechanism, settings, arguments.whole("count", count, 1, 10_000))
     subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
-    return modes(subject, y, None, states)
+
+    def bodies() -> Subject:
+        return subject_of(mechanism, replace(settings, coordinates="absolute"))
+
+    return modes(subject, y, None, states, bodies=bodies)
 
 
 def asked_system(
@@ -251,8 +272,9 @@ def asked_system(
     states: Sequence[str] = (),
     cyclic: Sequence[str] = (),
     instantaneous: bool = False,
+    by: Sequence[str] = (),
 ) -> LinearSystem:
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
-    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic, arguments.words("by", by))
     return linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))

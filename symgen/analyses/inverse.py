@@ -186,7 +186,7 @@ def inverse(
     names = arguments.words(WHERE, actuators)
     drivers = drivers_of(mechanism)
     if motion is None:
-        moved = kinematics(mechanism, settings, times)
+        moved = kinematics(mechanism, settings, times, where="inverse")
         if set(names or drivers) == set(drivers) and not weights:
             return _of_drivers(moved, names or drivers)
         found, settings = recorded(moved), _with_known(settings, mechanism, recorded(moved))

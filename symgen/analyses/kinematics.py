@@ -229,7 +229,11 @@ class Kinematics(Tables):
 
 
 def kinematics(
-    mechanism: Mechanism, settings: Settings, times: ArrayLike | None = None, transmission: Sequence[str] = ()
+    mechanism: Mechanism,
+    settings: Settings,
+    times: ArrayLike | None = None,
+    transmission: Sequence[str] = (),
+    where: str = "kinematics",
 ) -> Kinematics:
     """Return the motion of a mechanism whose freedom is all driven.
 
@@ -238,11 +242,14 @@ def kinematics(
     mechanism : Mechanism
         The description.
     settings : Settings
-        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+        Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count: a start is near the branch that
+        is wanted.
     times : array, optional
         Increasing, of any sign [s]; the outputs of a run of the file unless given.
     transmission : sequence of str
         Joints whose transmission angles are wanted.
+    where : str
+        Who asks, for messages.
 
     Raises
     ------
@@ -251,10 +258,10 @@ def kinematics(
     AssemblyError
         If the mechanism cannot be closed.
     """
-    asked = default_times(mechanism) if times is None else checked_times("kinematics: times", times)
+    asked = default_times(mechanism) if times is None else checked_times(f"{where}: times", times)
     angles = arguments.words("transmission", transmission)
-    found = make_driven(mechanism, settings, float(asked[-1]), "kinematics")
-    require("kinematics: times", f"{len(asked)} times", 16.0 * len(asked) * (found.compiled.info.ny + 16))
+    found = make_driven(mechanism, settings, float(asked[-1]), where)
+    require(f"{where}: times", f"{len(asked)} times", 16.0 * len(asked) * (found.compiled.info.ny + 16))
     return _result(found, trace(found, asked), angles)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.algebra import eigenvalues_of, ranking
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.steady import at_rest, check_steady, chosen, found_states, system, with_rates
 from symgen.analyses.subject import Subject
@@ -26,13 +27,15 @@ class LinearSystem:
     A, B, C, D : Array
         x' = A x + B u, y = C x + D u; all are changes against the state that the system is about.
     states, inputs, outputs : tuple of str
-        Names of x, u and y.
+        Names of x, u and y; parameters that derivatives were asked by are inputs as well, and stand behind.
     about : dict of str to float
         Values of states, inputs and outputs at that state.
     t : float
         Its time [s].
     left_out : tuple of str
         Outputs that depend on something else than the states, such as a cyclic coordinate.
+    parameters : tuple of str
+        Those of the inputs that are parameters: constants, changed once and for all while the states stay.
     """
 
     A: Array
@@ -45,14 +48,11 @@ class LinearSystem:
     about: dict[str, float]
     t: float = 0.0
     left_out: tuple[str, ...] = field(default=())
+    parameters: tuple[str, ...] = field(default=())
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
-        return (
-            in_order(np.asarray(np.linalg.eigvals(self.A), dtype=np.complex128))
-            if len(self.A)
-            else np.zeros(0, dtype=np.complex128)
-        )
+        return in_order(eigenvalues_of(self.A)[0])
 
     def state_space(self) -> Any:
         """Return the system as `scipy.signal.StateSpace`."""
@@ -80,15 +80,14 @@ class LinearSystem:
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
         matrices = {name: getattr(self, name).tolist() for name in ("A", "B", "C", "D")}
-        names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs", "left_out")}
+        names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs", "left_out", "parameters")}
         return {**matrices, **names, "about": self.about, "t": self.t}
 
 
 def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Return eigenvalues by decreasing real part, then by decreasing imaginary part; what rounding parts is one."""
     found = np.asarray(values, dtype=np.complex128) + 0.0
-    grain = 1e-12 * np.abs(found).max(initial=0.0) or 1.0
-    return found[np.lexsort((-found.imag, -np.round(found.real / grain)))]
+    return found[ranking(found)]
 
 
 def linear_system(
@@ -156,7 +155,7 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
     n, form = x.size, subject.form
     changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()
-    inputs = subject.mechanism.inputs
+    inputs = subject.varied
     numbers = [p.name for p in subject.compiled.info.parameters]
     about = {name: x.quantity(name).value for name in names}
     about |= {name: float(subject.p[numbers.index(name)]) for name in inputs}
@@ -186,4 +185,5 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
         about,
         x.t,
         tuple(left_out),
+        subject.by,
     )

@@ -43,7 +43,8 @@ class Analysed:
         Parameters
         ----------
         settings : Settings, optional
-            All settings at once; ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
+            All settings at once; ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at:
+            looped code, and any mechanism with more than 300 coordinates, is searched with sparse matrices.
         **changes
             Single settings. Drivers hold what they drive where it is at the time 0.
 
@@ -143,6 +144,7 @@ class Analysed:
         states: Sequence[str] = (),
         cyclic: Sequence[str] = (),
         instantaneous: bool = False,
+        by: Sequence[str] = (),
         **changes: object,
     ) -> LinearSystem:
         """Return the linear system x' = A x + B u, y = C x + D u about a state of rest or of steady motion.
@@ -158,6 +160,8 @@ class Analysed:
             With ``at="steady"``, the coordinates of joints that turn on; found unless given.
         instantaneous : bool
             Whether a motion that is not steady has the system of the instant.
+        by : sequence of str
+            Parameters that are inputs as well: constants, changed once and for all while the states stay.
 
         Raises
         ------
@@ -169,7 +173,7 @@ class Analysed:
         from symgen.analyses.asked import asked_system
 
         asked = changed(settings, changes)
-        return asked_system(self.mechanism, asked, at, self.simulate, states, cyclic, instantaneous)
+        return asked_system(self.mechanism, asked, at, self.simulate, states, cyclic, instantaneous, by)
 
     def locus(
         self,
@@ -212,7 +216,8 @@ class Analysed:
         transmission : sequence of str
             Pins whose transmission angles are wanted, such as ``"C"`` or ``"C(B, D)"``.
         **changes
-            Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
+            Single settings that mean something here: ``parameters``, ``inputs``, ``start``, ``strict``, ``shape``. Of
+            several ways to close the mechanism that nearest to a start such as ``{"rocker.theta": -1.5}`` is taken.
 
         Raises
         ------

@@ -6,17 +6,18 @@ free directions, which keeps all digits of omega^2; elsewhere from the system of
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.algebra import eigenvalues_of, ranking, split, symmetric
 from symgen.analyses.equilibrium import rounded
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
+from symgen.analyses.shares import shares
 from symgen.analyses.steady import at_rest, system
 from symgen.analyses.subject import Subject
 
@@ -45,10 +46,12 @@ class Modes:
         One for each eigenvalue whose imaginary part is not negative, or for each of `omega_squared`; at rest
         normalised to x^H M x = 1, in a steady motion to a largest element of 1.
     participation : mapping of str to Array
-        At rest in bodies' coordinates: share of each body in the kinetic energy of each mode, body by body.
+        Share of each body in the kinetic energy of each mode.
     stiffening : mapping of str to Array
-        Share of each force and joint in the potential energy of each mode that has some: joints have some by what
-        they carry.
+        Share of each force and joint in the work of each mode against what restores it: joints restore by what they
+        carry.
+    dissipation : mapping of str to Array
+        Share of each force in what damps each mode; empty where nothing does.
     about : dict of str to float
         Coordinates, or states, that the modes are about.
     t : float
@@ -62,6 +65,7 @@ class Modes:
     shapes: Complex
     participation: Mapping[str, Array] = field(default_factory=dict)
     stiffening: Mapping[str, Array] = field(default_factory=dict)
+    dissipation: Mapping[str, Array] = field(default_factory=dict)
     about: Mapping[str, float] = field(default_factory=dict)
     t: float = 0.0
 
@@ -95,13 +99,19 @@ class Modes:
             "shapes": [[[float(x.real), float(x.imag)] for x in shape] for shape in self.shapes],
             "participation": {name: share.tolist() for name, share in self.participation.items()},
             "stiffening": {name: share.tolist() for name, share in self.stiffening.items()},
+            "dissipation": {name: share.tolist() for name, share in self.dissipation.items()},
             "about": dict(self.about),
             "t": self.t,
         }
 
 
 def modes(
-    subject: Subject, y: Array, t: float | None = None, states: Sequence[str] = (), where: str = "modes"
+    subject: Subject,
+    y: Array,
+    t: float | None = None,
+    states: Sequence[str] = (),
+    where: str = "modes",
+    bodies: Callable[[], Subject] | None = None,
 ) -> Modes:
     """Return the modes about a state of rest or of steady motion.
 
@@ -111,6 +121,8 @@ def modes(
         As for `symgen.analyses.linearise.linear_system`.
     where : str
         Who asks, for messages.
+    bodies : callable, optional
+        As for `symgen.analyses.shares.shares`: without it modes of a tree have no tables.
 
     Raises
     ------
@@ -122,32 +134,58 @@ def modes(
     if not x.size:
         nothing = np.zeros(0, dtype=np.complex128)
         return Modes(nothing, np.zeros(0), 0, (), nothing.reshape(0, 0), about=subject.named(y), t=x.t)
-    if states or not at_rest(subject, x):
-        values, vectors = np.linalg.eig(system(x, names)[0])
-        return _sorted(values, vectors.T, names, x, {name: x.quantity(name).value for name in names})
-    about = subject.named(y)
-    still = None if x.positions != x.velocities else _undamped(subject, x)
-    if still is None:
-        values, vectors = np.linalg.eig(x.matrix)
-        shapes = (x.q[:, : x.size] @ vectors).T
-        sizes = np.sqrt([_twice_kinetic(x, shape) for shape in _velocities(x, vectors)])
-        return _sorted(values, shapes / np.maximum(sizes, 1e-300)[:, None], _coordinates(subject), x, about, vectors)
-    squares, directions = still
-    free = split(x.base.by("velocities", "v"))[0]
-    along = free @ directions
+    resting = at_rest(subject, x)
+    if not states and resting and x.positions == x.velocities:
+        still = _undamped(x)
+        if still is not None:
+            return _of_squares(x, *still, bodies)
+    if states or not resting:
+        values, shapes = eigenvalues_of(system(x, names)[0])
+        rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
+        vectors = np.asarray(np.linalg.lstsq(rows, shapes, rcond=1e-11)[0], dtype=np.complex128)
+        about = {name: x.quantity(name).value for name in names}
+        largest = np.abs(shapes).max(axis=0, initial=0.0)
+    else:
+        values, vectors = eigenvalues_of(x.matrix)
+        names, shapes, about = _coordinates(subject), x.q[:, : x.size] @ vectors, subject.named(y)
+        largest = np.sqrt([_twice_kinetic(x, change) for change in _velocities(x, vectors)])
+    kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
+    found = shares(x, vectors[:, kept], bodies)
+    return Modes(
+        in_order(values),
+        np.zeros(0),
+        x.velocities,
+        names,
+        (shapes / np.maximum(largest, 1e-300))[:, kept].T,
+        *(found.participation, found.stiffening, found.dissipation),
+        about,
+        x.t,
+    )
+
+
+def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[[], Subject] | None) -> Modes:
+    """Return the modes of symmetric stiffness and masses."""
+    e, subject = x.base, x.subject
+    along = split(e.by("velocities", "v"))[0] @ directions
     roots = np.sqrt(-squares.astype(np.complex128))
-    shapes = (x.base.by("motion", "v") @ along).T.astype(np.complex128)
+    shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
+    # both positions and velocities change along the mode, as they do one after the other
+    found = shares(x, np.vstack([_positions(x, along), directions]), bodies)
     return Modes(
         in_order(np.concatenate([roots, -roots])),
         squares,
         x.velocities,
         _coordinates(subject),
         shapes,
-        by_body(x, along),
-        by_force(x, along, squares),
-        about,
+        *(found.participation, found.stiffening, found.dissipation),
+        subject.named(x.y),
         x.t,
     )
+
+
+def _positions(x: Tangent, along: Array) -> Array:
+    """Return s of changes of position that are given in terms of velocities."""
+    return np.asarray(split(x.base.by("velocities", "v")[x.subject.holonomic])[0].T @ along)
 
 
 def _coordinates(subject: Subject) -> tuple[str, ...]:
@@ -164,27 +202,7 @@ def _twice_kinetic(x: Tangent, change: Complex) -> float:
     return float(np.real(change.conj() @ x.base.by("balance", "a") @ change))
 
 
-def _sorted(
-    values: Complex,
-    shapes: Complex,
-    names: tuple[str, ...],
-    x: Tangent,
-    about: Mapping[str, float],
-    vectors: Complex | None = None,
-) -> Modes:
-    order = [int(np.flatnonzero(values == value)[0]) for value in dict.fromkeys(in_order(values))]
-    kept = [i for i in order if values[i].imag >= 0.0]
-    shapes = np.array([shapes[i] for i in kept], dtype=np.complex128).reshape(len(kept), -1)
-    bodies: Mapping[str, Array] = {}
-    if vectors is None:
-        largest = np.abs(shapes).max(axis=1, keepdims=True, initial=1e-300)
-        shapes = shapes / largest
-    elif len(kept):
-        bodies = by_body(x, _velocities(x, vectors).T[:, kept])
-    return Modes(in_order(values), np.zeros(0), x.velocities, names, shapes, bodies, {}, about, x.t)
-
-
-def _undamped(subject: Subject, x: Tangent) -> tuple[Array, Array] | None:
+def _undamped(x: Tangent) -> tuple[Array, Array] | None:
     """Return squares of frequencies and directions, None where something damps, turns or follows."""
     from scipy import linalg
 
@@ -206,46 +224,3 @@ def _undamped(subject: Subject, x: Tangent) -> tuple[Array, Array] | None:
     except linalg.LinAlgError:
         return None
     return rounded(np.asarray(values)), np.asarray(vectors)
-
-
-def by_body(x: Tangent, along: Array | Complex) -> dict[str, Array]:
-    """Return the share of each body in the kinetic energy of modes, from their changes of position, one a column."""
-    if x.subject.coordinates == "joint":
-        return {}
-    mass = x.base.by("balance", "a")
-    total = np.real(np.einsum("ik,ij,jk->k", along.conj(), mass, along))
-    owners = [v.name.partition(".")[0] for v in x.subject.compiled.info.velocities]
-    found = {}
-    for body in dict.fromkeys(owners):
-        own = np.array([owner == body for owner in owners])
-        part = along[own]
-        energy = np.real(np.einsum("ik,ij,jk->k", part.conj(), mass[np.ix_(own, own)], part))
-        found[body] = energy / np.maximum(total, 1e-300)
-    return found
-
-
-def by_force(x: Tangent, along: Array, squares: Array) -> dict[str, Array]:
-    """Return the share of each force and joint in the potential energy of modes that has any.
-
-    Joints take part by what they carry: turning them turns the forces that they transmit.
-    """
-    subject, e = x.subject, x.base
-    if subject.coordinates == "joint":
-        return {}
-    motion = e.by("motion", "v")
-    entries = e.by("elements", "q") @ motion
-    found: dict[str, Array] = {}
-    for (name, i), row in zip(subject.form.elements, entries, strict=True):
-        found[name] = found.get(name, np.zeros(len(squares))) + along[i] * (row @ along)
-    info, without = subject.compiled.info, subject.evaluated(x.y, x.a, None, x.t).by("balance", "q") @ motion
-    for joint in dict.fromkeys(row.joint for row in info.rows):
-        own = np.array([row.joint == joint for row in info.rows])
-        geometric = subject.evaluated(x.y, x.a, x.lam * own, x.t).by("balance", "q") @ motion - without
-        found[joint] = np.einsum("ik,ij,jk->k", along, geometric, along)
-    left = squares - sum(found.values(), np.zeros(len(squares)))
-    scale = np.abs(squares).max(initial=0.0)
-    if np.abs(left).max(initial=0.0) > 1e-9 * scale:
-        found["gravity"] = left
-    stiff = np.abs(squares) > 1e-12 * max(scale, 1e-300)
-    with np.errstate(all="ignore"):
-        return {name: np.where(stiff, part / squares, 0.0) for name, part in found.items()}

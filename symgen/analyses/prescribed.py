@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +10,7 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.analyses.branches import branch_near
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.errors import AssemblyError, InputError
 from symgen.plan import make_plan
@@ -101,7 +103,8 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
     mechanism : Mechanism
         The description.
     settings : Settings
-        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
+        Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count. Of several
+        ways to close a driven mechanism that nearest to ``start`` is taken.
     until : float
         Last time [s]: inputs are known up to it.
 
@@ -110,13 +113,21 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
     InputError, AssemblyError
         If settings are wrong, or the mechanism cannot be closed.
     """
+    asked_start = settings.start if drivers_of(mechanism) else {}
+    if not isinstance(asked_start, Mapping):
+        raise InputError("start", "values of coordinates by name, to choose a branch by", "a state of a run")
+    settings = replace(settings, start={}) if asked_start else settings
     end = until if until > 0.0 else 1.0
     asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end)
     asked = replace(asked, output_step=None, coordinates="absolute")
     given = give_inputs(mechanism, asked)
     found = instantaneous(given.mechanism)
     plan = make_plan(found, given.settings)
-    compiled, start = ready(found, plan, given.settings.parameters, settings.strict)
+    near, notes = None, tuple[str, ...]()
+    if asked_start:
+        near, words = branch_near(found, plan, given.settings.parameters, asked_start)
+        notes = (words,)
+    compiled, start = ready(found, plan, given.settings.parameters, settings.strict, near)
     held, p = list[tuple[float, Array]](), start.p
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     for piece in given.pieces[1:]:
@@ -128,7 +139,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
             Ready(module.prepare, e.PREPARE)(p)
     values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
     parameters = {name: x for name, x in values.items() if name not in found.inputs}
-    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), start.notes)
+    return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), (*notes, *start.notes))
 
 
 def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str) -> Prescribed:

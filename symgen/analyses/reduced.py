@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Tangent:
-    """How everything changes with x = (s, u, inputs) near a state; all matrices have as many columns.
+    """How everything changes with x = (s, u, inputs, parameters) near a state; all matrices have as many columns.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class Tangent:
 
     @property
     def inputs(self) -> list[int]:
-        """Where the inputs stand among the parameters."""
+        """Where the inputs and parameters that vary stand among all parameters."""
         return inputs_of(self.subject)
 
     def quantity(self, name: str) -> Quantity:
@@ -122,9 +122,9 @@ class Quantity:
 
 
 def inputs_of(subject: Subject) -> list[int]:
-    """Return where the inputs stand among the parameters."""
+    """Return where the inputs, and what derivatives are known by beside them, stand among the parameters."""
     names = [p.name for p in subject.compiled.info.parameters]
-    return [names.index(name) for name in subject.mechanism.inputs]
+    return [names.index(name) for name in subject.varied]
 
 
 def quantities_of(subject: Subject) -> Mapping[str, tuple[str, int]]:
@@ -189,7 +189,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     e = subject.evaluated(y, a, lam, now)
     places = inputs_of(subject)
     for group in ("velocities", "positions"):
-        if np.any(e.by(group, "p")[:, places]):
+        if np.any(e.by(group, "p")[:, places[: len(subject.mechanism.inputs)]]):
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
     free = split(d[subject.holonomic])[0]
@@ -197,8 +197,11 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     width = positions + velocities + inputs
     q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
     q[:, :positions] = motion @ free
-    v[:, :positions] = -inverse @ (e.by("velocities", "q") @ q[:, :positions])
-    v[:, positions : positions + velocities] = basis
+    q[:, positions + velocities :] = motion @ _shifted(subject, e, d, places)
+    opened = e.by("velocities", "q") @ q
+    opened[:, positions + velocities :] += e.by("velocities", "p")[:, places]
+    v -= inverse @ opened
+    v[:, positions : positions + velocities] += basis
     force = e.by("balance", "q") @ q + e.by("balance", "v") @ v
     gap = e.by("accelerations", "q") @ q + e.by("accelerations", "v") @ v
     force[:, positions + velocities :] += e.by("balance", "p")[:, places]
@@ -208,6 +211,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
         rates = rates - basis @ _solved(basis.T @ mass @ basis, basis.T @ (force + mass @ rates))
     multipliers = -inverse.T @ (force + mass @ rates)
     q_rates = e.by("motion", "q") @ q + motion @ v
+    q_rates[:, positions + velocities :] += e.by("motion", "p")[:, places]
     back = np.linalg.pinv(motion @ free)
     states = np.eye(positions + velocities, width)
     state_rates = np.vstack([back @ q_rates, basis.T @ rates])
@@ -216,3 +220,21 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
         *(states, state_rates, drift),
     )
+
+
+def _shifted(subject: Subject, e: Evaluated, d: Array, places: list[int]) -> Array:
+    """Return the smallest change of position, in terms of velocities, that keeps joints closed while parameters change.
+
+    Raises
+    ------
+    InputError
+        If a parameter opens joints that depend on each other.
+    """
+    rows = subject.holonomic
+    opened, inverse = e.by("positions", "p")[:, places][rows], split(d[rows])[1]
+    found = -inverse @ opened
+    left = opened + d[rows] @ found
+    for name, gap, whole in zip(subject.varied, left.T, opened.T, strict=True):
+        if np.abs(gap).max(initial=0.0) > 1e-8 * np.abs(whole).max(initial=0.0):
+            raise InputError(f"by '{name}'", "a parameter that redundant joints allow to change", "one that opens them")
+    return np.asarray(found)

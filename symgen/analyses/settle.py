@@ -20,6 +20,8 @@ MOST_STEPS, MOST_HALVINGS = 60, 12
 ATTEMPTS, SINKING, REACH = 4, 12, 0.3
 #: A step of Newton's method up to this, in lengths of the mechanism and radians, is near what it leads to.
 NEAR = 0.15
+#: A step as short as this balances nothing.
+BLIND = 1e-9
 #: Lengths of the mechanism by which a step downhill may open it.
 OPENED = 0.05
 #: Forces and violations below this fraction of what they are compared with count as zero.
@@ -214,8 +216,12 @@ def _steps(subject: Subject, now: Balance, lam: Array, matrix: Array) -> tuple[b
     chance which, so that the mechanism sinks.
     """
     newton, downhill = _newton(now, lam, matrix), _downhill(now)
-    longest = np.abs(now.motion @ newton[0]) / lengths(subject)
-    far = bool(longest.max(initial=0.0) >= NEAR)
+    longest = float((np.abs(now.motion @ newton[0]) / lengths(subject)).max(initial=0.0))
+    # forces that no step would balance: where the stiffness vanishes along them, as that of a level pendulum does
+    blind = longest < BLIND and np.linalg.norm(now.force + now.rows.T @ newton[1]) > TOLERANCE * np.linalg.norm(
+        now.force
+    )
+    far = bool(longest >= NEAR or blind)
     return far, [downhill, newton] if far else [newton, downhill]
 
 

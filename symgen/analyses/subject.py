@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
@@ -17,15 +18,21 @@ from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, held_of, ready
 from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import CompiledModel
 
 Array = NDArray[np.float64]
 
+#: Beyond this many coordinates of bodies code is looped, and equilibria are searched with sparse matrices.
+LARGE = 300
 #: What a name of a rate ends in.
 RATE = ".rate"
 
@@ -52,6 +59,8 @@ class Subject:
         What was changed to close the mechanism.
     closed : bool
         Whether the start satisfies the constraints.
+    by : tuple of str
+        Parameters that derivatives are known by beside the inputs.
     """
 
     mechanism: Mechanism
@@ -63,6 +72,12 @@ class Subject:
     w: Array
     notes: tuple[str, ...] = ()
     closed: bool = True
+    by: tuple[str, ...] = ()
+
+    @property
+    def varied(self) -> tuple[str, ...]:
+        """Inputs, then the parameters that derivatives are known by."""
+        return (*self.mechanism.inputs, *self.by)
 
     @property
     def coordinates(self) -> str:
@@ -151,7 +166,7 @@ class Subject:
         return result
 
 
-def subject_of(mechanism: Mechanism, settings: Settings) -> Subject:
+def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ()) -> Subject:
     """Return a mechanism with its start, ready to be analysed.
 
     Parameters
@@ -159,7 +174,9 @@ def subject_of(mechanism: Mechanism, settings: Settings) -> Subject:
     mechanism : Mechanism
         The description.
     settings : Settings
-        ``parameters``, ``inputs``, ``start`` and ``coordinates`` are looked at.
+        ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at.
+    by : sequence of str
+        Parameters that derivatives are wanted by beside the inputs.
 
     Raises
     ------
@@ -167,7 +184,11 @@ def subject_of(mechanism: Mechanism, settings: Settings) -> Subject:
         If a setting is wrong.
     """
     given = give_inputs(mechanism, settings)
-    mechanism, settings = given.mechanism, replace(given.settings, shape="straight")
+    mechanism, settings = given.mechanism, given.settings
+    if settings.shape == "auto":
+        size = sum(len(body.coordinates) for body in mechanism.bodies)
+        looped = size > LARGE and settings.coordinates == "absolute"
+        settings = replace(settings, shape="looped" if looped else "straight")
     plan = make_plan(mechanism, settings)
     notes: tuple[str, ...] = ()
     closed = True
@@ -180,16 +201,43 @@ def subject_of(mechanism: Mechanism, settings: Settings) -> Subject:
             compiled, start = ready(mechanism, plan, settings.parameters)
             t, y, p, w, notes = start.t, start.y, start.p, start.w, start.notes
         except AssemblyError:
-            compiled, y, p, w = _open(mechanism, plan, settings)
+            compiled, y, p, w = described_state(mechanism, plan, settings.parameters)
             t, closed = 0.0, False
-    form = compile_linearised(mechanism, compiled, mechanism.inputs)
-    return Subject(mechanism, compiled, form, t, y.copy(), p.copy(), w.copy(), notes, closed)
+    names = _parameters(mechanism, by)
+    form = compile_linearised(_as_given(mechanism, settings.parameters), compiled, (*mechanism.inputs, *names))
+    return Subject(mechanism, compiled, form, t, y.copy(), p.copy(), w.copy(), notes, closed, names)
 
 
-def _open(mechanism: Mechanism, plan: Plan, settings: Settings) -> tuple[CompiledModel, Array, Array, Array]:
-    """Return what is described where nothing closes: a static search closes it as it goes on."""
+def _parameters(mechanism: Mechanism, by: Sequence[str]) -> tuple[str, ...]:
+    """Return the parameters among names, each once.
+
+    Raises
+    ------
+    InputError
+        If one is no parameter.
+    """
+    known = [p.name for p in mechanism.parameters]
+    for name in by:
+        if name not in known:
+            expected = f"a parameter of {mechanism.name}"
+            raise InputError(f"by '{name}'", expected, "none of that name", nearest(name, known))
+    return tuple(name for name in dict.fromkeys(by) if name not in mechanism.inputs)
+
+
+def _as_given(mechanism: Mechanism, given: Mapping[str, float]) -> Mechanism:
+    """Return a mechanism in which parameters that are given numbers follow no formula."""
+    if not any(p.formula is not None and p.name in given for p in mechanism.parameters):
+        return mechanism
+    plain = (replaced(p, formula=None) if p.name in given else p for p in mechanism.parameters)
+    return replaced(mechanism, parameters=tuple(plain))
+
+
+def described_state(
+    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float]
+) -> tuple[CompiledModel, Array, Array, Array]:
+    """Return what is described where nothing closes, with y, p and w: a static search closes it as it goes on."""
     compiled = compile_model(mechanism, plan.choice)
-    info, values = compiled.info, parameter_values(mechanism, settings.parameters)
+    info, values = compiled.info, parameter_values(mechanism, parameters)
     numbers = scalars(values)
     q, v = described_start(mechanism, numbers)
     held = held_of(info, plan.holds or holds_of(mechanism), numbers, v)
@@ -198,4 +246,7 @@ def _open(mechanism: Mechanism, plan: Plan, settings: Settings) -> tuple[Compile
     for i, value in held.coordinates.items():
         y[i] = value
     w[abi.LENGTH] = max(1e-300, float(np.ptp(np.array(q)))) or 1.0
-    return compiled, y, compiled.parameter_array(values, plan.method_parameters), w
+    p = compiled.parameter_array(values, plan.method_parameters)
+    for module in (compiled.model, compiled.law_module):
+        Ready(module.prepare, e.PREPARE)(p)
+    return compiled, y, p, w

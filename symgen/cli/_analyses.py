@@ -31,7 +31,7 @@ def place_options(function: F) -> F:
             metavar="PLACE",
             help="About what: equilibrium, start, steady, or a time of a run [s].",
         ),
-        setting_options("parameters", "start", "coordinates"),
+        setting_options("parameters", "start", "coordinates", "shape"),
     ):
         function = option(function)
     return function

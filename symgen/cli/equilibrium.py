@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 @click.argument("model")
 @click.option("--scan", metavar="NAME=lin(A,B,N)", help="Find all equilibria over a range of a coordinate.")
 @click.option("--steady", is_flag=True, help="Find the steady motion that the start leads to instead of a rest.")
-@setting_options("parameters", "start", "coordinates")
+@setting_options("parameters", "start", "coordinates", "shape")
 @json_option
 def command(model: str, scan: str | None, steady: bool, as_json: bool, **asked: Any) -> int:
     """Find the equilibrium that the start of MODEL leads to.

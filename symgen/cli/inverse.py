@@ -40,7 +40,10 @@ from symgen.settings import Settings
     metavar="NAME=VALUE",
     help="Weight of an actuator where efforts are not unique: the sum of (weight effort)^2 is smallest.",
 )
-@setting_options("parameters", "inputs", "strict", "shape")
+@setting_options(
+    *("parameters", "inputs", "start", "strict", "shape"),
+    text={"start": "Of drivers' motion: of several ways to close MODEL that nearest to this coordinate is taken."},
+)
 @click.option(
     *("--quantity", "quantities"),
     multiple=True,

@@ -31,7 +31,10 @@ from symgen.settings import Settings
     metavar="PIN",
     help="A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
 )
-@setting_options("parameters", "inputs", "strict", "shape")
+@setting_options(
+    *("parameters", "inputs", "start", "strict", "shape"),
+    text={"start": "Value of a coordinate: of several ways to close MODEL the nearest is taken."},
+)
 @click.option(
     *("--quantity", "quantities"),
     multiple=True,

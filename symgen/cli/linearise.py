@@ -23,13 +23,22 @@ if TYPE_CHECKING:
 @click.argument("model")
 @place_options
 @click.option("--instantaneous", is_flag=True, help="Give the system of the instant where a motion is not steady.")
+@click.option("--by", metavar="NAME,NAME", help="Parameters that are inputs as well: constants, changed once.")
 @json_option
 def command(
-    model: str, at: str, states: str | None, cyclic: str | None, instantaneous: bool, as_json: bool, **asked: Any
+    model: str,
+    at: str,
+    states: str | None,
+    cyclic: str | None,
+    instantaneous: bool,
+    by: str | None,
+    as_json: bool,
+    **asked: Any,
 ) -> int:
     """Find the linear system of MODEL about a state of rest or of steady motion.
 
-    Inputs are those of the file, outputs its formulas. A motion in which states change is refused.
+    Inputs are those of the file, outputs its formulas. A motion in which states change is refused. With --by, columns
+    of B and D are derivatives by parameters as well, the states held.
     """
     from symgen.api import load
 
@@ -40,6 +49,7 @@ def command(
         states=names("--states", states),
         cyclic=names("--cyclic", cyclic),
         instantaneous=instantaneous,
+        by=names("--by", by),
     )
     if as_json:
         write_json({"mechanism": loaded.name, **found.to_dict()})

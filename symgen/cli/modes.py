@@ -75,10 +75,12 @@ def _show(found: Modes, most: int = 40) -> None:
 
     click.echo(f"{found.degrees_of_freedom} degrees of freedom; {len(found.eigenvalues)} eigenvalues")
     table = Table(box=None, header_style="dim", pad_edge=False)
-    for heading in ("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", "moves", "stiffness by"):
-        table.add_column(heading, justify="left" if heading in ("moves", "stiffness by") else "right")
+    tables = {"moves": found.participation, "stiffness by": found.stiffening, "damping by": found.dissipation}
+    tables = {heading: parts for heading, parts in tables.items() if parts}
+    for heading in ("mode", "eigenvalue [1/s]", "frequency [Hz]", "damping", *tables):
+        table.add_column(heading, justify="left" if heading in tables else "right")
     for k, value in enumerate(found.of_shapes[:most]):
-        shares = (_shares(found.participation, k), _shares(found.stiffening, k))
+        shares = [_shares(parts, k) for parts in tables.values()]
         table.add_row(str(k + 1), _complex(value), f"{found.frequencies[k]:.6g}", f"{found.damping[k]:.4g}", *shares)
     console().print(table)
     if len(found.of_shapes) > most:

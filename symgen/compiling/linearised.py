@@ -7,9 +7,9 @@ cache has no entry.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -17,12 +17,14 @@ from numpy.typing import NDArray
 
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.compiling.side import READ
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
 from symgen.lower.windings import winding_order
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
+from symgen.vocabulary.measures import Measure
 
 Array = NDArray[np.float64]
 
@@ -157,34 +159,58 @@ def compile_linearised(
     InputError
         If numbers that meet in a formula overflow.
     """
+    found = _compiled(mechanism, compiled, by, (), entries)
+    assert found is not None, "the whole form is wanted"
+    return found
+
+
+#: Groups that say how a motion near a state grows or decays.
+GROWTH = ("motion", "balance", "accelerations")
+
+
+def compile_growth(
+    mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None
+) -> DescriptorForm | None:
+    """Return the groups `GROWTH` with derivatives by state, v' and multipliers; None where nothing can decay.
+
+    Parameters
+    ----------
+    mechanism, compiled, entries
+        As for `compile_linearised`.
+
+    Raises
+    ------
+    InputError
+        If numbers that meet in a formula overflow.
+    """
+    return _compiled(mechanism, compiled, (), GROWTH, entries)
+
+
+def _compiled(
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    by: tuple[str, ...],
+    groups: tuple[str, ...],
+    entries: Entries | None,
+) -> DescriptorForm | None:
     store = Entries() if entries is None else entries
     info = compiled.info
     turning = winding_order(mechanism, compiled.shape)
     sections = {section: info.sections[section] for section in READ if section in info.sections}
     rows = {row.name: i for i, row in enumerate(info.rows)}
     folder = folder_of(mechanism)
-    text = "\n".join([str(sorted(sections.items())), str(rows), repr(turning), str(by), generator_digest()])
+    formulas = repr(derived(mechanism.parameters)) if by else ""
+    parts = [str(sorted(sections.items())), str(rows), repr(turning), str(by), formulas, str(groups)]
+    text = "\n".join([*parts, generator_digest()])
     stem = f"{NAME}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     known = store.get(folder, stem)
     if known is None:
         with store.building(folder):
             known = store.get(folder, stem)  # another process may have built it while this one waited
             if known is None:
-                from symgen.emit.side import emit_side
-                from symgen.lower.linearised import lower_linearised
-
-                try:
-                    program = lower_linearised(mechanism, by, turning, sections, rows)
-                except OverflowError:
-                    expected = "numbers whose products, sums and quotients are finite"
-                    raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
-                known = {
-                    "sizes": list(program.sizes.items()),
-                    "pattern": [list(place) for place in program.pattern],
-                    "elements": [list(place) for place in program.elements],
-                    "functions": [[f.name, f.unit, f.orders] for f in program.functions],
-                }
-                store.put(folder, stem, emit_side(program.side), known)
+                known = _built(mechanism, by, groups, turning, sections, rows, partial(store.put, folder, stem))
+    if known["still"]:
+        return None
     spaces = ("t", "q", "v", "a", "lam", "p")
     places, first = dict[str, tuple[int, int]](), 0
     functions, units, at = dict[str, tuple[int, int]](), dict[str, str](), 0
@@ -199,3 +225,35 @@ def compile_linearised(
     function = getattr(load_module(store.path(folder, stem)), NAME)
     elements = tuple((str(name), int(i)) for name, i in known["elements"])
     return DescriptorForm(function, places, widths, functions, units, elements, pattern, spaces)
+
+
+def _built(
+    mechanism: Mechanism,
+    by: tuple[str, ...],
+    groups: tuple[str, ...],
+    turning: tuple[Measure, ...],
+    sections: Mapping[str, tuple[int, int]],
+    rows: Mapping[str, int],
+    put: Callable[[str, dict[str, Any]], object],
+) -> dict[str, Any]:
+    """Emit the function, hand it on with what its numbers are, and return the latter."""
+    from symgen.emit.side import emit_side
+    from symgen.lower.linearised import can_decay, lower_linearised
+
+    known: dict[str, Any] = {"still": bool(groups) and not can_decay(mechanism, turning, rows)}
+    text = '"""Nothing decays."""\n'
+    if not known["still"]:
+        try:
+            program = lower_linearised(mechanism, by, turning, sections, rows, groups)
+        except OverflowError:
+            expected = "numbers whose products, sums and quotients are finite"
+            raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
+        text = emit_side(program.side)
+        known |= {
+            "sizes": list(program.sizes.items()),
+            "pattern": [list(place) for place in program.pattern],
+            "elements": [list(place) for place in program.elements],
+            "functions": [[f.name, f.unit, f.orders] for f in program.functions],
+        }
+    put(text, known)
+    return known

@@ -10,14 +10,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
+from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
-from symgen.vocabulary.measures import Measure
+from symgen.vocabulary.measures import Holonomic, Measure
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
@@ -72,6 +74,7 @@ def lower_linearised(
     turning: Sequence[Measure],
     sections: Mapping[str, tuple[int, int]],
     rows: Mapping[str, int],
+    groups: Sequence[str] = (),
 ) -> LinearisedProgram:
     """Lower the descriptor form with its derivatives.
 
@@ -80,9 +83,12 @@ def lower_linearised(
     mechanism : Mechanism
         A validated mechanism, with or without a tree.
     by : sequence of str
-        Parameters that it is differentiated by, beside t, q, v, v' and lambda.
+        Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
+        the description follows them here too.
     turning, sections, rows
         As for `symgen.lower.side.lower_side`.
+    groups : sequence of str
+        Groups that are wanted, with derivatives by state, v' and multipliers alone; everything unless given.
 
     Raises
     ------
@@ -92,11 +98,11 @@ def lower_linearised(
     equations = formulate(mechanism)
     model = SideModel(mechanism, turning=turning, rows=rows)
     g = model.graph
-    values = _descriptor(model, equations)
+    values = {name: nodes for name, nodes in _descriptor(model, equations).items() if not groups or name in groups}
+    elements, parts = ((), []) if groups else _elements(model)
+    values |= {"elements": parts}
     sizes = {name: len(nodes) for name, nodes in values.items()}
-    elements, parts = _elements(model)
-    values, sizes = values | {"elements": parts}, sizes | {"elements": len(parts)}
-    functions, nodes = _functions(model, equations)
+    functions, nodes = ((), []) if groups else _functions(model, equations)
     count = sum(sizes.values())
     outputs = [node for group in sizes for node in values[group]] + nodes
     names = [p.name for p in mechanism.parameters]
@@ -104,11 +110,13 @@ def lower_linearised(
     nq, nv = equations.nq, equations.nv
     keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
-    keys += [("p", names.index(name)) for name in by]
-    timed = [node for group in TIMED for node in values[group]]
+    following = _following(model, by)
+    keys += [("p", names.index(name)) for name in (*by, *following)]
+    timed = [] if groups else [node for group in TIMED for node in values[group]]
     by_time = dict(zip(timed, jacobian(g, timed, [("t", 0)]), strict=True))
     pattern, derivatives = [], []
     for i, slopes in enumerate(jacobian(g, outputs, keys)):
+        slopes = _followed(g, slopes, following, names, by)
         slopes = {**slopes, **(by_time.get(outputs[i], {}) if i < count else {})}
         for space, index in sorted(slopes):
             pattern.append((i, spaces[space], index - nq if space == "ydot" else index))
@@ -121,6 +129,52 @@ def lower_linearised(
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
     side = side_program(mechanism, (block,), sections, labels)
     return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
+
+
+def _following(model: SideModel, by: Sequence[str]) -> dict[str, dict[str, int]]:
+    """Return the parameters that follow from others by formulas, with their derivatives by each of `by`."""
+    g, names = model.graph, [p.name for p in model.mechanism.parameters]
+    found: dict[str, dict[str, int]] = {}
+    for name, formula in derived(model.mechanism.parameters) if by else ():
+        node = model.expression(formula)
+        slopes = jacobian(g, [node], [("p", i) for i in range(len(names))])[0]
+        total: dict[str, int] = {}
+        for (_, i), slope in sorted(slopes.items()):
+            for base, more in (*([(names[i], g.one)] if names[i] in by else []), *found.get(names[i], {}).items()):
+                total[base] = g.add(total.get(base, g.zero), g.mul(slope, more))
+        if total:
+            found[name] = total
+    return found
+
+
+def _followed(
+    g: Graph,
+    slopes: Mapping[Key, int],
+    following: Mapping[str, Mapping[str, int]],
+    names: Sequence[str],
+    by: Sequence[str],
+) -> dict[Key, int]:
+    """Return derivatives by `by`: those by parameters that follow are parts of those by what they follow."""
+    places: dict[Key, Mapping[str, int]] = {("p", names.index(name)): bases for name, bases in following.items()}
+    found = {key: slope for key, slope in slopes.items() if key[0] != "p" or names[key[1]] in by}
+    for key, bases in places.items():
+        for base, more in bases.items() if key in slopes else ():
+            at = ("p", names.index(base))
+            found[at] = g.add(found.get(at, g.zero), g.mul(slopes[key], more))
+    return found
+
+
+def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[str, int]) -> bool:
+    """Whether a force depends on velocities, or a joint is a condition on them: else motions at rest only oscillate."""
+    if any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
+        return True
+    model = SideModel(mechanism, turning=turning, rows=rows)
+    for force in mechanism.forces:
+        totals = [exertion(model, effort).total for effort in force.efforts]
+        found = (model.graph.nodes[n] for n in model.graph.needed(totals))
+        if any(o.op == "input" and isinstance(o.payload, tuple) and o.payload[0] == "v" for o in found):
+            return True
+    return False
 
 
 def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:

@@ -9,6 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import minimize
 
+import symgen
 from analyses import rods
 from symgen.errors import AnalysisError, InputError
 
@@ -113,3 +114,21 @@ def test_no_equilibrium_is_said():
         rods.four_bar().equilibria(("crank.theta", [2.0, 2.5, 3.0]))
     with pytest.raises(AnalysisError, match="no equilibrium was found from this start"):
         rods.model({"free": {"type": "point", "mass": 1.0, "position": [0.0, 0.0]}}, {}).equilibrium()
+
+
+def test_level_rods_fall_at_once():
+    """Where they begin, nothing restores them along the way that they fall: no step of Newton's method moves them."""
+    found = symgen.load("spherical-double-pendulum").equilibrium()
+    assert found.iterations <= 12 and found.stability == "indifferent"  # both turn about themselves as they like
+    assert_allclose([found.q["upper.z"], found.q["lower.z"]], [-0.5, -1.5], rtol=1e-12)
+    a = np.array([[8.0, 3.0], [3.0, 2.0]]) / 6.0  # two rods of 1 m and equal mass: angles from the vertical
+    squares = np.sort(np.linalg.eigvals(np.linalg.solve(a, rods.GRAVITY * np.diag([1.5, 0.5]))))
+    assert_allclose(found.omega_squared[2:], np.repeat(squares, 2), rtol=1e-2)  # rods have some thickness
+
+
+def test_a_motor_that_never_rests_has_no_equilibrium():
+    """At rest it exerts 8 N m wherever its crank stands, and nothing holds against it."""
+    with pytest.raises(AnalysisError, match="no equilibrium was found from this start"):
+        symgen.load("wiper").equilibrium()
+    with pytest.raises(AnalysisError, match=r"no equilibrium was found with crank\.theta"):
+        symgen.load("wiper").equilibria(("crank.theta", np.linspace(0.0, 6.28, 9)))

@@ -144,6 +144,20 @@ def test_the_branch_is_the_one_that_is_described():
     assert np.abs(found.curve("coupler.far") - c).max() < 1e-13
 
 
+def test_another_branch_is_chosen_by_a_start(driven):
+    """The coupler's pin below the line from B to D, though the file has it above."""
+    found = driven.kinematics(np.linspace(0.0, 2.0, 41), start={"rocker.theta": -2.3})
+    angle = math.pi / 3.0 + 2.0 * math.pi * found.t
+    b = 2.0 * np.column_stack([np.cos(angle), np.sin(angle)])
+    c = meeting(b, 8.0, [10.0, 0.0], 5.0, left=False)
+    assert np.abs(found.curve("coupler.C") - c).max() < 1e-13
+    assert any(note.startswith("2 ways to close it are known") for note in found.notes)
+    described = driven.kinematics([0.0, 1.0], start={"rocker.theta": 2.0})
+    assert np.abs(described.q.values - driven.kinematics([0.0, 1.0]).q.values).max() < 1e-12
+    with pytest.raises(InputError, match=r"start 'rocker\.omega': expected a coordinate of a body or joint"):
+        driven.kinematics([0.0, 1.0], start={"rocker.omega": 1.0})
+
+
 def test_massless_links_have_kinematics_and_forces_along_them():
     raw = four_bar((3.0, 1.0, 3.0, 2.5), 0.7, CRANK)
     raw["bodies"]["coupler"] |= {"mass": 0.0, "inertia": 0.0}

@@ -16,6 +16,7 @@ from sympy.physics.mechanics import LagrangesMethod, ReferenceFrame, dynamicsymb
 
 import symgen
 from analyses import bricard_alone, rods
+from symgen.analyses.algebra import eigenvalues_of
 from symgen.errors import InputError
 
 
@@ -158,3 +159,20 @@ def test_a_motion_has_the_system_of_the_instant_if_it_is_asked_for():
     own = solve_ivp(lambda t, y: [y[1], -14.715 * math.cos(y[0])], (0, 0.2), [-1.3, 0.0], rtol=1e-12, atol=1e-14)
     assert_allclose([found.about["rod.theta"], found.about["rod.omega"]], own.y[:, -1], rtol=1e-9)
     assert_allclose(found.A, [[0.0, 1.0], [14.715 * math.sin(own.y[0, -1]), 0.0]], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize(("at", "zeros"), [("equilibrium", 2), ("steady", 1)])
+def test_what_a_cyclic_coordinate_leaves_free_is_exactly_zero(at, zeros):
+    """A double zero with one vector: rounding would part it into a pair of 4e-7."""
+    found = symgen.load("flyball-governor").modes(at=at).eigenvalues
+    assert np.sum(found == 0.0) == zeros and np.all(np.abs(found[found != 0.0]) > 1.0)
+
+
+def test_zeros_are_a_decision_of_rank():
+    rng = np.random.default_rng(5)
+    turn = np.linalg.qr(rng.standard_normal((7, 7)))[0]
+    for small, zeros in ((0.0, 5), (1e-4, 4)):
+        a = np.diag([0.0, 0.0, 0.0, -small, 0.0, 3.0, -40.0]) + np.diag([1.0, 2.0, 0.0, 1.0, 0.0, 0.0], 1)
+        values, _ = eigenvalues_of(turn @ a @ turn.T)
+        assert np.sum(values == 0.0) == zeros
+        assert np.isclose(sorted(values.real)[0], -40.0) and np.isclose(sorted(values.real)[-1], 3.0)

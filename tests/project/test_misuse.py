@@ -161,7 +161,7 @@ def rows():
     # analyses: the pendulum is not driven, but what is wrong with an argument is said first
     for shown, value in {"'x'": "x", "True": True, "a dict of 1": {"a": 1}, "a Thing": Thing(), "1j": 1j}.items():
         yield f"kinematics {shown}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected a"
-        yield f"inverse times {shown}", lambda x, v=value: x.model.inverse(times=v), "kinematics: times: expected a"
+        yield f"inverse times {shown}", lambda x, v=value: x.model.inverse(times=v), "inverse: times: expected a"
     for value in (np.zeros((2, 2)), np.array(["a"]), np.array([1j]), np.array([NAN]), np.zeros(0), [1.0, 0.0]):
         yield f"kinematics {value!r:.19}", lambda x, v=value: x.model.kinematics(v), "kinematics: times: expected"
     for shown, value in {"3": 3, "a list of 1": [3], "a dict of 0": {}}.items():

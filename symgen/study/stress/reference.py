@@ -15,7 +15,6 @@ from symgen.describe.load import load as load_mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
 from symgen.plan import make_plan
 from symgen.result.points import Points
-from symgen.runtime.assembly import state_scales
 from symgen.settings import Settings
 from symgen.study.references.reference import closed_form
 from symgen.study.stress.bench import FREE_LENGTH, Level
@@ -23,6 +22,7 @@ from symgen.study.stress.known import KnownModel
 from symgen.study.stress.outcome import ACCURATE, TRUSTED
 
 if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
 
@@ -65,7 +65,7 @@ def _moved(level: Level) -> Fields:
         raise SimulationError("the start does not satisfy the independent equations")
     times = np.array(times_of(level))
     how, estimated, moved = _closed(level, parameters, q, times)
-    falling = fastest_decay(compiled, start, level.until)
+    falling = fastest_decay(model.mechanism, compiled, start)
     if moved is None:
         try:
             found = motion(equations, q, v, times) if planar else agreed(model, parameters, times, falling)
@@ -100,9 +100,9 @@ def without_reference(known: Mapping[str, Any]) -> str | None:
     return None
 
 
-def fastest_decay(compiled: CompiledModel, start: Start, until: float) -> float:
+def fastest_decay(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> float:
     """Return the fastest decay of the linearised motion at the start [1/s]; 0 where it cannot be told."""
-    jacobian = linearised(compiled, start, state_scales(compiled, start.w, until))
+    jacobian = linearised(mechanism, compiled, start)
     if not np.all(np.isfinite(jacobian)):
         return 0.0
     return float(max(0.0, -np.linalg.eigvals(jacobian).real.min(initial=0.0)))

@@ -1,0 +1,82 @@
+"""Tables of who takes part in modes: sums, numbers by hand from matrices of minimal coordinates, both coordinates."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import symgen
+from analyses import rods
+
+MASSES, STIFFNESS, DAMPING = (2.0, 1.0), (40.0, 25.0), (0.6, 0.2)
+
+
+def two_masses():
+    """Two bodies on a rail, the first on the ground's spring and damper, the second on the first one's."""
+    bodies = {
+        f"m{i}": {"mass": m, "inertia": 1.0, "position": [1.0 + i, 0.0], "points": {"P": [0.0, 0.0]}}
+        for i, m in enumerate(MASSES)
+    }
+    joints = {
+        f"r{i}": rods.pin("ground", f"m{i}", rods.GROUND2, "centre", "translational", axis=[1.0, 0.0]) for i in range(2)
+    }
+    ends = (("ground", "m0", [0.0, 0.0]), ("m0", "m1", "P"))
+    forces = {
+        f"s{i}": {
+            **{"type": "spring-damper", "between": [a, b], "at": [at, "P"], "free_length": 1.0},
+            **{"stiffness": STIFFNESS[i], "damping": DAMPING[i]},
+        }
+        for i, (a, b, at) in enumerate(ends)
+    }
+    return rods.model(bodies, joints, gravity=[0.0, 0.0], forces=forces)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_shares_of_damped_modes_are_those_of_two_by_two_matrices(coordinates):
+    found = two_masses().modes(coordinates=coordinates)
+    m, parts = np.diag(MASSES), [np.array([[1.0, 0.0], [0.0, 0.0]]), np.array([[1.0, -1.0], [-1.0, 1.0]])]
+    k, c = (sum(x * part for x, part in zip(of, parts, strict=True)) for of in (STIFFNESS, DAMPING))
+    first = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]])
+    values, vectors = np.linalg.eig(first)
+    assert len(found.of_shapes) == 2
+    for j, value in enumerate(found.of_shapes):
+        z = vectors[:2, np.argmin(np.abs(values - value))]
+
+        def share(matrices, z=z):
+            works = np.array([np.real(z.conj() @ a @ z) for a in matrices])
+            return works / works.sum()
+
+        wanted = {
+            "participation": share([np.diag([MASSES[0], 0.0]), np.diag([0.0, MASSES[1]])]),
+            "stiffening": share([x * a for x, a in zip(STIFFNESS, parts, strict=True)]),
+            "dissipation": share([x * a for x, a in zip(DAMPING, parts, strict=True)]),
+        }
+        for table, shares in wanted.items():
+            names = ("m0", "m1") if table == "participation" else ("s0", "s1")
+            own = getattr(found, table)
+            assert_allclose([own[name][j] for name in names], shares, rtol=1e-9)
+            assert_allclose(sum(own.values())[j], 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "cart-pole", "flyball-governor"])
+def test_tables_are_those_of_bodies_in_both_coordinates(name):
+    asked = {"at": "steady"} if name == "flyball-governor" else {}
+    found = symgen.load(name).modes(coordinates="joint", **asked)
+    for table in (found.participation, found.stiffening, found.dissipation):
+        sums = sum(table.values(), np.zeros(len(found.of_shapes)))
+        assert np.all((np.abs(sums - 1.0) < 1e-9) | (sums == 0.0))
+    assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)
+    if not asked:
+        other = symgen.load(name).modes()
+        for table in ("participation", "stiffening", "dissipation"):
+            mine, theirs = getattr(found, table), getattr(other, table)
+            for key in theirs:
+                assert_allclose(mine.get(key, 0.0), theirs[key], atol=1e-8)
+
+
+def test_a_riding_bicycle_weaves_with_its_frame():
+    found = symgen.load("bicycle").modes(at="start", states=("lean", "steer"))
+    assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)
+    restoring = sum(found.stiffening.values(), np.zeros(len(found.of_shapes)))
+    assert_allclose(restoring[np.abs(restoring) > 0.0], 1.0, rtol=1e-9)
