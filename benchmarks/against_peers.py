@@ -90,6 +90,8 @@ def rows(model: models.Model, only: str = "") -> Iterator[Row]:
         ("direct-correction", "direct-correction", {}),
         ("direct-correction mass", "direct-correction", {"method.weight": "mass"}),
         ("lagrange", "lagrange", {}),
+        ("joint direct-correction", "direct-correction", {}),
+        ("joint lagrange", "lagrange", {}),
     )
     for label, method, options in weights:
         for text, chosen in settings:
@@ -97,6 +99,7 @@ def rows(model: models.Model, only: str = "") -> Iterator[Row]:
                 continue
             all_options = options | chosen.get("options", {})
             asked = common | chosen | {"method": method, "options": all_options}
+            asked["coordinates"] = "joint" if label.startswith("joint") else "absolute"
             result = loaded.simulate(**asked)
             if result.status != "failed" and result.seconds.run < BUDGET / REPEATS:
                 repeat = min(MOST, max(REPEATS, round(ENOUGH / result.seconds.run)))

@@ -14,7 +14,7 @@ from symgen.compiling.choose_coordinates import choose_coordinates, weighed
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
-from symgen.describe.events import RECORD, RESET, STOP, events_of, watched
+from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
@@ -133,15 +133,12 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         if free:
             choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
     asked_shape, events = _shape(s, last), events_asked(mechanism, s)
-    resets = any(event.action == RESET for event in events)
     if s.coordinates == "joint":
-        if resets:
-            raise InputError("coordinates", "absolute ones where an event gives velocities other values", "joint")
         choose_coordinates(mechanism, s.coordinates, asked_shape)
         asked_shape = "straight"
     shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
     choice = replace(choice, shape=shape.shape)
-    coordinates = choose_coordinates(mechanism, "absolute" if resets else s.coordinates, shape.shape)
+    coordinates = choose_coordinates(mechanism, s.coordinates, shape.shape)
     if coordinates.coordinates == "joint" and not _asked(s, "weight"):
         choice = weighed(choice, massless)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)

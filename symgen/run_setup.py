@@ -222,6 +222,7 @@ def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]
         "parameters": {key: float(x) for key, x in parameters.items() if key not in compiled.info.inputs},
         "events": in_words(plan.events) or None,
         "shape": compiled.shape,
+        "coordinates": plan.coordinates,
         "symgen": f"{__version__}, format {FORMAT}",
     }
 
@@ -234,21 +235,13 @@ def _going_on(
     All that the other run kept is taken up where this one is of the same making; where it looks for other events, all
     but what was known of these. Else its time, coordinates, velocities and work are the start of another one.
     """
-    values, choice = parameter_values(mechanism, parameters), plan.choice
-    if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
-        choice = replace(choice, options={**choice.options, "solver": "augmented"})
+    values, choice = parameter_values(mechanism, parameters), choice_of(plan, last)
     compiled = compiled_for(mechanism, choice)
-    info, whence = compiled.info, f"goes on from t = {last.t:.6g} s of another run"
-    made = made_of(compiled, plan, values)
-    other = last.other_than(made)
-    if last.arrays is not None and not last.other_than({key: x for key, x in made.items() if key != "events"}):
-        y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
-        arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
-        notes = (f"{whence} with all that it kept but its events: {'; '.join(other)}",) if other else (whence,)
-        redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
-        own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
-        kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy())
-        return compiled, Start(*kept, last.rank, redundant, notes, t=last.t, work=last.work_before, saved=arrays)
+    info, other = compiled.info, last.other_than(made_of(compiled, plan, values))
+    if plan.coordinates == "joint":  # see `symgen.tree_run`: what joints kept is not taken up here
+        other = other or ["the tree is another one"]
+    elif (start := taken_up(compiled, plan, last, values, made_of(compiled, plan, values))) is not None:
+        return compiled, start
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
@@ -258,8 +251,51 @@ def _going_on(
         compiled = compiled_for(mechanism, replace(choice, options={**choice.options, "solver": "augmented"}))
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
-    note = f"{whence} with its coordinates and velocities alone: {'; '.join(other)}"
+    note = f"{whence(last)} with its coordinates and velocities alone: {'; '.join(other)}"
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
+
+
+def choice_of(plan: Plan, last: LastState) -> MethodChoice:
+    """Return the method of a run that goes on from another one: light bodies had that one take another solver."""
+    if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
+        return replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+    return plan.choice
+
+
+def whence(last: LastState) -> str:
+    """Return the words for where a run goes on from."""
+    return f"goes on from t = {last.t:.6g} s of another run"
+
+
+def taken_up(
+    compiled: CompiledModel, plan: Plan, last: LastState, values: Mapping[str, float], made: Mapping[str, Any]
+) -> Start | None:
+    """Return the start of a run that takes up what another one kept, None where it is of another making.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    plan : Plan
+        How it is run.
+    last : LastState
+        Of the other run.
+    values : mapping
+        Of all parameters.
+    made : mapping
+        From `made_of`.
+    """
+    if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
+        return None
+    other = last.other_than(made)
+    y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
+    arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
+    told = f" with all that it kept but its events: {'; '.join(other)}" if other else ""
+    info = compiled.info
+    redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
+    own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
+    kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy())
+    return Start(*kept, last.rank, redundant, (whence(last) + told,), t=last.t, work=last.work_before, saved=arrays)
 
 
 def watching(

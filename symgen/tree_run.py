@@ -7,19 +7,22 @@ violations and outputs are read as of any other run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import TYPE_CHECKING
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.choose_tree import on_tree
+from symgen.compiling.events import compile_events
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates, state_names
 from symgen.lower.windings import winding_order
-from symgen.run_setup import compiled_for, ready
+from symgen.run_setup import choice_of, compiled_for, made_of, ready, taken_up
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
@@ -29,14 +32,21 @@ from symgen.runtime.probe import Ready
 from symgen.runtime.tree_start import settle_tree
 
 if TYPE_CHECKING:
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Happening, Watched
+    from symgen.runtime.last_state import LastState
 
 Array = NDArray[np.float64]
 
 #: What both descriptions of a motion measure alike, taken over from the run.
 _SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
+
+
+#: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
+_BODIES = ("body_y", "body_p", "body_w", "tree_rank")
 
 
 @dataclass(frozen=True)
@@ -53,6 +63,8 @@ class TreeRun:
         In the bodies' own.
     body_start : Start
         Where the same run would begin there.
+    plan : Plan
+        How it is run.
     """
 
     whole: Mechanism
@@ -61,6 +73,7 @@ class TreeRun:
     start: Start
     bodies: CompiledModel
     body_start: Start
+    plan: Plan
 
     @property
     def topology(self) -> Topology:
@@ -93,14 +106,58 @@ class TreeRun:
         for i in range(info.windings):
             w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
-        happened = tuple(replace(event, state=self._of_bodies(event.t, event.state)) for event in outcome.happened)
         values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": self._noted(outcome)}
-        values |= {"p": self._parameters(outcome.p), "w": w, "happened": happened}
+        values |= {"p": self._parameters(outcome.p), "w": w, "happened": self._happened(outcome)}
         values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
         last = outcome.simulation.state.y
-        return CarriedOutcome(
-            **values, inner=outcome, end_state=self._of_bodies(outcome.end, last), work=last[own.work]
-        )
+        end = self._of_bodies(outcome.end, last, outcome.p)
+        return CarriedOutcome(**values, inner=outcome, end_state=end, work=last[own.work], tree=self)
+
+    def kept(self, outcome: CarriedOutcome) -> dict[str, NDArray[Any]]:
+        """Return what a run leaves for another one to go on from, beside what its loop kept."""
+        y = self.body_start.y.copy()
+        y[: self.bodies.info.work] = outcome.end_state
+        rank = np.array([self.start.rank])
+        return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
+
+    def made(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+        """Return what shapes the run, see `symgen.run_setup.made_of`."""
+        return _made(self.compiled, self.plan, parameters)
+
+    def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
+        """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
+        found: list[Happening] = []
+        struck = dict[int, tuple[Array, Array]]()
+        numbers = {event.name: i for i, event in enumerate(self.plan.events)}
+        watched = None
+        for event in outcome.happened:
+            p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
+            state = self._of_bodies(event.t, event.state, p)
+            if event.after is None or event.impulses is None:
+                found.append(replace(event, state=state))
+                continue
+            if watched is None:
+                values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
+                watched = compile_events(self.whole, self.bodies, self.plan.events, values)
+                assert watched is not None, "there are events"
+            if id(event.impulses) not in struck:  # resets at the same time share what they do
+                together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
+                struck[id(event.impulses)] = self._struck(watched, together, event, state, p)
+            after, impulses = struck[id(event.impulses)]
+            found.append(replace(event, state=state, after=after, impulses=impulses))
+        return tuple(found)
+
+    def _struck(
+        self, watched: Watched, numbers: Sequence[int], event: Happening, state: Array, p: Array
+    ) -> tuple[Array, Array]:
+        """Return velocities of bodies after a reset, and the impulses of their rows and of what was given."""
+        assert event.after is not None, "it is a reset"
+        own, info = self.compiled.info, self.bodies.info
+        after = self._of_bodies(event.t, np.concatenate([event.state[: own.nq], event.after]), p)[info.nq :]
+        y = np.zeros(info.ny)
+        y[: info.work] = state
+        blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
+        return after, blow.impulses
 
     def _noted(self, outcome: Outcome) -> Start:
         """Return the start of bodies with what was said of that of the run."""
@@ -117,21 +174,34 @@ class TreeRun:
             Ready(module.prepare, e.PREPARE)(p)
         return p
 
+    @cached_property
+    def _signs(self) -> Array:
+        """What makes the Euler parameters of bodies, of two signs, go on from those of the start: 1 or -1 each."""
+        info = self.bodies.info
+        found, signs = self._raw(self.start.t, self.start.y, self.start.p), np.ones(info.nq)
+        for first, _ in info.spins:
+            if found[first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
+                signs[first : first + 4] = -1.0
+        return signs
+
     def _moving(self, outcome: Outcome) -> Array:
         info = self.bodies.info
         found = outcome.observed(self.compiled.model.bodies, info.nq + 2 * info.nv)
-        for first, _ in info.spins:  # Euler parameters have two signs
-            if len(found) and found[0, first : first + 4] @ self.body_start.y[first : first + 4] < 0.0:
-                found[:, first : first + 4] *= -1.0
+        found[:, : info.nq] *= self._signs
         return found
 
-    def _of_bodies(self, t: float, y: Array) -> Array:
+    def _of_bodies(self, t: float, y: Array, p: Array) -> Array:
         """Return coordinates and velocities of bodies at one state."""
+        found = self._raw(t, y, p)
+        found[: self.bodies.info.nq] *= self._signs
+        return found
+
+    def _raw(self, t: float, y: Array, p: Array) -> Array:
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
         state[: own.work] = y[: own.work]
         observe = Ready(self.compiled.model.bodies, abi.OBSERVE)
-        observe(t, state, self.start.p, self.start.w.copy(), np.zeros(own.ny), out)
+        observe(t, state, p, self.start.w.copy(), np.zeros(own.ny), out)
         return out[: info.nq + info.nv]
 
     def _turns(self, states: Array, windings: Array) -> list[Array]:
@@ -160,11 +230,14 @@ class CarriedOutcome(Outcome):
         Coordinates and velocities of bodies in the last state that was accepted.
     work : float
         Work done until there [J].
+    tree : TreeRun
+        The run.
     """
 
     inner: Outcome = field(repr=False)
     end_state: Array = field(repr=False)
     work: float
+    tree: TreeRun = field(repr=False)
 
 
 def tree_run(
@@ -181,11 +254,12 @@ def tree_run(
     parameters, strict
         As for `symgen.run_setup.ready`.
     """
-    bodies, start = ready(mechanism, plan, parameters, strict)
     carried = on_tree(mechanism)
-    weight = {name: value for name, value in plan.choice.options.items() if name == "weight"}
-    choice = replace(plan.choice, options={**bodies.law.options, **weight}, shape="straight")
-    compiled = compiled_for(carried, choice)
+    kept = None if plan.last is None else _going_on(mechanism, carried, plan, plan.last, parameters)
+    if kept is not None:
+        return kept
+    bodies, start = ready(mechanism, plan, parameters, strict)
+    compiled = compiled_for(carried, _choice(plan, bodies))
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
     q, v = _state(carried, carried.topology, bodies, start)
@@ -200,7 +274,35 @@ def tree_run(
     w, rank, redundant = settle_tree(compiled, y, p, start.t, turned, scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start)
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, plan)
+
+
+def _choice(plan: Plan, bodies: CompiledModel) -> MethodChoice:
+    """Return the method of a run in joint coordinates: as that of bodies has it, with the metric asked for."""
+    weight = {name: value for name, value in plan.choice.options.items() if name == "weight"}
+    return replace(plan.choice, options={**bodies.law.options, **weight}, shape="straight")
+
+
+def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
+    return made_of(compiled, plan, parameters) | {"tree": compiled.info.digest[:12]}
+
+
+def _going_on(
+    mechanism: Mechanism, carried: Mechanism, plan: Plan, last: LastState, parameters: Mapping[str, float] | None
+) -> TreeRun | None:
+    """Return a run that takes up what another one in the same coordinates kept, None where there is none."""
+    if last.arrays is None or not {*_BODIES} <= {*last.arrays}:
+        return None
+    bodies = compiled_for(mechanism, choice_of(plan, last))
+    compiled = compiled_for(carried, _choice(plan, bodies))
+    values = parameter_values(mechanism, parameters)
+    start = taken_up(compiled, plan, last, values, _made(compiled, plan, values))
+    if start is None:
+        return None
+    y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
+    redundant = tuple(bodies.info.rows[i].name for i in np.flatnonzero(bodies.section(w, "mask")))
+    of_bodies = Start(y, p, w, last.rank, redundant, start.notes, t=last.t, work=last.work_before)
+    return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan)
 
 
 def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start: Start) -> tuple[Array, Array]:

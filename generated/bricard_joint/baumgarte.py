@@ -9,8 +9,8 @@ p[3] beta (default 5.0)
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_57560a1a069098f7 import confirm
+from .confirm_4de953f4e81e3f98 import confirm
 from .prepare_9f2c7ad49f4537ff import prepare
-from .rhs_direct_12b44d49aa5398a8 import rhs
+from .rhs_direct_8d4f8b4bb0741476 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

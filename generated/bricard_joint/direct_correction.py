@@ -9,9 +9,9 @@ p[0] tolerance (default 1e-13)
 """
 
 from .accept_identity_08db196c7afffbb4 import accept
-from .confirm_0758649a2335ee88 import confirm
+from .confirm_e77b09d26ec2b03f import confirm
 from .metric_identity_767c0698aac624c5 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_fa42cef48161693f import rhs
+from .rhs_direct_c34c5fe08a51e276 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

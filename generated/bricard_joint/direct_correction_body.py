@@ -8,10 +8,10 @@ option weight = body
 p[0] tolerance (default 1e-13)
 """
 
-from .accept_body_f471b07b9b953739 import accept
-from .confirm_802662c616c4c35c import confirm
-from .metric_body_0abfb5caa45b440d import geometry, spread
+from .accept_body_fe7e8cc1cb684ee5 import accept
+from .confirm_89b6c1aa2f021fff import confirm
+from .metric_body_5065a5f705fcdd90 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_fa42cef48161693f import rhs
+from .rhs_direct_c34c5fe08a51e276 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

@@ -9,9 +9,9 @@ p[0] tolerance (default 1e-13)
 """
 
 from .accept_mass_373393990a0e0f55 import accept
-from .confirm_78c5ac15402a895a import confirm
+from .confirm_2d15bb1cba1f7e63 import confirm
 from .metric_mass_28bb27a708302091 import geometry, spread
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_fa42cef48161693f import rhs
+from .rhs_direct_c34c5fe08a51e276 import rhs
 
 __all__ = ["accept", "confirm", "geometry", "prepare", "rhs", "spread"]

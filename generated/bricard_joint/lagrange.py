@@ -7,8 +7,8 @@ option solver = elimination
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
-from .confirm_aa9620f4515f9086 import confirm
+from .confirm_5550770b0e041e52 import confirm
 from .prepare_069764e87980f98a import prepare
-from .rhs_direct_fa42cef48161693f import rhs
+from .rhs_direct_c34c5fe08a51e276 import rhs
 
 __all__ = ["accept", "confirm", "prepare", "rhs"]

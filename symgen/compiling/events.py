@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
 
 from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Event, Mechanism, SpatialBody
 from symgen.describe.printer import to_text
+from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.events import Reset, Watched
+from symgen.runtime.events import Watched
+from symgen.runtime.probe import Ready
+from symgen.runtime.resets import Masses, Reset, linear_in_v
 from symgen.store.entries import Entries
+
+Array = NDArray[np.float64]
 
 _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
@@ -55,8 +64,49 @@ def compile_events(
         function=side.function,
         needs_rates="ydot" in side.reads,
         resets=resets,
-        products=tuple(_products(mechanism, values)),
+        masses=_masses(mechanism, values) if resets else None,
     )
+
+
+def _masses(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:
+    """Return what makes M, over the velocities of bodies where joints of a tree carry these."""
+    if mechanism.topology is not None:
+        return partial(_carried_masses, mechanism)
+    return partial(_own_masses, tuple(_products(mechanism, values)))
+
+
+def _own_masses(
+    products: Sequence[tuple[int, int, float]], compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
+) -> tuple[Array, Array, Array]:
+    mass = np.diag(compiled.section(w, "mass"))
+    for i, j, value in products:
+        mass[i, j] = mass[j, i] = value
+    return np.eye(len(mass)), np.zeros(len(mass)), mass
+
+
+def _carried_masses(
+    mechanism: Mechanism, compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
+) -> tuple[Array, Array, Array]:
+    info = compiled.info
+    values = dict(zip((q.name for q in info.parameters), p.tolist(), strict=False))
+    diagonal = list[float]()
+    for body in mechanism.bodies:
+        where = f"bodies.{body.name}"
+        diagonal += [evaluate(body.mass, values, f"{where}.mass")] * len(mechanism.gravity)
+        if body.inertia is not None:
+            turning = body.inertia[:3] if isinstance(body, SpatialBody) else (body.inertia,)
+            diagonal += [evaluate(entry, values, f"{where}.inertia") for entry in turning]
+    mass = np.diag(diagonal)
+    for i, j, value in _products(mechanism, values):
+        mass[i, j] = mass[j, i] = value
+    first, count = sum(len(body.coordinates) for body in mechanism.bodies), len(diagonal)
+    out, ydot, bodies = np.zeros(first + 2 * count), np.zeros(info.ny), Ready(compiled.model.bodies, OBSERVE)
+
+    def velocities(state: Array) -> Array:
+        bodies(t, state, p, w, ydot, out)
+        return out[first : first + count]
+
+    return *linear_in_v(info, y, velocities), mass
 
 
 def _products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:

@@ -1,7 +1,10 @@
 """M and f of bodies in space on a tree: composite inertias, and the recursion of Newton and Euler from the leaves in.
 
 Bodies that are welded to what carries them are one body with it: their inertia is added to its own where it is
-constant, and only the forces on them are carried in.
+constant, and only the forces on them are carried in. A hinge feels nothing of a thin rod along its axis, a ball
+nothing of a mass in its middle: as much of a body's inertia counts as part of what carries it, which leaves it without
+mass and moves no entry of M or f (base parameters; Khalil and Dombre, Modeling, Identification and Control of Robots,
+2002, section 9.4).
 """
 
 from __future__ import annotations
@@ -39,6 +42,7 @@ class Placed(Protocol):
     whirl: Matrix
     motions: dict[int, Motion]
     centre: Triple
+    hinge: tuple[Triple, Triple] | None
     children: list[str]
 
 
@@ -76,11 +80,12 @@ class Composite:
         self.v = Vectors(model.graph)
         self.order = [name for name in placed if name != GROUND]
         self.rigid: dict[str, Inertia] = {}
+        self.given: dict[str, Inertia] = {}  # what a body leaves to what carries it, about the point of that
         self.hanging: dict[str, Inertia] = {}
         self.push: dict[str, Triple] = {}
         self.torque: dict[str, Triple] = {}
         for name in reversed(self.order):
-            self.rigid[name] = self._rigid(name)
+            self.rigid[name] = self._without_rod(name, self._rigid(name))
         for name in reversed(self.order):
             self.hanging[name] = self._hanging(name)
             self.push[name], self.torque[name] = self._taken(name)
@@ -102,7 +107,32 @@ class Composite:
         for child in p.children:
             if welded(self.placed[child]):
                 found = self._joined(found, self._carried(self.placed[child], self.rigid[child]))
+            elif child in self.given:
+                found = self._joined(found, self.given[child])
         return found
+
+    def _without_rod(self, name: str, found: Inertia) -> Inertia:
+        """Return an inertia without what its joint does not feel, which is noted as given to what carries it."""
+        g, v, p = self.model.graph, self.v, self.placed[name]
+        if p.hinge is None:
+            return found
+        axis, beside = p.hinge
+        shift = v.scale(found.mass, p.arm)
+        ((i, sign),) = [(k, g.value(x)) for k, x in enumerate(axis) if g.value(x) not in (0.0, None)][:1] or [(0, None)]
+        if axis == v.zero or sign not in (1.0, -1.0) or sum(x != g.zero for x in axis) != 1:
+            self.given[name] = Inertia(found.mass, shift, v.shifted(shift, p.arm))
+            return Inertia(g.zero, found.first, found.second)
+        first, second = list(found.first), [list(row) for row in found.second]
+        j, k = (i + 1) % 3, (i + 2) % 3
+        turned = v.scale(g.mul(g.constant(sign), first[i]), beside)
+        # of the second moments by coordinates, the one along the axis
+        along = g.mul(g.constant(0.5), g.sub(g.add(second[j][j], second[k][k]), second[i][i]))
+        rod = v.shifted(v.scale(along, beside), beside)
+        first[i] = g.zero
+        second[j][j], second[k][k] = g.sub(second[j][j], along), g.sub(second[k][k], along)
+        double = v.add(shift, turned, turned)
+        self.given[name] = Inertia(found.mass, v.add(shift, turned), v.plus(rod, v.shifted(double, p.arm)))
+        return Inertia(g.zero, v.triple(first), (v.triple(second[0]), v.triple(second[1]), v.triple(second[2])))
 
     def _hanging(self, name: str) -> Inertia:
         """Return the inertia of a body with all that hangs on it."""

@@ -57,6 +57,9 @@ class _Placed:
         Its centre of mass, from its point.
     euler : sequence of int
         Euler parameters.
+    hinge : (Triple, Triple) or None
+        Of a body that turns about an axis alone: this axis, in its own axes and in those of what carries it; zeros
+        where it turns about a point alone.
     """
 
     link: Link
@@ -74,6 +77,7 @@ class _Placed:
     columns: dict[int, tuple[Triple, Triple]]
     centre: Triple
     euler: Sequence[int]
+    hinge: tuple[Triple, Triple] | None = None
     children: list[str] = field(default_factory=list)
 
 
@@ -249,7 +253,18 @@ class SpatialTree:
             columns,
             v.sub(com, at),
             euler,
+            self._hinge(link, body),
         )
+
+    def _hinge(self, link: Link, body: SpatialBody) -> tuple[Triple, Triple] | None:
+        """Return what a body turns about, if that is all that it does."""
+        found, v = link.articulation, self.v
+        if found is None or found.slides or found.screw or body.is_point or found.turn not in ("axis", "ball"):
+            return None
+        if found.turn == "ball":
+            return v.zero, v.zero
+        mine, other = (found.of_b[2], found.of_a[2]) if link.forward else (found.of_a[2], found.of_b[2])
+        return v.triple(self.model.direction(mine)), v.triple(self.model.direction(other))
 
     def _carried(self, found: Articulation, link: Link, direction: Direction) -> Triple:
         """Return a direction of displacement in the axes of what carries the body."""

@@ -81,12 +81,36 @@ class Vectors:
 
     def turned(self, r: Matrix, j: Matrix) -> Matrix:
         """Return R J R^T of a symmetric J; the lower triangle is the upper one."""
-        half = self.product(r, j)
         g = self.graph
+        for i in range(3):
+            if self._about(r, i):
+                return self._turned_about(r, j, i)
+        half = self.product(r, j)
         entries = [[g.zero] * 3 for _ in range(3)]
         for i in range(3):
             for k in range(i, 3):
                 entries[i][k] = entries[k][i] = g.dot(half[i], r[k])
+        x, y, z = (self.triple(row) for row in entries)
+        return x, y, z
+
+    def _about(self, r: Matrix, i: int) -> bool:
+        """Whether a matrix turns about a direction of the axes, by an angle that is not known."""
+        g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
+        rest = r[i][j], r[i][k], r[j][i], r[k][i]
+        around = r[i][i] == g.one and rest == (g.zero,) * 4
+        return around and r[j][j] == r[k][k] and r[j][k] == g.neg(r[k][j]) and g.value(r[j][j]) is None
+
+    def _turned_about(self, r: Matrix, a: Matrix, i: int) -> Matrix:
+        """Return R A R^T of a symmetric A by half the operations, with the trace and the angle's squares left out."""
+        g, j, k = self.graph, (i + 1) % 3, (i + 2) % 3
+        c, s = r[j][j], r[k][j]
+        entries = [[g.zero] * 3 for _ in range(3)]
+        swing = g.add(g.mul(s, g.sub(a[j][j], a[k][k])), g.mul(g.mul(g.constant(2.0), c), a[j][k]))
+        less = g.mul(s, swing)
+        entries[i][i], entries[j][j], entries[k][k] = a[i][i], g.sub(a[j][j], less), g.add(a[k][k], less)
+        entries[j][k] = entries[k][j] = g.sub(g.mul(c, swing), a[j][k])
+        entries[i][j] = entries[j][i] = g.sub(g.mul(c, a[i][j]), g.mul(s, a[i][k]))
+        entries[i][k] = entries[k][i] = g.add(g.mul(s, a[i][j]), g.mul(c, a[i][k]))
         x, y, z = (self.triple(row) for row in entries)
         return x, y, z
 

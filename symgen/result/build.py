@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
@@ -141,13 +142,9 @@ def _last_state(
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, start = compiled.info, outcome.start
     if isinstance(outcome, CarriedOutcome):
-        return _last_of_bodies(mechanism, compiled, outcome)
-    arrays = outcome.simulation.save()
+        return _last_of_bodies(mechanism, compiled, outcome, parameters)
+    arrays = _arrays(outcome)
     y, w = arrays["y"], arrays["w"]
-    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
-    if len(outcome.times) and outcome.times[-1] == outcome.end:
-        shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
-    arrays |= dict(zip(SHOWN, shown, strict=True))
     whole = outcome.code in (abi.DONE, abi.STOPPED)
     return LastState(
         mechanism=mechanism.name,
@@ -165,8 +162,20 @@ def _last_state(
     )
 
 
-def _last_of_bodies(mechanism: Mechanism, compiled: CompiledModel, outcome: CarriedOutcome) -> LastState:
-    """Return where a run in joint coordinates ended: the coordinates of bodies, and nothing else."""
+def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
+    """Return all that a run kept, with its last output."""
+    info, arrays = outcome.compiled.info, outcome.simulation.save()
+    y, w = arrays["y"], arrays["w"]
+    shown = y[: info.ny].copy(), np.append(w[: abi.N_STATUS], w[abi.WINDING : abi.WINDING + info.windings])
+    if len(outcome.times) and outcome.times[-1] == outcome.end:
+        shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
+    return arrays | dict(zip(SHOWN, shown, strict=True))
+
+
+def _last_of_bodies(
+    mechanism: Mechanism, compiled: CompiledModel, outcome: CarriedOutcome, parameters: Mapping[str, float]
+) -> LastState:
+    """Return where a run in joint coordinates ended: the coordinates of bodies, and all that it kept of joints."""
     info, start, last = compiled.info, outcome.start, outcome.end_state
     return LastState(
         mechanism=mechanism.name,
@@ -178,6 +187,8 @@ def _last_of_bodies(mechanism: Mechanism, compiled: CompiledModel, outcome: Carr
         work_before=start.work,
         windings=tuple(float(x) for x in outcome.w[abi.WINDING : abi.WINDING + info.windings]),
         rank=start.rank,
+        made=outcome.tree.made(parameters),
+        arrays=_arrays(outcome.inner) | outcome.tree.kept(outcome),
         failed="" if outcome.code in (abi.DONE, abi.STOPPED) else outcome.reason,
     )
 

@@ -10,11 +10,13 @@ from numba import types
 from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
-from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots, trampoline
+from symgen.native import trampoline as ways
+from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots
 
 Array = NDArray[np.float64]
 #: A trampoline.
 Call = Callable[[int], int]
+_DOUBLE, _WHOLE = np.dtype(np.float64), np.dtype(np.int64)
 #: Two of a loop's arguments, counted from the end, as before them stand functions: scheme, sizes, span, state, outputs.
 _SCHEME, _SPAN = -5, -3
 
@@ -36,9 +38,7 @@ class Block:
 
     def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
         self._result, self._arguments, self._call = result, list(arguments), call
-        self._kinds = result.signature.args
-        places = np.cumsum([FIRST, *(sum(1 for _ in slots(kind)) for kind in self._kinds)])
-        self._places = [int(place) for place in places]
+        self._kinds, self._places = _layout(result)[1:]
         block: Any = np.zeros(self._places[-1], dtype=np.int64)
         self._block, self._address = block, block.ctypes.data
         self._ints: Any = memoryview(block)  # read and written faster than arrays are
@@ -61,7 +61,7 @@ class Block:
         signature = compiled.signature
         if len(signature.args) != len(arguments):
             return None
-        call = trampoline(signature.return_type, signature.args)
+        call = _layout(compiled)[0] if ways.usable() else None
         try:
             return None if call is None else cls(compiled, arguments, call)
         except (NotImplementedError, TypeError, ValueError):  # a function, or a record, of a kind of its own
@@ -160,18 +160,35 @@ def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable
     return call
 
 
+#: Of functions that were entered: themselves, so that they stay where they are, and what `_layout` returns.
+_KNOWN: dict[int, tuple[Any, tuple[Call | None, tuple[Any, ...], list[int]]]] = {}
+
+
+def _layout(result: Any) -> tuple[Call | None, tuple[Any, ...], list[int]]:
+    """Return the trampoline of a compiled function, the kinds of its arguments, and where their slots begin."""
+    if id(result) not in _KNOWN:
+        returned, kinds = result.signature.return_type, result.signature.args
+        call = ways.trampoline(returned, kinds)
+        sizes = () if call is None else tuple(sum(1 for _ in slots(kind)) for kind in kinds)
+        _KNOWN[id(result)] = result, (call, kinds, np.cumsum([FIRST, *sizes]).tolist())
+    return _KNOWN[id(result)][1]
+
+
 def _numbers(kind: Any, value: Any) -> Iterator[int | float]:
     """Yield what stands in the slots of an argument: integers, addresses among them, and floating-point numbers."""
-    if isinstance(kind, types.BaseTuple):
-        for part, item in zip(kind, value, strict=True):
-            yield from _numbers(part, item)
-    elif isinstance(kind, types.FunctionType):
-        yield from addresses(value, kind)
+    if kind is types.float64:
+        yield float(value)
+    elif kind is types.int64:
+        yield int(value)
     elif isinstance(kind, types.Array):
         if not (isinstance(value, np.ndarray) and value.flags.c_contiguous and value.ndim == kind.ndim):
             raise TypeError("an array of another kind")
-        if value.dtype != np.dtype(str(kind.dtype)):
+        if value.dtype != (_DOUBLE if kind.dtype is types.float64 else _WHOLE):
             raise TypeError("an array of other numbers")
-        yield from (0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides)
+        data, _ = value.__array_interface__["data"]
+        yield from (0, 0, value.size, value.itemsize, data, *value.shape, *value.strides)
+    elif isinstance(kind, types.BaseTuple):
+        for part, item in zip(kind, value, strict=True):
+            yield from _numbers(part, item)
     else:
-        yield float(value) if kind == types.float64 else int(value)
+        yield from addresses(value, kind)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.errors import InputError
 from symgen.runtime import abi, hunting
 from symgen.runtime.hunting_records import HuntingState
-from symgen.runtime.impulses import strike
-from symgen.runtime.probe import Ready
+from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -28,22 +26,6 @@ NOTHING_LEFT = 1e-9
 _SHRINKING, _STEADY = 4, 0.2
 #: So many resets in this part of a run are a heap as well.
 _CROWDED, _HEAP = 50, 1e-7
-
-
-@dataclass(frozen=True)
-class Reset:
-    """New velocities at an event.
-
-    Attributes
-    ----------
-    labels : tuple of str
-        Velocities that get new values.
-    evaluate : callable
-        (t, y, p, w, ydot) -> the velocities that are named, then their new values.
-    """
-
-    labels: tuple[str, ...]
-    evaluate: Callable[[float, Array, Array, Array, Array], Array]
 
 
 @dataclass(frozen=True)
@@ -64,8 +46,8 @@ class Watched:
         Whether these depend on accelerations.
     resets : mapping of int to Reset
         By number of the event.
-    products : tuple of (int, int, float)
-        Entries of M beside its diagonal: row, column, value.
+    masses : callable or None
+        What resets are the shortest in, see `symgen.runtime.resets.Masses`.
     """
 
     names: tuple[str, ...]
@@ -74,7 +56,24 @@ class Watched:
     function: Any
     needs_rates: bool
     resets: Mapping[int, Reset] = field(default_factory=dict)
-    products: tuple[tuple[int, int, float], ...] = ()
+    masses: Masses | None = None
+
+    def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
+        """Return what resets at one time do to a state; see `symgen.runtime.resets.impact_of`.
+
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        numbers : sequence of int
+            Which events.
+        t, y, p, w
+            Time, state, parameters and scratch, whose geometry is written.
+        """
+        assert self.masses is not None, "where there are resets, it is known what they are the shortest in"
+        names = " and ".join(f"'{self.names[n]}'" for n in numbers)
+        where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
+        return impact_of(compiled, [self.resets[n] for n in numbers], self.masses, where, t, y, p, w)
 
     def hunting_state(self, sizes: Sizes, state: State) -> HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
@@ -184,69 +183,21 @@ class Events:
     # -- resets --------------------------------------------------------------------------------------------------------
 
     def _reset(self, state: HuntingState, numbers: Sequence[int]) -> None:
-        info, compiled, now = self.compiled.info, self.compiled, float(state.clock[abi.TIME])
-        y, w, p = state.y[: info.ny].copy(), state.w.copy(), state.p
-        Ready(compiled.model.geometry, abi.MEASURE)(now, y, p, w)
-        joints, nu = compiled.jacobian(w), compiled.section(w, "nu").copy()
-        labels, rows, values = list[str](), [joints], [nu]
-        for number in numbers:
-            reset = self.watched.resets[number]
-            own, asked = self._rows(reset, now, y, p, w)
-            labels += reset.labels
-            rows.append(own)
-            values.append(asked)
-        v, mass = y[info.nq : info.nq + info.nv], self._mass(w)
-        blow = strike(mass, np.concatenate(rows), np.concatenate(values), v)
-        if blow.contradictory or not np.all(np.isfinite(blow.v)):
-            raise self._refusal(numbers, labels, blow.v, np.concatenate(rows), np.concatenate(values), now)
-        after = blow.v.copy()
-        for row, value in zip(np.concatenate(rows)[info.m :], np.concatenate(values)[info.m :], strict=True):
-            if np.count_nonzero(row) == 1 and row.max() == 1.0:
-                after[np.argmax(row)] = value  # a velocity itself: exactly, so that one at rest is at rest
-        energy = 0.5 * float((after - v) @ mass @ (after + v))
-        state.y[info.nq : info.nq + info.nv] = after
-        state.y[info.work] += energy  # done by the impulses: the balance goes on behind it
+        info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
+        y, w = state.y[: info.ny].copy(), state.w.copy()
+        found = watched.impact(self.compiled, numbers, now, y, state.p, w)
+        state.y[info.nq : info.nq + info.nv] = found.v
+        state.y[info.work] += found.energy  # done by the impulses: the balance goes on behind it
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
-        names = {self.watched.names[number] for number in numbers}
-        given, first = tuple(labels), True
+        names = {watched.names[number] for number in numbers}
+        energy = found.energy
         for i, event in enumerate(self.happened):
             if event.t == now and event.action == RESET and event.name in names:
-                self.happened[i] = Happening(
-                    *(event.t, event.name, event.action, event.state, after, blow.impulses, given),
-                    energy if first else 0.0,
+                self.happened[i] = replace(
+                    event, after=found.v, impulses=found.impulses, given=found.given, energy=energy
                 )
-                first = False
-
-    def _rows(self, reset: Reset, t: float, y: Array, p: Array, w: Array) -> tuple[Array, Array]:
-        """Return the rows of the velocities that a reset names, and what these rows times v+ have to be."""
-        info, count = self.compiled.info, len(reset.labels)
-        still, ydot = y.copy(), np.zeros(info.ny)
-        still[info.nq : info.nq + info.nv] = 0.0
-        rest = reset.evaluate(t, still, p, w, ydot)[:count]
-        rows = np.zeros((count, info.nv))
-        for j in range(info.nv):  # named velocities are linear in v
-            still[info.nq + j] = 1.0
-            rows[:, j] = reset.evaluate(t, still, p, w, ydot)[:count] - rest
-            still[info.nq + j] = 0.0
-        return rows, reset.evaluate(t, y, p, w, ydot)[count:] - rest
-
-    def _mass(self, w: Array) -> Array:
-        mass = np.diag(self.compiled.section(w, "mass"))
-        for i, j, value in self.watched.products:
-            mass[i, j] = mass[j, i] = value
-        return mass
-
-    def _refusal(
-        self, numbers: Sequence[int], labels: Sequence[str], v: Array, rows: Array, values: Array, now: float
-    ) -> InputError:
-        names = " and ".join(f"'{self.watched.names[n]}'" for n in numbers)
-        where = f"events {names}: reset" if len(numbers) > 1 else f"event {names}: reset"
-        m = len(values) - len(labels)
-        asked = ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, values[m:], strict=True))
-        nearest = ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, rows[m:] @ v, strict=True))
-        got = f"{asked} at t = {now:.6g} s"
-        return InputError(where, "velocities that the joints and each other allow", got, f"the nearest are {nearest}")
+                energy = 0.0
 
     # -- events that accumulate ----------------------------------------------------------------------------------------
 

@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+#: What runs were made of that do not say it yet.
+_BEFORE = {"coordinates": "absolute"}
+
 
 @dataclass(frozen=True, repr=False)
 class LastState:
@@ -71,7 +74,7 @@ class LastState:
             return ["nothing else was kept"]
         found = []
         for key, value in made.items():
-            before = self.made.get(key)
+            before = self.made.get(key, _BEFORE.get(key))
             if before == value:
                 continue
             if isinstance(value, Mapping) and isinstance(before, Mapping):

@@ -90,6 +90,7 @@ class Simulation:
             self._watch(spec.events)
         self.snapshot = Snapshot(state)
         self.state = self.snapshot.state
+        self._prepared: tuple[Outputs, Entry] | None = None
         self._counts, self._clock = memoryview(self.state.control), memoryview(self.state.clock)
         self.state.y[: len(start.y)], self.state.p[:], self.state.w[:] = start.y, start.p, start.w
         self.state.gauges[[abi.SMALLEST_PIVOT, abi.LAST_SINE, abi.LAST_SHORT]] = 1.0
@@ -172,9 +173,16 @@ class Simulation:
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
         span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
+        entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
-            arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
-            if (ended := self._ended(int(self.setup.loop(*arguments)))) is not None:
+            if entry is None:
+                arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
+                code = int(self.setup.loop(*arguments))
+            else:
+                if not entry.has(self.scheme, self.span):
+                    entry.take(self.scheme, self.span)
+                code = entry(span.until, span.pause, span.most)
+            if (ended := self._ended(code)) is not None:
                 return ended
 
     def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
@@ -290,10 +298,19 @@ class Simulation:
         return not names_kept(self.scheme)
 
     def warm(self, outputs: Outputs) -> None:
-        """Compile everything by a run that is told to stop before its first step, so that clocks see loops alone."""
-        kept = self.save()
+        """Compile everything, so that clocks see loops alone.
+
+        Where the loop cannot be entered by its address, by a run that is told to stop before its first step.
+        """
+        from symgen.runtime.entry import entry_of
+
         if len(self.spec.pieces) > 1:
             self.changes.prepare()
+        records = self.scheme, self.sizes, self.span, self.state, outputs
+        if (entry := entry_of(self.setup.loop, (*self.setup.functions, *records))) is not None:
+            self._prepared = outputs, entry
+            return
+        kept = self.save()
         self.state.control[abi.STOP] = 1
         self.enter(type(outputs)(*(array[:0] for array in outputs)))
         self.restore(kept)

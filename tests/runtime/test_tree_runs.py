@@ -158,23 +158,9 @@ def test_events_outputs_and_inputs():
     assert a.q.keys() == b.q.keys() and b.q["crank.theta"] == pytest.approx(0.9, abs=1e-9)
 
 
-def test_going_on():
-    """From the last state of a run in joint coordinates: its coordinates and velocities."""
-    model = symgen.load("four-bar")
-    whole = model.simulate(until=0.4, coordinates="joint", **TIGHT)
-    first = model.simulate(until=0.2, coordinates="joint", **TIGHT)
-    second = model.simulate(until=0.4, start=first, coordinates="joint", **TIGHT)
-    np.testing.assert_allclose(second.q.values[-1], whole.q.values[-1], rtol=0.0, atol=MOTION)
-    assert second.t[0] == 0.2 and second.energy_error[-1] == pytest.approx(0.0, abs=REACTION)
-
-
 def test_refusals():
     model = symgen.load("four-bar")
     with pytest.raises(InputError, match="loops, lanes and CUDA have no joint coordinates"):
         model.simulate(coordinates="joint", shape="looped")
     with pytest.raises(InputError, match="absolute, joint, auto"):
         model.simulate(coordinates="relative")
-    blow = {"blow": {"when": "crank.theta - 0.9", "reset": {"crank.omega": "-crank.omega"}}}
-    with pytest.raises(InputError, match="velocities other values"):
-        model.simulate(coordinates="joint", events=blow)
-    assert model.simulate(coordinates="auto", events=blow, until=0.01).coordinates == "absolute"

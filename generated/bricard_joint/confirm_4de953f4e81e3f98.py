@@ -8,7 +8,7 @@ import math
 from numba import njit
 
 from .model import geometry
-from .rhs_direct_12b44d49aa5398a8 import rhs
+from .rhs_direct_8d4f8b4bb0741476 import rhs
 
 MASK = 25  # sections of w
 SAVED = 30

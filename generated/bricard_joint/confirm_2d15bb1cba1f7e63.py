@@ -7,8 +7,8 @@ import math
 
 from numba import njit
 
-from .model import geometry
-from .rhs_direct_fa42cef48161693f import rhs
+from .metric_mass_28bb27a708302091 import geometry
+from .rhs_direct_c34c5fe08a51e276 import rhs
 
 MASK = 25  # sections of w
 SAVED = 30

@@ -7,7 +7,7 @@ import math
 
 from numba import njit
 
-from .metric_body_0abfb5caa45b440d import geometry, spread
+from .metric_body_5065a5f705fcdd90 import geometry, spread
 from .model import measure
 
 CHANGE = 50  # sections of w

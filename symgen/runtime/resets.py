@@ -1,0 +1,136 @@
+"""What resets make of a state: the smallest impulse that gives velocities the values that are asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.errors import InputError
+from symgen.runtime import abi
+from symgen.runtime.impulses import strike
+from symgen.runtime.probe import Ready
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Reset:
+    """New velocities at an event.
+
+    Attributes
+    ----------
+    labels : tuple of str
+        Velocities that get new values.
+    evaluate : callable
+        (t, y, p, w, ydot) -> the velocities that are named, then their new values.
+    """
+
+    labels: tuple[str, ...]
+    evaluate: Callable[[float, Array, Array, Array, Array], Array]
+
+
+#: M by the velocities u of bodies: (compiled, t, y, p, w) -> B, c and M_b with u = B v + c and M = B^T M_b B.
+Masses = Callable[["CompiledModel", float, Array, Array, Array], tuple[Array, Array, Array]]
+
+
+@dataclass(frozen=True)
+class Impact:
+    """What resets at one time do to a state.
+
+    Attributes
+    ----------
+    v : Array, shape (nv,)
+        Velocities afterwards.
+    impulses : Array
+        Of each row of D, then of each velocity that was given a value.
+    given : tuple of str
+        These velocities.
+    energy : float
+        What is added to the energy [J].
+    """
+
+    v: Array
+    impulses: Array
+    given: tuple[str, ...]
+    energy: float
+
+
+def impact_of(
+    compiled: CompiledModel, resets: Sequence[Reset], masses: Masses, names: str, t: float, y: Array, p: Array, w: Array
+) -> Impact:
+    """Return what resets do to a state.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    resets : sequence of Reset
+        At the same time: they are one.
+    masses : callable
+        See `Masses`.
+    names : str
+        What errors say of whose resets they are.
+    t : float
+        Time [s].
+    y, p, w : Array
+        The state, parameters, and scratch, whose geometry is written.
+
+    Raises
+    ------
+    InputError
+        If the constraints, or other resets, do not allow what is asked for.
+    """
+    info = compiled.info
+    Ready(compiled.model.geometry, abi.MEASURE)(t, y, p, w)
+    labels, rows, values = list[str](), [compiled.jacobian(w)], [compiled.section(w, "nu").copy()]
+    for reset in resets:
+        own, asked = _rows(compiled, reset, t, y, p, w)
+        labels += reset.labels
+        rows.append(own)
+        values.append(asked)
+    v, every, right = y[info.nq : info.nq + info.nv], np.concatenate(rows), np.concatenate(values)
+    carry, rest, bodies = masses(compiled, t, y, p, w)
+    blow = strike(carry.T @ bodies @ carry, every, right, v)
+    if blow.contradictory or not np.all(np.isfinite(blow.v)):
+        raise _refusal(names, labels, every[info.m :] @ blow.v, right[info.m :], t)
+    after = blow.v.copy()
+    for row, value in zip(every[info.m :], right[info.m :], strict=True):
+        if np.count_nonzero(row) == 1 and row.max() == 1.0:
+            after[np.argmax(row)] = value  # a velocity itself: exactly, so that one at rest is at rest
+    energy = 0.5 * float((carry @ (after - v)) @ bodies @ (carry @ (after + v) + 2.0 * rest))
+    return Impact(after, blow.impulses, tuple(labels), energy)
+
+
+def _rows(compiled: CompiledModel, reset: Reset, t: float, y: Array, p: Array, w: Array) -> tuple[Array, Array]:
+    """Return the rows of the velocities that a reset names, and what these rows times v+ have to be."""
+    info, count, ydot = compiled.info, len(reset.labels), np.zeros(compiled.info.ny)
+    rows, rest = linear_in_v(info, y, lambda still: reset.evaluate(t, still, p, w, ydot)[:count])
+    return rows, reset.evaluate(t, y, p, w, ydot)[count:] - rest
+
+
+def linear_in_v(info: ModelInfo, y: Array, function: Callable[[Array], Array]) -> tuple[Array, Array]:
+    """Return what a function of the state that is linear in v multiplies v by, and what it is at rest."""
+    still = y.copy()
+    still[info.nq : info.nq + info.nv] = 0.0
+    rest = function(still).copy()
+    columns = np.zeros((len(rest), info.nv))
+    for j in range(info.nv):
+        still[info.nq + j] = 1.0
+        columns[:, j] = function(still) - rest
+        still[info.nq + j] = 0.0
+    return columns, rest
+
+
+def _refusal(names: str, labels: Sequence[str], found: Array, values: Array, t: float) -> InputError:
+    asked, nearest = (
+        ", ".join(f"{label} = {x:.6g}" for label, x in zip(labels, numbers, strict=True)) for numbers in (values, found)
+    )
+    expected = "velocities that the joints and each other allow"
+    return InputError(names, expected, f"{asked} at t = {t:.6g} s", f"the nearest are {nearest}")
