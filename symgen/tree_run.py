@@ -29,6 +29,7 @@ from symgen.runtime.probe import Ready
 from symgen.runtime.tree_start import settle_tree
 
 if TYPE_CHECKING:
+    from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.runtime.compiled import CompiledModel
@@ -182,16 +183,51 @@ def tree_run(
         As for `symgen.run_setup.ready`.
     """
     bodies, start = ready(mechanism, plan, parameters, strict)
+    return begin_on_tree(mechanism, *tree_code(mechanism, plan.choice, bodies), bodies, start, plan.method_parameters)
+
+
+def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:
+    """Return a mechanism with its tree, and its compiled model for the method that bodies are run with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    choice : MethodChoice
+        The method.
+    bodies : CompiledModel
+        In the bodies' own coordinates; its solver is the tree's.
+    """
     carried = on_tree(mechanism)
-    weight = {name: value for name, value in plan.choice.options.items() if name == "weight"}
-    choice = replace(plan.choice, options={**bodies.law.options, **weight}, shape="straight")
-    compiled = compiled_for(carried, choice)
+    weight = {name: value for name, value in choice.options.items() if name == "weight"}
+    return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
+
+
+def begin_on_tree(
+    mechanism: Mechanism,
+    carried: Mechanism,
+    compiled: CompiledModel,
+    bodies: CompiledModel,
+    start: Start,
+    method_parameters: Mapping[str, float],
+) -> TreeRun:
+    """Return what a run in joint coordinates begins with, from a start of bodies.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    carried, compiled : Mechanism, CompiledModel
+        From `tree_code`.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    """
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
     q, v = _state(carried, carried.topology, bodies, start)
-    p = compiled.parameter_array(
-        dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters
-    )
+    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
     turned = _windings(mechanism, carried, bodies, start)
     y = np.zeros(own.ny)
     y[: own.work] = np.concatenate([q, v])

@@ -36,8 +36,9 @@ if TYPE_CHECKING:
 )
 @click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "start"),
-    *("options", "strict", "max_violation", "max_energy_error", "max_steps"),
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "inputs"),
+    *("start", "options", "stop_when", "record_when", "strict", "max_violation", "max_energy_error", "max_steps"),
+    "coordinates",
     text={
         "parameters": "Value of a parameter that does not vary.",
         "strict": "Let runs fail whose start is not consistent.",
@@ -72,7 +73,8 @@ def command(
 ) -> int:
     """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
-    NAME is a parameter of the mechanism, or a coordinate or velocity of a body at the start (crank.theta, crank.omega).
+    NAME is a parameter of the mechanism, or a coordinate or velocity of a body or joint at the start (crank.theta,
+    crank.omega, motor.angle).
     Runs that fail are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
     goes on from there.
     """

@@ -55,11 +55,11 @@ def compile_events(
         function=side.function,
         needs_rates="ydot" in side.reads,
         resets=resets,
-        products=tuple(_products(mechanism, values)),
+        products=tuple(mass_products(mechanism, values)),
     )
 
 
-def _products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:
+def mass_products(mechanism: Mechanism, values: Mapping[str, float]) -> list[tuple[int, int, float]]:
     """Return the entries of M beside its diagonal: row, column, value."""
     found, first = list[tuple[int, int, float]](), 0
     for body in mechanism.bodies:

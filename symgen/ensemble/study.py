@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
+from symgen.ensemble.singly import event_columns
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
 from symgen.errors import InputError, nearest
 from symgen.files import write_whole
@@ -63,7 +64,7 @@ class Sweep:
         What was asked for.
     values : Array, shape (runs, quantities, times)
         Quantities at the output times; nan where a run did not get there.
-    summary : Array, shape (runs, N_SUMMARY)
+    summary : Array, shape (runs, N_SUMMARY + width)
         Numbers of every run; see `symgen.runtime.ensemble_abi`.
     done : Array of bool, shape (runs,)
         Which runs have been done: all, unless it was interrupted.
@@ -95,7 +96,13 @@ class Sweep:
     @cached_property
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
         compiled = self.ensemble.compiled
-        return judge_all(self.summary, self.done, compiled.info, compiled.law, self.ensemble.recipe.spec)
+        recipe, events = self.ensemble.recipe, self.ensemble.events
+        return judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
+
+    @cached_property
+    def _events(self) -> dict[str, tuple[int, str]]:
+        """Numbers of every run about events: their columns and units."""
+        return event_columns(self.ensemble.events)
 
     @property
     def status(self) -> NDArray[np.str_]:
@@ -132,7 +139,9 @@ class Sweep:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
             return column(self.summary, name).reshape(shape)
-        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS]
+        if name in self._events:
+            return np.asarray(self.summary[:, self._events[name][0]]).reshape(shape)
+        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self._events]
         raise InputError(
             "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
         )
@@ -149,11 +158,13 @@ class Sweep:
             "method": ensemble.compiled.law.method,
             "integrator": ensemble.plan.tableau.name,
             "target": ensemble.target,
+            "coordinates": ensemble.plan.coordinates,
             "step": None if spec.adaptive else spec.step,
             "rtol": spec.rtol if spec.adaptive else None,
             "atol": spec.atol if spec.adaptive else None,
             "until": spec.until,
-            "parameters": json.dumps(ensemble.parameters),
+            "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
+            "inputs": json.dumps(dict(ensemble.driving.given.told)),
             "options": json.dumps(dict(ensemble.settings.options)),
             "settings": json.dumps(finite(settings)),
             "versions": json.dumps(_versions()),
@@ -165,7 +176,7 @@ class Sweep:
         """Return the contract of ``symgen sweep --json``."""
         facts = {
             key: self.attributes[key]
-            for key in ("mechanism", "method", "integrator", "target", "step", "rtol", "until")
+            for key in ("mechanism", "method", "integrator", "target", "coordinates", "step", "rtol", "until")
         }
         counts = self.counts
         contract: dict[str, Any] = finite(
@@ -175,6 +186,14 @@ class Sweep:
                 "axes": {axis.dimension: len(axis) for axis in self.ensemble.grid.axes},
                 "quantities": [q.name for q in self.ensemble.recipe.quantities],
                 "times": len(self.ensemble.recipe.spec.times),
+                "events": {
+                    name: {
+                        "runs": int(np.sum(counts > 0.0)),
+                        "count": int(np.nansum(counts)),
+                    }
+                    for name in self.ensemble.events
+                    for counts in [self[f"event.{name}.count"]]
+                },
                 "status": {name.replace(" ", "_"): count for name, count in counts.items()},
                 "reasons": [{"reason": reason, "runs": count} for reason, count in self.reasons()],
                 "seconds": self.seconds,
@@ -208,8 +227,12 @@ class Sweep:
             # a quantity of the same name is over time
             label = f"{name}_min" if name == "smallest_pivot" else name
             variables[label] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
+        for name, (_, unit) in self._events.items():
+            variables[name] = (dimensions, self[name], {"units": unit})
         units = {q.name: q.unit for q in (*ensemble.compiled.info.coordinates, *ensemble.compiled.info.velocities)}
         units.update({p.name: p.unit for p in ensemble.compiled.info.parameters})
+        units.update({q.name: q.unit for q in ensemble.compiled.info.joint_coordinates})
+        units.update({f"{q.name}.rate": f"{q.unit}/s" for q in ensemble.compiled.info.joint_coordinates})
         coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
         for axis in ensemble.grid.axes:
             for name, values in axis.values.items():

@@ -133,9 +133,9 @@ def sweep(
 
 def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> None:
     """Refuse an ensemble whose rows do not fit where they are collected."""
-    runs, quantities, times, _ = ensemble.sizes
+    runs, quantities, times, _, further = ensemble.sizes
     what = f"{runs:g} runs, each with {quantities} quantities at {times} times"
-    rows = 8.0 * runs * (quantities * times + N_SUMMARY)
+    rows = 8.0 * runs * (quantities * times + N_SUMMARY + further)
     if folder is None:
         require("sweep", what, rows + RUN_SIZE * runs)
     else:

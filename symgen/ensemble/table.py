@@ -44,17 +44,19 @@ class Table:
         Sizes.
     chunk : int
         Runs in a chunk; the last one may have fewer.
+    further : int
+        Numbers that each run leaves of events.
 
     Attributes
     ----------
     values : Array, shape (runs, quantities, times)
         Quantities at the output times.
-    summary : Array, shape (runs, N_SUMMARY)
+    summary : Array, shape (runs, N_SUMMARY + further)
         See `symgen.runtime.ensemble_abi`.
     """
 
-    def __init__(self, runs: int, quantities: int, times: int, chunk: int) -> None:
-        self.runs, self.chunk = runs, chunk
+    def __init__(self, runs: int, quantities: int, times: int, chunk: int, further: int = 0) -> None:
+        self.runs, self.chunk, self._width = runs, chunk, N_SUMMARY + further
         self.finished: set[int] = set()
         self.values: Array
         self.summary: Array
@@ -62,7 +64,7 @@ class Table:
 
     def _open(self, quantities: int, times: int) -> None:
         self.values = np.full((self.runs, quantities, times), np.nan)
-        self.summary = np.zeros((self.runs, N_SUMMARY))
+        self.summary = np.zeros((self.runs, self._width))
 
     @property
     def chunks(self) -> int:
@@ -147,7 +149,7 @@ class FolderTable(Table):
         self,
         folder: Path,
         description: Mapping[str, Any],
-        sizes: tuple[int, int, int, int],
+        sizes: tuple[int, int, int, int, int],
         resume: bool,
     ) -> None:
         self.folder = folder
@@ -194,7 +196,7 @@ class FolderTable(Table):
 
     def _begin(self, quantities: int, times: int) -> None:
         self.values = self._file(VALUES, (self.runs, quantities, times))
-        self.summary = self._file(SUMMARY, (self.runs, N_SUMMARY))
+        self.summary = self._file(SUMMARY, (self.runs, self._width))
         if not (self.folder / DESCRIPTION).exists():  # last, so that a folder with a description is whole
             write_whole(self.folder / DESCRIPTION, json.dumps(self._description, indent=1) + "\n")
 

@@ -32,7 +32,7 @@ WITHOUT = {
         *EVENTS,
     },
     "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps"},
-    "sweep": {"verify", "repeat", "shape", "inputs", "coordinates", *EVENTS},
+    "sweep": {"verify", "repeat", "shape", "events"},
 }
 #: Defaults of commands that are not those of a single run.
 OTHER = {("compare", "repeat"): 3}
