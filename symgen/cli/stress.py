@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
-@setting_options("max_violation", "max_energy_error", "max_steps")
+@setting_options("max_violation", "max_energy_error", "max_steps", "coordinates")
 @jobs_option("Processes.")
 @json_option
 def command(

@@ -107,6 +107,8 @@ class Stress:
         Mechanism, method, integrator and why the pair is not run at all.
     quick, interrupted : bool
         Fewer cases were asked for; cells are missing because the study was stopped.
+    coordinates : str
+        Of the state of all runs.
     """
 
     models: tuple[str, ...]
@@ -117,6 +119,7 @@ class Stress:
     left_out: tuple[tuple[str, str, str, str], ...] = ()
     quick: bool = False
     interrupted: bool = False
+    coordinates: str = "absolute"
 
     @property
     def false_successes(self) -> tuple[Row, ...]:
@@ -129,6 +132,7 @@ class Stress:
 
         contract = {
             "models": list(self.models),
+            "coordinates": self.coordinates,
             "quick": self.quick,
             "interrupted": self.interrupted,
             "accurate": ACCURATE,
