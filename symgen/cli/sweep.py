@@ -46,7 +46,9 @@ if TYPE_CHECKING:
     otherwise={"output_step": "(only the end is kept)"},
 )
 @click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to keep, such as crank.theta or q.")
-@click.option("-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc) or a folder.")
+@click.option(
+    "-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc), a CSV file with units, or a folder."
+)
 @click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
 @jobs_option("Threads.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from symgen import arguments
 from symgen.ensemble.axes import RUN_SIZE
+from symgen.ensemble.lines import SAVED
 from symgen.ensemble.local import run_here
 from symgen.ensemble.plan import Ensemble, make_ensemble
 from symgen.ensemble.study import Sweep
@@ -66,7 +67,8 @@ def sweep(
         What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; by default all
         coordinates and velocities. Memory grows with these and with the output times alone.
     output : path, optional
-        ``.nc``: a NetCDF file, with the folder ``<file>.parts`` beside it until all runs are done; otherwise a folder.
+        ``.nc``: a NetCDF file; ``.csv``: a line for every run and time, with units in the heading; both with the
+        folder ``<file>.parts`` beside them until all runs are done. Otherwise a folder.
         Finished runs survive an interruption and a kill.
     resume : bool
         Continue what an earlier call began at `output`.
@@ -189,7 +191,7 @@ def folder_of(path: Path, resume: bool) -> Path:
     if not path.suffix:
         check_folder(path, resume)
         return path
-    check_path("output", path, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+    check_path("output", path, SAVED, "data")
     parts = path.with_name(path.name + PARTS)
     if resume and path.exists() and not parts.exists():
         hint = "leave --resume out to compute it again"

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError
+from symgen.files import unheaded
 from symgen.result.export import SAVED, need
 from symgen.runtime.last_state import LastState
 
@@ -92,7 +93,7 @@ def _last_row(path: Path) -> dict[str, float]:
             names, row = next(rows), next(rows)
             for following in rows:
                 row = following
-        return {name: float(x) for name, x in zip(names, row, strict=True)}
+        return {unheaded(name): float(x) for name, x in zip(names, row, strict=True)}
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")
