@@ -151,6 +151,7 @@ class Ensemble:
             "start": {name: repr(value) for name, value in self.held.constant.items()},
             **({"inputs": driven} if (driven := self.driving.described) else {}),
             "recipe": self.recipe.digest,
+            "code": self.recipe.code,
             "runs": len(self),
             "chunk": self.chunk,
         }

@@ -189,10 +189,11 @@ class FolderTable(Table):
     def _check_description(self, where: str) -> None:
         found = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8"))
         differing = sorted(k for k in {*found, *self._description} if found.get(k) != self._description.get(k))
-        if differing:
-            raise InputError(
-                where, "the sweep that was begun there", f"one with another {differing[0]}", "name another output"
-            )
+        if not differing:
+            return
+        # other versions may say the same in other words, so nothing is said of what they have
+        got = "one by another version of symgen" if "code" in differing else f"one with another {differing[0]}"
+        raise InputError(where, "the sweep that was begun there", got, "name another output")
 
     def _begin(self, quantities: int, times: int) -> None:
         self.values = self._file(VALUES, (self.runs, quantities, times))
