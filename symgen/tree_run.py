@@ -7,7 +7,7 @@ violations and outputs are read as of any other run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from typing import TYPE_CHECKING
 
@@ -26,13 +26,13 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.tree_start import settle_tree
+from symgen.runtime.tree_start import Carrying, settle_tree
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
 
@@ -251,6 +251,29 @@ def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start:
     return np.array([known[name] for name, _ in names]), np.array([known[name] for name, _ in speeds])
 
 
+def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
+    """Return where what stands in rows of bodies and of a tree."""
+    assert carried.topology is not None, "it was put on a tree"
+    info, own = bodies.info, compiled.info
+    known = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
+    for k, x in enumerate(info.joint_coordinates):
+        known |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
+    names, speeds = state_names(carried, carried.topology)
+    turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
+    first = info.sections["gauge"][0]
+
+    def integers(found: Iterable[int]) -> NDArray[np.int64]:
+        return np.array(list(found), dtype=np.int64)
+
+    return Carrying(
+        *(0, own.work, info.m + 2 * len(info.joint_coordinates)),
+        places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
+        windings=integers(turned[m] for m in winding_order(carried, "straight")),
+        gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),
+        dependent=integers(()),
+    )
+
+
 def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, start: Start) -> list[float]:
     """Return the angles whose turns the code for the tree counts, at the start."""
     places = {m: i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
@@ -259,14 +282,16 @@ def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, s
 
 def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
     """Return what makes translations of the velocities of a tree: 1, or 1 / l^2 with the length of the body turned."""
+    gauge = bodies.section(w, "gauge")
+    return np.array([1.0 if j is None else float(gauge[j]) for j in _levers(carried, bodies.info)])
+
+
+def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
+    """Return the velocity whose length each velocity of a tree has, None for those that are no angles."""
     assert carried.topology is not None, "it has a tree"
-    found, gauge = list[float](), bodies.section(w, "gauge")
+    found = list[int | None]()
     for link in carried.topology.links:
         alone = msgspec.structs.replace(carried.topology, links=(link,))
-        own = [
-            float(gauge[j])
-            for j, x in enumerate(bodies.info.velocities)
-            if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"
-        ]
-        found += [own[0] if unit == "rad/s" else 1.0 for _, unit in state_names(carried, alone)[1]]
-    return np.array(found)
+        own = [j for j, x in enumerate(info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
+        found += [own[0] if unit == "rad/s" else None for _, unit in state_names(carried, alone)[1]]
+    return found

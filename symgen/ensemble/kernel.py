@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from symgen.ensemble.lanes import LaneRuns
     from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
+    from symgen.ensemble.tree_rows import TreeRows
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.records import Kept
 
@@ -96,6 +97,10 @@ class _Prepared:
     device: DeviceRuns | None = None
     lanes: LaneRuns | None = None
     single: SingleRuns | None = None
+    tree: TreeRows | None = None
+    on_tree: _Prepared | None = None
+    picks: Integers | None = None
+    width: int | None = None
 
 
 @dataclass
@@ -182,6 +187,12 @@ class Kernel:
         if model is self.first and recipe.spare is not None:
             ready &= out.summary[selected, _LIGHT] == 0.0
         selected = selected[ready]
+        if model.tree is not None and model.on_tree is not None:
+            starts, apart = model.tree.settle((ys, ps, ws), selected, control)
+            plain, selected = selected[apart], selected[~apart]
+            if not self._advance(model.on_tree, starts, plain, out.values, out.summary, control):
+                return False
+            model.tree.turn(recipe.quantities, plain, ys, out.values)
         if model.single is not None:
             return model.single.run(rows, (ys, ps, ws), selected, out, control)
         if not self._advance(model, (ys, ps, ws), selected, out.values, out.summary, control):
@@ -241,13 +252,17 @@ class Kernel:
         (ys, ps, ws), ny = starts, info.ny
         if model.device is not None:
             return model.device.run(ys, ps, ws, selected, values, summary, control) == len(selected)
-        observes = e.JOINT in recipe.sources
+        picked = recipe.picks if model.picks is None else model.picks
+        sources = {*picked[::2].tolist()}
+        observes = e.JOINT in sources
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
         confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
-        seen = rates, confirms[1], model.compiled.model.observe if observes else observe_nothing
-        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info)
-        wants = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT})), int(observes)
-        picks = recipe.picks, values.reshape(-1), summary.reshape(-1)
+        observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
+        seen = rates, confirms[1], observe if observes else observe_nothing
+        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
+        needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
+        wants = int(bool(sources & needs)), int(observes)
+        picks = picked, values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, _REDUNDANT] > 0.0) and info.m * info.nv <= LARGEST
         layout = model.assembly.layout
         places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + 1) if redundant else 0)
@@ -264,12 +279,12 @@ class Kernel:
         done = loop(*functions, model.setup.scheme, sizes, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
-    def _kept(self, info: ModelInfo) -> Kept:
+    def _kept(self, info: ModelInfo, width: int | None) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""
         from symgen.runtime.records import Kept, Observed, Outputs
 
         times = self.recipe.times
-        k, rows = len(times), info.m + 2 * len(info.joint_coordinates)
+        k, rows = len(times), info.m + 2 * len(info.joint_coordinates) if width is None else width
         outputs = Outputs(times, np.empty((k, info.ny)), np.empty((k, abi.N_STATUS + info.windings)))
         return Kept(outputs, Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows))))
 
@@ -278,7 +293,8 @@ class Kernel:
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
-        return _Prepared(
+        carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
+        prepared = _Prepared(
             compiled=compiled,
             assembly=Assembly.of(
                 compiled,
@@ -292,17 +308,25 @@ class Kernel:
             setup=setup,
             device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
             lanes=self._lane_runs(other.load(), setup) if other is not None and recipe.target == "lanes" else None,
-            single=self._single_runs(compiled, tree),
         )
+        if recipe.singly is not None:
+            from symgen.ensemble.singly import SingleRuns
 
-    def _single_runs(self, compiled: CompiledModel, tree: Module | None) -> SingleRuns | None:
-        recipe = self.recipe
-        if recipe.singly is None:
-            return None
-        from symgen.ensemble.singly import SingleRuns
+            prepared.single = SingleRuns(recipe, recipe.singly, compiled, self.integrator, carried)
+        if recipe.singly is not None and recipe.tree is not None and carried is not None and recipe.tree.plain:
+            from symgen.ensemble.tree_rows import TreeRows
 
-        carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
-        return SingleRuns(recipe, recipe.singly, compiled, self.integrator, carried)
+            values = carried[1].parameter_array(defaults, recipe.method_parameters)
+            prepared.tree = TreeRows.of(recipe.singly.mechanism, carried[0], compiled, carried[1], values)
+            prepared.on_tree = _Prepared(
+                compiled=carried[1],
+                assembly=prepared.tree.assembly,
+                p=values,
+                setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
+                picks=prepared.tree.picks(recipe.quantities),
+                width=prepared.tree.width,
+            )
+        return prepared
 
     def _lane_runs(self, compiled: CompiledModel, setup: Setup) -> LaneRuns:
         from symgen.ensemble.lanes import LaneRuns

@@ -54,7 +54,7 @@ class Made:
         """The law that is run first."""
         return self._made(self.plan.choice)
 
-    def modules(self, target: str, joint: bool) -> dict[str, Any]:
+    def modules(self, target: str, joint: bool, plain: bool) -> dict[str, Any]:
         """Return what a `Recipe` has of modules.
 
         Parameters
@@ -63,6 +63,8 @@ class Made:
             What runs them.
         joint : bool
             Whether the tree of joints is run.
+        plain : bool
+            Whether a loop over its rows leaves all that is kept.
         """
         mechanism, plan, compiled = self.mechanism, self.plan, self.first
         found: dict[str, Any] = {"module": Module.of(compiled), "spare": None}
@@ -80,5 +82,5 @@ class Made:
             if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
                 found["spare_other"] = Module.of(compile_model(mechanism, choice, target=target))
         if carried is not None:
-            found["tree"] = Tree(carried[0], Module.of(carried[1]), spare_tree)
+            found["tree"] = Tree(carried[0], Module.of(carried[1]), spare_tree, plain)
         return found

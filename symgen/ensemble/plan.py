@@ -27,6 +27,7 @@ from symgen.ensemble.quantities import choose_quantities
 from symgen.ensemble.recipe import Recipe, code_identity
 from symgen.ensemble.singly import Singly
 from symgen.ensemble.starts import Rows, make_rows
+from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
@@ -117,7 +118,8 @@ class Ensemble:
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
-        overhead = 2e-5 if self.recipe.singly is None else 5e-4
+        tree, singly = self.recipe.tree, self.recipe.singly
+        overhead = 2e-5 if singly is None or (tree is not None and tree.plain) else 5e-4
         seconds = overhead + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
@@ -228,7 +230,7 @@ def make_ensemble(
     singly = Singly(mechanism, events, ends) if events or driving.jumps or joint else None
     made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
     recipe = Recipe(
-        **made.modules(target, joint),
+        **made.modules(target, joint, not events and not driving.jumps and are_plain(kept, compiled.info)),
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),

@@ -103,16 +103,23 @@ class Tree:
         With its tree.
     module, spare : Module, Module or None
         Beside those of the recipe, which close starts.
+    plain : bool
+        Whether a loop over rows leaves all that is kept.
     """
 
     mechanism: Mechanism
     module: Module
     spare: Module | None
+    plain: bool
 
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [identity(self.mechanism), *(m if m is None else m.described for m in (self.module, self.spare))]
+        return [
+            identity(self.mechanism),
+            self.plain,
+            *(m if m is None else m.described for m in (self.module, self.spare)),
+        ]
 
 
 @dataclass(frozen=True)
