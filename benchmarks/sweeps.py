@@ -109,11 +109,11 @@ def questions(model: Any, vary: dict[str, str], settings: Settings) -> None:
     plain = math.nan
     for asked, (quantities, changes, part) in QUESTIONS.items():
         sweep = partial(symgen.sweep, model, settings=settings, quantities=quantities, jobs=1, **changes)
-        sweep({"crank_mass": [2.0]})  # compiles
+        sweep(vary={"crank_mass": [2.0]})  # compiles
         grid = {name: text.replace(" 100)", f" {max(2, round(100 * math.sqrt(part)))})") for name, text in vary.items()}
         found, processor = None, math.inf
         for _ in range(3):
-            _, once, found = timed(partial(sweep, grid))
+            _, once, found = timed(partial(sweep, vary=grid))
             processor = min(processor, once)
         assert found is not None and found.counts["ok"] == len(found), asked
         each = 1e6 * processor / len(found)

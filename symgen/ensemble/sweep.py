@@ -58,14 +58,15 @@ def sweep(
         What `symgen.load` takes, or what it gave.
     vary : mapping
         Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
-        or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies at the start
-        (``crank.theta``, ``crank.omega``): a coordinate that varies is held while the others are closed. Each name is
-        a dimension of the grid.
+        or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies and joints at
+        the start (``crank.theta``, ``crank.omega``, ``motor.angle``): a coordinate that varies is held while
+        the others are closed. Each name is a dimension of the grid.
     runs : mapping, optional
         The same for names that vary together, all with as many values: one dimension, ``run``.
     quantities : sequence of str, optional
-        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; by default all
-        coordinates and velocities. Memory grows with these and with the output times alone.
+        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; ``event`` or
+        ``event.NAME``, what happened; by default all coordinates and velocities. Memory grows with these and with the
+        output times alone.
     output : path, optional
         ``.nc``: a NetCDF file; ``.csv``: a line for every run and time, with units in the heading; both with the
         folder ``<file>.parts`` beside them until all runs are done. Otherwise a folder.
