@@ -67,7 +67,7 @@ def main(words: list[str]) -> None:
             assert found.counts["ok"] == len(found), found.reasons()
             row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
 
-    questions(model, vary, settings)
+    questions(model, side, settings)
     plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan)
     integrate(compiled, plan.tableau, start, plan.spec)
@@ -101,7 +101,7 @@ QUESTIONS: dict[str, tuple[tuple[str, ...], dict[str, Any], float]] = {
 }
 
 
-def questions(model: Any, vary: dict[str, str], settings: Settings) -> None:
+def questions(model: Any, side: int, settings: Settings) -> None:
     """Measure and print what further questions cost."""
     table = Table(title="what is asked, on one thread")
     for heading in ("asked", "runs", "us of processor a run", "to the plain sweep"):
@@ -110,7 +110,8 @@ def questions(model: Any, vary: dict[str, str], settings: Settings) -> None:
     for asked, (quantities, changes, part) in QUESTIONS.items():
         sweep = partial(symgen.sweep, model, settings=settings, quantities=quantities, jobs=1, **changes)
         sweep(vary={"crank_mass": [2.0]})  # compiles
-        grid = {name: text.replace(" 100)", f" {max(2, round(100 * math.sqrt(part)))})") for name, text in vary.items()}
+        few = max(2, round(side * math.sqrt(part)))
+        grid = {"crank_mass": f"lin(1, 3, {few})", "coupler_mass": f"lin(4, 12, {few})"}
         found, processor = None, math.inf
         for _ in range(3):
             _, once, found = timed(partial(sweep, vary=grid))
