@@ -2,6 +2,9 @@
 
     python -m benchmarks.sweeps [RUNS] [UNTIL]
 
+Then what further questions cost, on one thread, as ratios to the plain sweep: histories, quantities behind the loops,
+the tree of joints, events, a start that holds a joint coordinate.
+
 Seconds of the wall clock and of the processor are both shown: on a machine that does other things only the second ones
 can be compared.
 """
@@ -64,6 +67,7 @@ def main(words: list[str]) -> None:
             assert found.counts["ok"] == len(found), found.reasons()
             row(f"{name}, {jobs} thread{'s' if jobs > 1 else ''} (+{grown:.0f} MiB)", len(found), wall, processor)
 
+    questions(model, side, settings)
     plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan)
     integrate(compiled, plan.tableau, start, plan.spec)
@@ -77,6 +81,45 @@ def main(words: list[str]) -> None:
     model.simulate(settings)
     wall, processor, _ = timed(singles)
     row("Model.simulate", SINGLE, wall, processor)
+    show(table)
+
+
+#: What is asked -> quantities, changes of settings, and a part of the runs where these take long.
+QUESTIONS: dict[str, tuple[tuple[str, ...], dict[str, Any], float]] = {
+    "one coordinate": (("crank.theta",), {}, 1.0),
+    "coordinates and velocities": (("q", "v"), {}, 1.0),
+    "and accelerations, reactions": (("q", "v", "crank.alpha", "reactions"), {}, 1.0),
+    "in joint coordinates: one": (("crank.theta",), {"coordinates": "joint"}, 1.0),
+    "coordinates and velocities there": (("q", "v"), {"coordinates": "joint"}, 1.0),
+    "and accelerations, reactions there": (
+        ("q", "v", "crank.alpha", "reactions"),
+        {"coordinates": "joint"},
+        0.1,
+    ),
+    "an event that does not happen": (("crank.theta",), {"stop_when": "crank.theta > 9"}, 0.1),
+    "a joint coordinate held": (("crank.theta",), {"start": {"B.angle": -1.0}}, 0.02),
+}
+
+
+def questions(model: Any, side: int, settings: Settings) -> None:
+    """Measure and print what further questions cost."""
+    table = Table(title="what is asked, on one thread")
+    for heading in ("asked", "runs", "us of processor a run", "to the plain sweep"):
+        table.add_column(heading, justify="left" if heading == "asked" else "right")
+    plain = math.nan
+    for asked, (quantities, changes, part) in QUESTIONS.items():
+        sweep = partial(symgen.sweep, model, settings=settings, quantities=quantities, jobs=1, **changes)
+        sweep(vary={"crank_mass": [2.0]})  # compiles
+        few = max(2, round(side * math.sqrt(part)))
+        grid = {"crank_mass": f"lin(1, 3, {few})", "coupler_mass": f"lin(4, 12, {few})"}
+        found, processor = None, math.inf
+        for _ in range(3):
+            _, once, found = timed(partial(sweep, vary=grid))
+            processor = min(processor, once)
+        assert found is not None and found.counts["ok"] == len(found), asked
+        each = 1e6 * processor / len(found)
+        plain = each if math.isnan(plain) else plain
+        table.add_row(asked, str(len(found)), f"{each:.4g}", f"{each / plain:.2f}")
     show(table)
 
 

@@ -102,6 +102,16 @@ def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object
     return write_whole(path, text.getvalue())
 
 
+def headed(name: str, unit: str) -> str:
+    """Return the heading of a column that carries its unit: ``crank.theta [rad]``."""
+    return f"{name} [{unit}]" if unit else name
+
+
+def unheaded(heading: str) -> str:
+    """Return the name of a column whose heading may carry its unit."""
+    return heading.partition(" [")[0]
+
+
 def why(error: OSError | ValueError) -> str:
     """Return what the system says about a file, in its own words."""
     return getattr(error, "strerror", None) or str(error) or "an error"

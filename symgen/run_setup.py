@@ -16,7 +16,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
 from symgen.describe.holds import ORIENTATION, holds_of
-from symgen.describe.inputs import driven
+from symgen.describe.inputs import Driven, driven
 from symgen.describe.moved import moved
 from symgen.describe.start import described_start
 from symgen.ir.program import FORMAT
@@ -53,12 +53,15 @@ class Given:
         Of the run, none where nothing jumps.
     told : mapping of str to str or float
         Every input in words, or its number.
+    driven : Driven or None
+        What inputs are, where a run gives them something.
     """
 
     mechanism: Mechanism
     settings: Settings
     pieces: tuple[Piece, ...]
     told: Mapping[str, str | float]
+    driven: Driven | None = None
 
 
 def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
@@ -78,7 +81,7 @@ def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
     until = mechanism.defaults.until if settings.until is None else settings.until
     pieces = pieces_of(found, parameter_values(found.mechanism, parameters), until)
     parameters |= pieces[0].values if pieces else {}
-    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, found.told)
+    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, found.told, found)
 
 
 def start_of(

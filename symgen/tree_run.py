@@ -7,7 +7,7 @@ violations and outputs are read as of any other run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -29,13 +29,13 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.tree_start import settle_tree
+from symgen.runtime.tree_start import Carrying, settle_tree
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
-    from symgen.describe.mechanism import Mechanism
+    from symgen.describe.mechanism import Event, Mechanism
     from symgen.plan import Plan
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
     from symgen.runtime.events import Happening, Watched
     from symgen.runtime.last_state import LastState
 
@@ -63,8 +63,8 @@ class TreeRun:
         In the bodies' own.
     body_start : Start
         Where the same run would begin there.
-    plan : Plan
-        How it is run.
+    events : tuple of Event
+        That are looked for.
     """
 
     whole: Mechanism
@@ -73,7 +73,7 @@ class TreeRun:
     start: Start
     bodies: CompiledModel
     body_start: Start
-    plan: Plan
+    events: tuple[Event, ...] = ()
 
     @property
     def topology(self) -> Topology:
@@ -120,15 +120,15 @@ class TreeRun:
         rank = np.array([self.start.rank])
         return dict(zip(_BODIES, (y, outcome.p.copy(), outcome.w.copy(), rank), strict=True))
 
-    def made(self, parameters: Mapping[str, float]) -> dict[str, Any]:
+    def made(self, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
         """Return what shapes the run, see `symgen.run_setup.made_of`."""
-        return _made(self.compiled, self.plan, parameters)
+        return _made(self.compiled, plan, parameters)
 
     def _happened(self, outcome: Outcome) -> tuple[Happening, ...]:
         """Return the events of a run as those of bodies; the impulses of resets are those of all rows of these."""
         found: list[Happening] = []
         struck = dict[int, tuple[Array, Array]]()
-        numbers = {event.name: i for i, event in enumerate(self.plan.events)}
+        numbers = {event.name: i for i, event in enumerate(self.events)}
         watched = None
         for event in outcome.happened:
             p = next((own for until, own in outcome.held if event.t <= until), outcome.p)
@@ -138,7 +138,7 @@ class TreeRun:
                 continue
             if watched is None:
                 values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
-                watched = compile_events(self.whole, self.bodies, self.plan.events, values)
+                watched = compile_events(self.whole, self.bodies, self.events, values)
                 assert watched is not None, "there are events"
             if id(event.impulses) not in struck:  # resets at the same time share what they do
                 together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
@@ -254,18 +254,59 @@ def tree_run(
     parameters, strict
         As for `symgen.run_setup.ready`.
     """
-    carried = on_tree(mechanism)
-    kept = None if plan.last is None else _going_on(mechanism, carried, plan, plan.last, parameters)
+    kept = None if plan.last is None else _going_on(mechanism, plan, plan.last, parameters)
     if kept is not None:
         return kept
     bodies, start = ready(mechanism, plan, parameters, strict)
-    compiled = compiled_for(carried, _choice(plan, bodies))
+    carried = tree_code(mechanism, plan.choice, bodies)
+    return begin_on_tree(mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+
+
+def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:
+    """Return a mechanism with its tree, and its compiled model for the method that bodies are run with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    choice : MethodChoice
+        The method.
+    bodies : CompiledModel
+        In the bodies' own coordinates; its solver is the tree's.
+    """
+    carried = on_tree(mechanism)
+    weight = {name: value for name, value in choice.options.items() if name == "weight"}
+    return carried, compiled_for(carried, replace(choice, options={**bodies.law.options, **weight}, shape="straight"))
+
+
+def begin_on_tree(
+    mechanism: Mechanism,
+    carried: Mechanism,
+    compiled: CompiledModel,
+    bodies: CompiledModel,
+    start: Start,
+    method_parameters: Mapping[str, float],
+    events: tuple[Event, ...] = (),
+) -> TreeRun:
+    """Return what a run in joint coordinates begins with, from a start of bodies.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    carried, compiled : Mechanism, CompiledModel
+        From `tree_code`.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    events : tuple of Event
+        That are looked for.
+    """
     assert carried.topology is not None, "it was put on a tree"
     info, own = bodies.info, compiled.info
     q, v = _state(carried, carried.topology, bodies, start)
-    p = compiled.parameter_array(
-        dict(zip((x.name for x in info.parameters), start.p, strict=False)), plan.method_parameters
-    )
+    p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
     turned = _windings(mechanism, carried, bodies, start)
     y = np.zeros(own.ny)
     y[: own.work] = np.concatenate([q, v])
@@ -274,13 +315,7 @@ def tree_run(
     w, rank, redundant = settle_tree(compiled, y, p, start.t, turned, scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start, plan)
-
-
-def _choice(plan: Plan, bodies: CompiledModel) -> MethodChoice:
-    """Return the method of a run in joint coordinates: as that of bodies has it, with the metric asked for."""
-    weight = {name: value for name, value in plan.choice.options.items() if name == "weight"}
-    return replace(plan.choice, options={**bodies.law.options, **weight}, shape="straight")
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, events)
 
 
 def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
@@ -288,13 +323,13 @@ def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) 
 
 
 def _going_on(
-    mechanism: Mechanism, carried: Mechanism, plan: Plan, last: LastState, parameters: Mapping[str, float] | None
+    mechanism: Mechanism, plan: Plan, last: LastState, parameters: Mapping[str, float] | None
 ) -> TreeRun | None:
     """Return a run that takes up what another one in the same coordinates kept, None where there is none."""
     if last.arrays is None or not {*_BODIES} <= {*last.arrays}:
         return None
     bodies = compiled_for(mechanism, choice_of(plan, last))
-    compiled = compiled_for(carried, _choice(plan, bodies))
+    carried, compiled = tree_code(mechanism, plan.choice, bodies)
     values = parameter_values(mechanism, parameters)
     start = taken_up(compiled, plan, last, values, _made(compiled, plan, values))
     if start is None:
@@ -302,7 +337,7 @@ def _going_on(
     y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
     redundant = tuple(bodies.info.rows[i].name for i in np.flatnonzero(bodies.section(w, "mask")))
     of_bodies = Start(y, p, w, last.rank, redundant, start.notes, t=last.t, work=last.work_before)
-    return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan)
+    return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)
 
 
 def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start: Start) -> tuple[Array, Array]:
@@ -317,6 +352,29 @@ def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start:
     return np.array([known[name] for name, _ in names]), np.array([known[name] for name, _ in speeds])
 
 
+def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
+    """Return where what stands in rows of bodies and of a tree."""
+    assert carried.topology is not None, "it was put on a tree"
+    info, own = bodies.info, compiled.info
+    known = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
+    for k, x in enumerate(info.joint_coordinates):
+        known |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
+    names, speeds = state_names(carried, carried.topology)
+    turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
+    first = info.sections["gauge"][0]
+
+    def integers(found: Iterable[int]) -> NDArray[np.int64]:
+        return np.array(list(found), dtype=np.int64)
+
+    return Carrying(
+        *(0, own.work, info.m + 2 * len(info.joint_coordinates)),
+        places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
+        windings=integers(turned[m] for m in winding_order(carried, "straight")),
+        gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),
+        dependent=integers(()),
+    )
+
+
 def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, start: Start) -> list[float]:
     """Return the angles whose turns the code for the tree counts, at the start."""
     places = {m: i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
@@ -325,14 +383,16 @@ def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, s
 
 def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
     """Return what makes translations of the velocities of a tree: 1, or 1 / l^2 with the length of the body turned."""
+    gauge = bodies.section(w, "gauge")
+    return np.array([1.0 if j is None else float(gauge[j]) for j in _levers(carried, bodies.info)])
+
+
+def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
+    """Return the velocity whose length each velocity of a tree has, None for those that are no angles."""
     assert carried.topology is not None, "it has a tree"
-    found, gauge = list[float](), bodies.section(w, "gauge")
+    found = list[int | None]()
     for link in carried.topology.links:
         alone = msgspec.structs.replace(carried.topology, links=(link,))
-        own = [
-            float(gauge[j])
-            for j, x in enumerate(bodies.info.velocities)
-            if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"
-        ]
-        found += [own[0] if unit == "rad/s" else 1.0 for _, unit in state_names(carried, alone)[1]]
-    return np.array(found)
+        own = [j for j, x in enumerate(info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
+        found += [own[0] if unit == "rad/s" else None for _, unit in state_names(carried, alone)[1]]
+    return found

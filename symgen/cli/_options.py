@@ -86,6 +86,11 @@ def jobs_option(text: str) -> Callable[[F], F]:
     return click.option("--jobs", type=int, callback=check, show_default="one for every core", help=text)
 
 
+def units_option(function: F) -> F:
+    """Give a command the option ``--units``."""
+    return click.option("--units", is_flag=True, help="Write units into the header of a CSV file: error [m].")(function)
+
+
 def json_option(function: F) -> F:
     """Give a command the option ``--json``."""
     return click.option("--json", "as_json", is_flag=True, help="Write JSON to standard output, and nothing else.")(

@@ -11,8 +11,18 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import examples, jobs_option, json_option, number_list, output_file, setting_options, words
+from symgen.cli._options import (
+    examples,
+    jobs_option,
+    json_option,
+    number_list,
+    output_file,
+    setting_options,
+    units_option,
+    words,
+)
 from symgen.cli._report import command_again, report_file, sketches_of
+from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -60,6 +70,7 @@ if TYPE_CHECKING:
 )
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the rows to a CSV file.")
+@units_option
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished row there, and skip those it has.")
 @jobs_option("Processes for what is not timed.")
 @json_option
@@ -73,6 +84,7 @@ def command(
     reference_by: str,
     output: str | None,
     csv_file: str | None,
+    units: bool,
     resume: str | None,
     jobs: int | None,
     as_json: bool,
@@ -87,6 +99,8 @@ def command(
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
     path, report = output_file("--csv", csv_file), report_file(output)
+    if units and path is None:
+        raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
 
     from symgen.api import load
     from symgen.cli._progress import Lines
@@ -138,7 +152,7 @@ def command(
         write(comparison(studies, command_again(), _asked(step_list, rtol_list), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
-    files = {path: lambda file: save_csv(studies, file), report: write_report}
+    files = {path: lambda file: save_csv(studies, file, units), report: write_report}
     return write_files(_exit_code(studies, resume), files)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import examples, json_option, output_file, setting_options
+from symgen.cli._options import examples, json_option, output_file, setting_options, units_option
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -51,6 +51,7 @@ FIRST_LOOP = 20.0
     metavar="NAME",
     help="What to show beside: a column, a body or an element, such as spring.force. --save FILE.csv holds these only.",
 )
+@units_option
 @click.option("--plot", metavar="FILE", help="Draw the result into FILE: .png, .svg or .pdf.")
 @json_option
 def command(
@@ -58,6 +59,7 @@ def command(
     whence: str | None,
     save: str | None,
     quantities: tuple[str, ...],
+    units: bool,
     plot: str | None,
     as_json: bool,
     **asked: Any,
@@ -74,6 +76,8 @@ def command(
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")
     plot_path = output_file("--plot", plot, "plot")
+    if units and (save_path is None or save_path.suffix.lower() != ".csv"):
+        raise InputError("--units", "--save FILE.csv, whose headings carry them", save or "no --save")
 
     from symgen.api import load
     from symgen.cli._progress import Bar
@@ -105,7 +109,7 @@ def command(
         show_result(result)
         if quantities:
             show_quantities(chosen)
-    files = {save_path: lambda path: result.save(path, quantities), plot_path: result.plot}
+    files = {save_path: lambda path: result.save(path, quantities, units), plot_path: result.plot}
     return write_files(
         _exit_code(result, found), files, None if as_json else lambda path: click.echo(f"written: {path}")
     )

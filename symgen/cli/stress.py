@@ -11,8 +11,9 @@ import click
 
 from symgen import arguments
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import examples, jobs_option, json_option, output_file, setting_options, words
+from symgen.cli._options import examples, jobs_option, json_option, output_file, setting_options, units_option, words
 from symgen.cli._report import command_again, report_file, sketches_of
+from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
@@ -32,8 +33,9 @@ if TYPE_CHECKING:
 @click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
 @click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
 @click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
+@units_option
 @click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
-@setting_options("max_violation", "max_energy_error", "max_steps")
+@setting_options("max_violation", "max_energy_error", "max_steps", "coordinates")
 @jobs_option("Processes.")
 @json_option
 def command(
@@ -45,6 +47,7 @@ def command(
     compilation: float | None,
     output: str | None,
     csv_file: str | None,
+    units: bool,
     resume: str | None,
     jobs: int | None,
     as_json: bool,
@@ -60,6 +63,8 @@ def command(
         arguments.number("--compilation", compilation, positive=True)
     case_list, method_list = words("--cases", cases), words("--methods", methods)
     path, report = output_file("--csv", csv_file), report_file(output)
+    if units and path is None:
+        raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
 
     from symgen.catalogue import names
     from symgen.cli._progress import Lines
@@ -97,7 +102,7 @@ def command(
         write(stress_report(study, command_again(), sketches_of(known)), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
-    files = {path: lambda file: save_csv(study, file), report: write_report}
+    files = {path: lambda file: save_csv(study, file, units), report: write_report}
     return write_files(_exit_code(study), files)
 
 

@@ -36,8 +36,9 @@ if TYPE_CHECKING:
 )
 @click.option("--zip", "together", is_flag=True, help="Let all names vary together instead of in all combinations.")
 @setting_options(
-    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "start"),
-    *("options", "strict", "max_violation", "max_energy_error", "max_steps"),
+    *("method", "integrator", "step", "rtol", "atol", "until", "output_step", "times", "parameters", "inputs"),
+    *("start", "options", "stop_when", "record_when", "strict", "max_violation", "max_energy_error", "max_steps"),
+    "coordinates",
     text={
         "parameters": "Value of a parameter that does not vary.",
         "strict": "Let runs fail whose start is not consistent.",
@@ -45,7 +46,9 @@ if TYPE_CHECKING:
     otherwise={"output_step": "(only the end is kept)"},
 )
 @click.option("--quantity", "quantities", multiple=True, metavar="NAME", help="What to keep, such as crank.theta or q.")
-@click.option("-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc) or a folder.")
+@click.option(
+    "-o", "--output", metavar="PATH", help="Write results to a NetCDF file (.nc), a CSV file with units, or a folder."
+)
 @click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
 @jobs_option("Threads.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
@@ -72,7 +75,8 @@ def command(
 ) -> int:
     """Run MODEL for every combination of what varies, on all cores or a CUDA device.
 
-    NAME is a parameter of the mechanism, or a coordinate or velocity of a body at the start (crank.theta, crank.omega).
+    NAME is a parameter of the mechanism, or a coordinate or velocity of a body or joint at the start (crank.theta,
+    crank.omega, motor.angle).
     Runs that fail are rows with their reasons. With --output, finished runs survive Ctrl-C and kills, and --resume
     goes on from there.
     """

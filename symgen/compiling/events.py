@@ -64,11 +64,11 @@ def compile_events(
         function=side.function,
         needs_rates="ydot" in side.reads,
         resets=resets,
-        masses=_masses(mechanism, values) if resets else None,
+        masses=masses_of(mechanism, values) if resets else None,
     )
 
 
-def _masses(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:
+def masses_of(mechanism: Mechanism, values: Mapping[str, float]) -> Masses:
     """Return what makes M, over the velocities of bodies where joints of a tree carry these."""
     if mechanism.topology is not None:
         return partial(_carried_masses, mechanism)

@@ -98,6 +98,18 @@ def _as_body(joint: Joint) -> dict[str, str]:
     return same
 
 
+def joint_names(mechanism: Mechanism) -> dict[str, str]:
+    """Return the names of joint coordinates and their rates, each with the one name of what it is.
+
+    Short names stand for whole ones, and what is a coordinate or velocity of a body has that name.
+    """
+    found = dict[str, str]()
+    for joint in mechanism.joints:
+        same = _as_body(joint)
+        found |= {name: same.get(whole, whole) for name, whole in _of_joint(joint).items()}
+    return found
+
+
 def holds_of(mechanism: Mechanism, where: str = "start", asked: Mapping[str, float] | None = None) -> tuple[Hold, ...]:
     """Return all that a start keeps, each thing by one name.
 

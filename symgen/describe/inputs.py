@@ -23,6 +23,8 @@ from symgen.errors import InputError, nearest
 from symgen.vocabulary.expressions import ZERO, Call, Expr, Name, Number, call, names, table_of
 
 T = TypeVar("T")
+#: Parts of a mechanism whose formulas may read inputs.
+_READING = ("forces", "outputs", "events")
 _COMPARISONS = ("lt", "le", "gt", "ge")
 
 
@@ -126,8 +128,8 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
         return Driven(mechanism, numbers, samples, curves, (), told)
-    forces = replaced(known.forces, lambda e: changed.get(e.name, e))
-    known = msgspec.structs.replace(known, forces=forces, parameters=(*known.parameters, *switches))
+    parts = {part: replaced(getattr(known, part), lambda e: changed.get(e.name, e)) for part in _READING}
+    known = msgspec.structs.replace(known, **parts, parameters=(*known.parameters, *switches))
     return Driven(known, numbers, samples, curves, tuple(jumps), told)
 
 

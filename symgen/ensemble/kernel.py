@@ -16,7 +16,9 @@ from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
+from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.held import Held
 from symgen.runtime.integrator import Integrator, Setup
 from symgen.runtime.new_state import new_state, sizes_of, span_of
 from symgen.runtime.run import RunSpec
@@ -25,7 +27,9 @@ from symgen.runtime.start_records import Asked, Instant
 if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
     from symgen.ensemble.lanes import LaneRuns
+    from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
+    from symgen.ensemble.tree_rows import TreeRows
     from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.records import Kept
 
@@ -44,7 +48,7 @@ class Chunk:
     ----------
     values : Array, shape (k, quantities, times)
         Quantities at the output times; nan where a run did not get there.
-    summary : Array, shape (k, N_SUMMARY)
+    summary : Array, shape (k, N_SUMMARY + width)
         See `symgen.runtime.ensemble_abi`.
     complete : bool
         Whether all rows were run.
@@ -53,6 +57,33 @@ class Chunk:
     values: Array
     summary: Array
     complete: bool = True
+
+
+@dataclass(frozen=True)
+class Results:
+    """What the rows of a chunk give, to be written.
+
+    Attributes
+    ----------
+    values : Array, shape (k, columns, times)
+        What loops leave at the output times.
+    summary : Array, shape (k, N_SUMMARY)
+        See `symgen.runtime.ensemble_abi`.
+    events : Array, shape (k, width)
+        What happened; see there.
+    behind : Array, shape (k, quantities, times)
+        What is worked out behind the loops.
+    """
+
+    values: Array
+    summary: Array
+    events: Array
+    behind: Array
+
+    @property
+    def whole_summary(self) -> Array:
+        """All numbers of every run that are not over time."""
+        return np.hstack([self.summary, self.events]) if self.events.shape[1] else self.summary
 
 
 @dataclass
@@ -65,6 +96,11 @@ class _Prepared:
     setup: Setup
     device: DeviceRuns | None = None
     lanes: LaneRuns | None = None
+    single: SingleRuns | None = None
+    tree: TreeRows | None = None
+    on_tree: _Prepared | None = None
+    picks: Integers | None = None
+    width: int | None = None
 
 
 @dataclass
@@ -90,13 +126,14 @@ class Kernel:
     @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.module.load(), self.recipe.other)
+        return self._prepare(self.recipe.module.load(), self.recipe.other, self.recipe.trees[0])
 
     def spare(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                self._spare = self._prepare(self.recipe.spare.load(), self.recipe.spare_other)
+                given = self.recipe.spare_other, self.recipe.trees[1]
+                self._spare = self._prepare(self.recipe.spare.load(), *given)
             return self._spare
 
     def warm(self) -> None:
@@ -107,8 +144,9 @@ class Kernel:
             if self._warm:
                 return
             info = self.first.compiled.info
-            sizes = (len(info.parameters), info.nq, info.nv, len(self.recipe.held))
-            self.run(Rows(*(np.zeros((0, size)) for size in sizes)), new_control())
+            sizes = (len(info.parameters), info.nq, info.nv, len(self.recipe.held), len(self.recipe.joints))
+            parameters, q, v, targets, joints = (np.zeros((0, size)) for size in sizes)
+            self.run(Rows(parameters, q, v, targets, joints), new_control())
             if self.first.device is not None:
                 self.first.device.compile()
             self._warm = True
@@ -124,53 +162,77 @@ class Kernel:
             From `new_control`: raising its flag `symgen.runtime.abi.STOP` from another thread stops the run that is
             being worked on; `symgen.runtime.ensemble_abi.RUNS_DONE` counts finished ones.
         """
-        recipe, k = self.recipe, len(rows)
-        values = np.full((k, len(recipe.columns), len(recipe.spec.times)), np.nan)
-        behind = np.full((k, len(recipe.behind), len(recipe.spec.times)), np.nan)
-        summary = np.zeros((k, e.N_SUMMARY))
+        recipe, k, n_times = self.recipe, len(rows), len(self.recipe.spec.times)
+        values, behind = (np.full((k, len(q), n_times), np.nan) for q in (recipe.columns, recipe.behind))
+        out = Results(values, np.zeros((k, e.N_SUMMARY)), np.zeros((k, recipe.further)), behind)
         everything = np.arange(k, dtype=np.int64)
-        complete = self._run_with(self.first, rows, everything, values, summary, behind, control)
-        light = np.flatnonzero((summary[:, _LIGHT] == 1.0) & (summary[:, _START] == e.ASSEMBLED))
+        complete = self._run_with(self.first, rows, everything, out, control)
+        light = np.flatnonzero((out.summary[:, _LIGHT] == 1.0) & (out.summary[:, _START] == e.ASSEMBLED))
         if complete and len(light) and (spare := self.spare()) is not None:
-            summary[light] = 0.0
-            complete = self._run_with(spare, rows, light.astype(np.int64), values, summary, behind, control)
-            summary[light, _LIGHT] = 1.0
-        return Chunk(recipe.in_order(values, behind), summary, complete)
+            out.summary[light] = 0.0
+            complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
+            out.summary[light, _LIGHT] = 1.0
+        return Chunk(recipe.in_order(values, behind), out.whole_summary, complete)
 
-    def _run_with(
-        self,
-        model: _Prepared,
-        rows: Rows,
-        selected: Integers,
-        values: Array,
-        summary: Array,
-        behind: Array,
-        control: Integers,
-    ) -> bool:
+    def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe = model.compiled.info, self.recipe
         k, ny, nw = len(rows), info.ny, max(1, model.compiled.law.nw)
         ps, ws = np.tile(model.p, (max(k, 1), 1)), np.empty((max(k, 1), nw))
         ys = np.zeros((max(k, 1), ny))
         ps[:k, : len(info.parameters)], ys[:k, : info.nq] = rows.parameters, rows.q
-        now, asked = Instant(ys, ps, ws), Asked(rows.v, rows.targets, summary)
-        done = model.assembly.close_all(now, asked, selected, control)
-        if done < len(selected):
+        if not self._close(model, rows, Instant(ys, ps, ws), selected, out.summary, control):
             return False
-        ready = summary[selected, _START] == e.ASSEMBLED
+        ready = out.summary[selected, _START] == e.ASSEMBLED
         if model is self.first and recipe.spare is not None:
-            ready &= summary[selected, _LIGHT] == 0.0
+            ready &= out.summary[selected, _LIGHT] == 0.0
         selected = selected[ready]
-        if not self._advance(model, (ys, ps, ws), selected, values, summary, control):
+        if model.tree is not None and model.on_tree is not None:
+            starts, apart = model.tree.settle((ys, ps, ws), selected, control)
+            plain, selected = selected[apart], selected[~apart]
+            if not self._advance(model.on_tree, starts, plain, out.values, out.summary, control):
+                return False
+            model.tree.turn(recipe.quantities, plain, ys, out.values)
+        if model.single is not None:
+            return model.single.run(rows, (ys, ps, ws), selected, out, control)
+        if not self._advance(model, (ys, ps, ws), selected, out.values, out.summary, control):
             return False
-        redundant = selected[summary[selected, _REDUNDANT] > 0.0]
+        redundant = selected[out.summary[selected, _REDUNDANT] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
-            values[redundant, i] = np.nan
+            out.values[redundant, i] = np.nan
         measures = recipe.measures if model is self.first else recipe.spare_measures
         if measures is not None:
-            given = recipe.behind, recipe.times, selected, values, ps, ws
-            behind[selected] = measures.work_out(model.compiled, *given)
+            given = recipe.behind, recipe.times, selected, out.values, ps, ws
+            out.behind[selected] = measures.work_out(model.compiled, *given)
         return True
+
+    def _close(
+        self, model: _Prepared, rows: Rows, now: Instant, selected: Integers, summary: Array, control: Integers
+    ) -> bool:
+        """Make selected rows consistent; return whether all were worked on."""
+        if not self.recipe.joints:
+            asked = Asked(rows.v, rows.targets, summary)
+            return model.assembly.close_all(now, asked, selected, control) == len(selected)
+        for r in selected:  # rows of joint coordinates are those of single runs
+            if control[abi.STOP] != 0:
+                return False
+            now.w[r], summary[r] = self._closed(model, rows, r).close(now.y[r], rows.v[r], now.p[r])
+        return True
+
+    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Closed:
+        """Return the start of a row that holds joint coordinates."""
+        recipe, values = self.recipe, rows.joints[r]
+        at = {
+            rate: {k: float(x) for (k, r), x in zip(recipe.joints, values, strict=True) if r == rate} for rate in (0, 1)
+        }
+        held = Held(
+            coordinates={i: float(x) for (i, _), x in zip(recipe.held, rows.targets[r], strict=True)},
+            velocities={j: float(rows.v[r, j]) for j in recipe.kept},
+            fixed=recipe.fixed,
+            joints=at[0],
+            rates=at[1],
+        )
+        return Closed(model.compiled, held, recipe.strict, recipe.spare is not None)
 
     def _advance(
         self,
@@ -190,13 +252,17 @@ class Kernel:
         (ys, ps, ws), ny = starts, info.ny
         if model.device is not None:
             return model.device.run(ys, ps, ws, selected, values, summary, control) == len(selected)
-        observes = e.JOINT in recipe.sources
+        picked = recipe.picks if model.picks is None else model.picks
+        sources = {*picked[::2].tolist()}
+        observes = e.JOINT in sources
         rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
         confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
-        seen = rates, confirms[1], model.compiled.model.observe if observes else observe_nothing
-        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info)
-        wants = int(bool(recipe.sources & {e.ACCELERATION, e.MULTIPLIER, e.JOINT})), int(observes)
-        picks = recipe.picks, values.reshape(-1), summary.reshape(-1)
+        observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
+        seen = rates, confirms[1], observe if observes else observe_nothing
+        sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
+        needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
+        wants = int(bool(sources & needs)), int(observes)
+        picks = picked, values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, _REDUNDANT] > 0.0) and info.m * info.nv <= LARGEST
         layout = model.assembly.layout
         places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + 1) if redundant else 0)
@@ -213,21 +279,22 @@ class Kernel:
         done = loop(*functions, model.setup.scheme, sizes, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
-    def _kept(self, info: ModelInfo) -> Kept:
+    def _kept(self, info: ModelInfo, width: int | None) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""
         from symgen.runtime.records import Kept, Observed, Outputs
 
         times = self.recipe.times
-        k, rows = len(times), info.m + 2 * len(info.joint_coordinates)
+        k, rows = len(times), info.m + 2 * len(info.joint_coordinates) if width is None else width
         outputs = Outputs(times, np.empty((k, info.ny)), np.empty((k, abi.N_STATUS + info.windings)))
         return Kept(outputs, Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows))))
 
-    def _prepare(self, compiled: CompiledModel, other: Module | None) -> _Prepared:
+    def _prepare(self, compiled: CompiledModel, other: Module | None, tree: Module | None) -> _Prepared:
         info, recipe = compiled.info, self.recipe
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
-        return _Prepared(
+        carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
+        prepared = _Prepared(
             compiled=compiled,
             assembly=Assembly.of(
                 compiled,
@@ -242,6 +309,24 @@ class Kernel:
             device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
             lanes=self._lane_runs(other.load(), setup) if other is not None and recipe.target == "lanes" else None,
         )
+        if recipe.singly is not None:
+            from symgen.ensemble.singly import SingleRuns
+
+            prepared.single = SingleRuns(recipe, recipe.singly, compiled, self.integrator, carried)
+        if recipe.singly is not None and recipe.tree is not None and carried is not None and recipe.tree.plain:
+            from symgen.ensemble.tree_rows import TreeRows
+
+            values = carried[1].parameter_array(defaults, recipe.method_parameters)
+            prepared.tree = TreeRows.of(recipe.singly.mechanism, carried[0], compiled, carried[1], values)
+            prepared.on_tree = _Prepared(
+                compiled=carried[1],
+                assembly=prepared.tree.assembly,
+                p=values,
+                setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
+                picks=prepared.tree.picks(recipe.quantities),
+                width=prepared.tree.width,
+            )
+        return prepared
 
     def _lane_runs(self, compiled: CompiledModel, setup: Setup) -> LaneRuns:
         from symgen.ensemble.lanes import LaneRuns

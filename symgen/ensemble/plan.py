@@ -5,37 +5,40 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
-from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
-from symgen.describe.holds import ORIENTATION
+from symgen.describe.events import RECORD
 from symgen.ensemble.axes import Grid, make_grid
+from symgen.ensemble.driving import Driving
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
-from symgen.ensemble.measures import integrated, make_measures, measurable
+from symgen.ensemble.made import Made
+from symgen.ensemble.measures import integrated, measurable
+from symgen.ensemble.names import Held, Names, held_of
 from symgen.ensemble.quantities import choose_quantities
-from symgen.ensemble.recipe import Module, Recipe, code_identity
+from symgen.ensemble.recipe import Recipe, code_identity
+from symgen.ensemble.singly import Singly
 from symgen.ensemble.starts import Rows, make_rows
+from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
+from symgen.run_setup import give_inputs
 from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.compiling.pipeline import MethodChoice
-    from symgen.describe.mechanism import Hold
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
-    from symgen.vocabulary.expressions import Expr
+    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.runtime.compiled import CompiledModel
 
 #: A chunk should take about so many seconds, and its arrays no more than so many bytes.
 CHUNK_SECONDS, CHUNK_BYTES = 0.2, 32e6
@@ -60,14 +63,14 @@ class Ensemble:
         Its law; compiled when it is first run.
     grid : Grid
         What varies.
-    held, given : mapping of str to int
-        Coordinates and velocities that vary or have values of their own at the start, with their index in q and v.
+    held : Held
+        What the starts of all runs hold.
     recipe : Recipe
         What a run is apart from its row.
+    driving : Driving
+        What inputs are.
     notes : tuple of str
         What was chosen, and why.
-    constant : mapping of str to Expr
-        Values of those that do not vary.
     """
 
     model: Model
@@ -75,11 +78,10 @@ class Ensemble:
     plan: Plan
     compiled: CompiledModel
     grid: Grid
-    held: Mapping[str, int]
-    given: Mapping[str, int]
+    held: Held
     recipe: Recipe
+    driving: Driving
     notes: tuple[str, ...] = ()
-    constant: Mapping[str, Expr] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Ensemble of {self.model.name}: {len(self)} runs with {self.plan.choice.method.name}>"
@@ -93,9 +95,15 @@ class Ensemble:
         return self.recipe.target
 
     @property
-    def sizes(self) -> tuple[int, int, int, int]:
-        """Runs, quantities, output times, and runs in a chunk."""
-        return len(self), len(self.recipe.quantities), len(self.recipe.spec.times), self.chunk
+    def events(self) -> tuple[str, ...]:
+        """Names of the events that are looked for."""
+        return () if self.recipe.singly is None else tuple(x.name for x in self.recipe.singly.events)
+
+    @property
+    def sizes(self) -> tuple[int, int, int, int, int]:
+        """Runs, quantities, output times, runs in a chunk, and numbers that each run leaves of events."""
+        recipe = self.recipe
+        return len(self), len(recipe.quantities), len(recipe.spec.times), self.chunk, recipe.further
 
     @cached_property
     def parameters(self) -> dict[str, float]:
@@ -110,7 +118,9 @@ class Ensemble:
         evaluations = spec.until * _EVALUATIONS
         if not spec.adaptive and spec.step is not None:
             evaluations = stages * spec.until / spec.step
-        seconds = 2e-5 + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
+        tree, singly = self.recipe.tree, self.recipe.singly
+        overhead = 2e-5 if singly is None or (tree is not None and tree.plain) else 5e-4
+        seconds = overhead + _OPERATION * evaluations * sum(law.operations.get(name, 0) for name in ("rhs", "accept"))
         numbers = law.nw + 4 * info.ny + 100 + len(self.recipe.columns) * len(spec.times)
         if self.target == "cuda":  # a device wants tens of thousands of runs at once, whatever they take
             return int(max(1.0, min(131072.0, CHUNK_BYTES_CUDA / (8 * numbers))))
@@ -120,9 +130,11 @@ class Ensemble:
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
-        varied = self.grid.values(first, last)
+        varied, held = self.grid.values(first, last), self.held
         settled = self.settings.parameters
-        return make_rows(self.model.mechanism, self.parameters, varied, self.held, self.given, settled, self.constant)
+        places = held.coordinates, held.velocities, tuple(held.joints)
+        rows = make_rows(self.model.mechanism, self.parameters, varied, *places, settled, held.constant)
+        return self.driving.put(rows, tuple(self.parameters))
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -138,8 +150,10 @@ class Ensemble:
             "mechanism": identity(self.model.mechanism),
             "varied": found.hexdigest(),
             "parameters": self.parameters,
-            "start": {name: repr(value) for name, value in self.constant.items()},
+            "start": {name: repr(value) for name, value in self.held.constant.items()},
+            **({"inputs": driven} if (driven := self.driving.described) else {}),
             "recipe": self.recipe.digest,
+            "code": self.recipe.code,
             "runs": len(self),
             "chunk": self.chunk,
         }
@@ -175,6 +189,68 @@ def make_ensemble(
     """
     from symgen.auto import resolve
 
+    _check_settings(settings, target)
+    inputs = tuple(settings.inputs)
+    given = give_inputs(model.mechanism, settings)
+    model, settings, mechanism = replace(model, mechanism=given.mechanism), given.settings, given.mechanism
+    names = Names.of(mechanism)
+    if len(names.coordinates) > LARGEST_STRAIGHT:
+        found = f"{len(names.coordinates)} coordinates"
+        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
+    chosen, notes = resolve(mechanism, replace(settings, shape="straight"))
+    ends = chosen.times is None and chosen.output_step is None
+    if ends:
+        end = mechanism.defaults.until if chosen.until is None else chosen.until
+        chosen = replace(chosen, times=(end,))
+    if chosen.shape == "looped":
+        raise InputError("shape", "straight code for an ensemble", "'looped'")
+    chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
+    if target != "cpu":
+        chosen = replace(chosen, coordinates="absolute")
+        refuse_events(f"target '{target}'", mechanism, chosen)
+    plan = make_plan(mechanism, chosen)
+    # before anything is derived
+    names.check((*vary, *runs), inputs)
+    grid = make_grid(vary, runs, names.starts)
+    driving = Driving(given, grid.names, plan.spec.until)
+    kept_names, events = _events(mechanism, chosen, plan, quantities)
+    joint = plan.coordinates == "joint"
+    compiled = compile_model(mechanism, plan.choice)
+    held = held_of(names, grid.names, plan.holds, compiled.info)
+    if target != "cpu":
+        _check_target(target, driving.jumps, bool(events), bool(held.joints))
+    kept = choose_quantities(compiled.info, kept_names, partial(measurable, mechanism, compiled.info))
+    integral = integrated(mechanism, kept)
+    if integral is not None and target != "cpu":
+        expected = "quantities without integral(...), which are added up by cpu alone"
+        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
+    integrator_of_rows(plan.tableau.name, plan.spec)
+    if target == "lanes":
+        check_lanes(plan.tableau.name, plan.spec)
+    singly = Singly(mechanism, events, ends) if events or driving.jumps or joint else None
+    made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
+    recipe = Recipe(
+        **made.modules(target, joint, not events and not driving.jumps and are_plain(kept, compiled.info)),
+        integrator=plan.tableau.name,
+        spec=plan.spec,
+        method_parameters=dict(plan.method_parameters),
+        quantities=kept,
+        held=tuple((index, velocity_of(index, compiled.info)) for index in held.coordinates.values()),
+        kept=held.kept,
+        fixed=held.fixed,
+        strict=chosen.strict,
+        code=code_identity(),
+        target=target,
+        singly=singly,
+        joints=tuple(held.joints.values()),
+    )
+    if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
+        _ = kernel_of(recipe).first
+    return Ensemble(model, chosen, plan, made.first, grid, held, recipe, driving, notes)
+
+
+def _check_settings(settings: Settings, target: str) -> None:
+    """Refuse settings that mean something for single runs alone."""
     if not isinstance(settings.start, Mapping):
         raise InputError("start", "values by the names of coordinates and velocities", "the last state of another run")
     if settings.verify:
@@ -183,126 +259,39 @@ def make_ensemble(
         raise InputError("repeat", "single runs", "an ensemble")
     if settings.shape == "looped":
         raise InputError("shape", "straight code for an ensemble", "looped")
-    if settings.coordinates == "joint":
-        raise InputError("coordinates", "absolute ones for an ensemble", "joint")
-    settings = replace(settings, coordinates="absolute")
-    coordinates, velocities = _names(model)
-    if len(coordinates) > LARGEST_STRAIGHT:
-        found = f"{len(coordinates)} coordinates"
-        raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
-    chosen, notes = resolve(model.mechanism, replace(settings, shape="straight"))
-    if chosen.times is None and chosen.output_step is None:
-        end = model.mechanism.defaults.until if chosen.until is None else chosen.until
-        chosen = replace(chosen, times=(end,))
-    if chosen.shape == "looped":
-        raise InputError("shape", "straight code for an ensemble", "'looped'")
-    chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
-    plan = make_plan(model.mechanism, chosen)
-    refuse_events("sweep", model.mechanism, chosen)
-    # before anything is derived
-    parameters = model.parameters(chosen.parameters)
-    for name in (*vary, *runs):
-        _check_name(name, model.name, parameters, coordinates, velocities)
-    grid = make_grid(vary, runs, (*coordinates, *velocities))
-    holds = tuple(hold for hold in plan.holds if hold.name not in grid.names)
-    places = _held(model, holds, coordinates, velocities)
-    compiled = compile_model(model.mechanism, plan.choice)
-    kept = choose_quantities(compiled.info, quantities, partial(measurable, model.mechanism, compiled.info))
-    integral = integrated(model.mechanism, kept)
-    if integral is not None and target != "cpu":
-        expected = "quantities without integral(...), which are added up by cpu alone"
-        raise InputError(f"target '{target}'", expected, f"'{integral}'", "leave --target out, or name others")
-
-    def made(choice: MethodChoice) -> CompiledModel:
-        found = compiled if choice is plan.choice else compile_model(model.mechanism, choice)
-        return found if integral is None else with_integrals(model.mechanism, found)
-
-    compiled = made(plan.choice)
-    integrator_of_rows(plan.tableau.name, plan.spec)
-    constant = {hold.name: hold.value for hold in holds if hold.value is not None}
-    held = {name: coordinates.index(name) for name in (*grid.names, *constant) if name in coordinates}
-    given = {name: velocities.index(name) for name in (*grid.names, *constant) if name in velocities}
-    if target == "lanes":
-        check_lanes(plan.tableau.name, plan.spec)
-    spare = spare_other = other = spare_measures = None
-    if target != "cpu":
-        other = Module.of(compile_model(model.mechanism, plan.choice, target=target))
-    if plan.solver_is_free:
-        choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
-        light = made(choice)
-        spare, spare_measures = Module.of(light), make_measures(model.mechanism, light, kept)
-        if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
-            spare_other = Module.of(compile_model(model.mechanism, choice, target=target))
-    recipe = Recipe(
-        module=Module.of(compiled),
-        spare=spare,
-        integrator=plan.tableau.name,
-        spec=plan.spec,
-        method_parameters=dict(plan.method_parameters),
-        quantities=kept,
-        held=tuple((index, velocity_of(index, compiled.info)) for index in held.values()),
-        kept=tuple(velocities.index(hold.name) for hold in holds if hold.name in velocities),
-        fixed=tuple(sorted({j for hold in places for j in _columns(hold, compiled.info)})),
-        strict=chosen.strict,
-        code=code_identity(),
-        target=target,
-        other=other,
-        spare_other=spare_other,
-        measures=make_measures(model.mechanism, compiled, kept),
-        spare_measures=spare_measures,
-    )
-    if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
-        _ = kernel_of(recipe).first
-    return Ensemble(model, chosen, plan, compiled, grid, held, given, recipe, notes, constant)
+    if settings.coordinates == "joint" and target != "cpu":
+        raise InputError(f"target '{target}'", "absolute coordinates", "joint", "leave --target out")
 
 
-def _names(model: Model) -> tuple[list[str], list[str]]:
-    """Return the names of coordinates and velocities in the order of q and v."""
-    bodies = model.mechanism.bodies
-    coordinates = [f"{body.name}.{name}" for body in bodies for name in body.coordinates]
-    return coordinates, [f"{body.name}.{name}" for body in bodies for name in body.speeds]
+def _check_target(target: str, jumps: bool, events: bool, joints: bool) -> None:
+    """Refuse what needs something to be done between two parts of a run, where nothing but loops can run."""
+    for what, there in (
+        ("inputs that jump", jumps),
+        ("events", events),
+        ("joint coordinates that are held at the start", joints),
+    ):
+        if there:
+            raise InputError(f"target '{target}'", f"no {what}", "some", "leave --target out")
 
 
-def _check_name(
-    name: str, model: str, parameters: Mapping[str, float], coordinates: Sequence[str], velocities: Sequence[str]
-) -> None:
-    known = [*parameters, *coordinates, *velocities]
-    if name not in known:
-        expected = f"a parameter, or an initial coordinate or velocity of {model}"
-        raise InputError(f"vary '{name}'", expected, "none of that name", nearest(name, known))
-    if name in coordinates and name.rpartition(".")[2] in ("e0", "e1", "e2", "e3"):
-        raise InputError(
-            f"vary '{name}'",
-            "a coordinate that can change by itself",
-            "an Euler parameter",
-            "write the orientation with a parameter, and vary that",
-        )
-
-
-def _held(
-    model: Model, holds: Sequence[Hold], coordinates: Sequence[str], velocities: Sequence[str]
-) -> tuple[str, ...]:
-    """Return the names of positions that stay as they are described.
+def _events(
+    mechanism: Mechanism, settings: Settings, plan: Plan, quantities: Sequence[str] | None
+) -> tuple[Sequence[str] | None, tuple[Event, ...]]:
+    """Return the quantities that are no events, and the events that runs look for: none where nothing comes of them.
 
     Raises
     ------
     InputError
-        If a joint coordinate is held that is no coordinate of a body: starts of many runs have no rows for it.
+        If an event is asked for that there is none of.
     """
-    found = []
-    for hold in holds:
-        if hold.name.endswith(f".{ORIENTATION}") or (hold.name in coordinates and hold.value is None):
-            found.append(hold.name)
-        elif hold.name not in coordinates and hold.name not in velocities:
-            expected = "coordinates and velocities of bodies, in starts of many runs"
-            raise InputError("start", expected, f"joint coordinate '{hold.name}' of {model.name}")
-    return tuple(found)
-
-
-def _columns(name: str, info: ModelInfo) -> tuple[int, ...]:
-    """Return the velocities that change a coordinate, or the orientation of a body in space."""
-    body, _, what = name.partition(".")
-    if what == ORIENTATION:
-        at = next(at for first, at in info.spins if info.coordinates[first].name == f"{body}.e0")
-        return at, at + 1, at + 2
-    return (velocity_of([q.name for q in info.coordinates].index(name), info),)
+    words = [] if "event" in {body.name for body in mechanism.bodies} else quantities or ()
+    asked = [name for name in words if name.partition(".")[0] == "event"]
+    names = [event.name for event in plan.events]
+    for name in asked:
+        if name.partition(".")[2] not in ("", *names):
+            known = [f"event.{x}" for x in names]
+            raise InputError(f"quantity '{name}'", f"an event of {mechanism.name}", "none", nearest(name, known))
+    further = len(plan.events) > len(mechanism.events)
+    if asked or further or any(event.action != RECORD for event in plan.events):
+        return [name for name in quantities if name not in asked] if asked and quantities else quantities, plan.events
+    return quantities, ()

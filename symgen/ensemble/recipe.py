@@ -18,8 +18,11 @@ from numpy.typing import NDArray
 
 from symgen import __version__
 from symgen.compiling.straight_model import load_compiled
+from symgen.describe.digest import identity
+from symgen.describe.mechanism import Mechanism
 from symgen.ensemble.measures import Measures
 from symgen.ensemble.quantities import Quantity
+from symgen.ensemble.singly import Singly
 from symgen.ir.numerics import WARN
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.ensemble_abi import SIDE
@@ -48,6 +51,11 @@ class Module:
     parts: Mapping[str, tuple[str, Mapping[str, Any]]]
     stored: Mapping[str, Any]
     shared: str = "model"
+
+    @property
+    def described(self) -> list[Any]:
+        """What it computes, as JSON can express it."""
+        return [self.folder, self.stem, self.model[0], self.law[0], dict(self.parts)]
 
     @classmethod
     def of(cls, compiled: CompiledModel) -> Module:
@@ -86,6 +94,35 @@ class Module:
 
 
 @dataclass(frozen=True)
+class Tree:
+    """What is run where the state is that of the joints of a tree.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        With its tree.
+    module, spare : Module, Module or None
+        Beside those of the recipe, which close starts.
+    plain : bool
+        Whether a loop over rows leaves all that is kept.
+    """
+
+    mechanism: Mechanism
+    module: Module
+    spare: Module | None
+    plain: bool
+
+    @property
+    def described(self) -> list[Any]:
+        """What it is, as JSON can express it."""
+        return [
+            identity(self.mechanism),
+            self.plain,
+            *(m if m is None else m.described for m in (self.module, self.spare)),
+        ]
+
+
+@dataclass(frozen=True)
 class Recipe:
     """Everything that shapes runs apart from their rows.
 
@@ -104,6 +141,12 @@ class Recipe:
         Values of the method's parameters that differ from the defaults.
     quantities : tuple of Quantity
         What is kept.
+    tree : Tree or None
+        What is run in joint coordinates.
+    singly : Singly or None
+        What runs need that are done one by one.
+    joints : tuple of (int, int)
+        Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     measures, spare_measures : Measures or None
         How what no loop leaves is worked out, beside `module` and `spare`; None where nothing of it is kept.
     held : tuple of (int, int)
@@ -134,6 +177,9 @@ class Recipe:
     target: str = "cpu"
     other: Module | None = None
     spare_other: Module | None = None
+    tree: Tree | None = None
+    singly: Singly | None = None
+    joints: tuple[tuple[int, int], ...] = ()
     measures: Measures | None = None
     spare_measures: Measures | None = None
 
@@ -151,6 +197,16 @@ class Recipe:
     def picks(self) -> Integers:
         """(source, column) of each of `columns`, flat."""
         return np.array([(q.source, q.column) for q in self.columns], dtype=np.int64).ravel()
+
+    @property
+    def trees(self) -> tuple[Module | None, Module | None]:
+        """The modules in joint coordinates: the first one, and that for light bodies."""
+        return (None, None) if self.tree is None else (self.tree.module, self.tree.spare)
+
+    @property
+    def further(self) -> int:
+        """Numbers that each run leaves of events."""
+        return 0 if self.singly is None else self.singly.width
 
     @property
     def columns(self) -> tuple[Quantity, ...]:
@@ -181,16 +237,14 @@ class Recipe:
     def digest(self) -> str:
         """Digest of all this, the same in every process."""
         spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
-        modules = [
-            m if m is None else (m.folder, m.stem, m.model[0], m.law[0], dict(m.parts))
-            for m in (self.module, self.spare, self.other, self.spare_other)
-        ]
+        modules = [m if m is None else m.described for m in (self.module, self.spare, self.other, self.spare_other)]
         measures = [m if m is None else m.described for m in (self.measures, self.spare_measures)]
         text = json.dumps(
             [
                 *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
-                *(self.strict, self.code, measures),
+                *(self.strict, self.code, measures, self.joints),
+                *(x if x is None else x.described for x in (self.tree, self.singly)),
             ],
             sort_keys=True,
         )
@@ -205,4 +259,5 @@ def code_identity() -> str:
     for folder in ("ensemble", "integrators", "result", "runtime"):
         for path in sorted((package / folder).rglob("*.py")):
             found.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
+    found.update((package / "tree_run.py").read_bytes())
     return found.hexdigest()

@@ -7,10 +7,10 @@ fail.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading
+
+if TYPE_CHECKING:
+    from symgen.runtime.pieces import Piece
 
 Array = NDArray[np.float64]
 
@@ -97,15 +100,25 @@ class Rows:
         Described coordinates, not closed; given velocities, nan where they are to be completed.
     targets : Array, shape (k, h)
         Values of the coordinates that the runs hold.
+    joints : Array, shape (k, j)
+        Values of the joint coordinates and rates that the runs hold.
+    pieces : tuple of tuple of Piece
+        Of each run, or of all of them, where an input jumps; none where nothing does.
     """
 
     parameters: Array
     q: Array
     v: Array
     targets: Array
+    joints: Array
+    pieces: tuple[tuple[Piece, ...], ...] = ()
 
     def __len__(self) -> int:
         return len(self.parameters)
+
+    def pieces_of(self, r: int) -> tuple[Piece, ...]:
+        """Return the pieces of a run."""
+        return self.pieces[r if len(self.pieces) > 1 else 0] if self.pieces else ()
 
 
 def make_rows(
@@ -114,6 +127,7 @@ def make_rows(
     varied: Mapping[str, Array],
     held: Mapping[str, int],
     given: Mapping[str, int],
+    joints: Sequence[str] = (),
     settled: Iterable[str] = (),
     constant: Mapping[str, Expr] | None = None,
 ) -> Rows:
@@ -129,6 +143,8 @@ def make_rows(
         Values of all names that vary.
     held, given : mapping of str to int
         Coordinates that vary, in the order of `Rows.targets`, and velocities that vary, each with its index.
+    joints : sequence of str
+        Names of joint coordinates and rates that are held, in the order of `Rows.joints`.
     settled : iterable of str
         Parameters that have numbers in place of their formulas.
     constant : mapping of str to Expr, optional
@@ -150,4 +166,5 @@ def make_rows(
     for name, index in given.items():
         v[:, index] = chosen[name]
     targets = np.column_stack([chosen[name] for name in held]) if held else np.zeros((k, 0))
-    return Rows(parameters, q, v, np.ascontiguousarray(targets))
+    places = np.column_stack([chosen[name] for name in joints]) if joints else np.zeros((k, 0))
+    return Rows(parameters, q, v, np.ascontiguousarray(targets), places)

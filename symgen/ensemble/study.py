@@ -17,9 +17,12 @@ from numpy.typing import NDArray
 from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
+from symgen.ensemble.lines import SAVED, csv_of
+from symgen.ensemble.names import Names
+from symgen.ensemble.singly import event_columns
 from symgen.ensemble.verdicts import NOT_RUN, column, judge_all
 from symgen.errors import InputError, nearest
-from symgen.files import write_whole
+from symgen.files import write_csv, write_whole
 from symgen.result.contract import finite
 from symgen.result.export import check_path, need, netcdf
 from symgen.result.labelled import html_table
@@ -63,7 +66,7 @@ class Sweep:
         What was asked for.
     values : Array, shape (runs, quantities, times)
         Quantities at the output times; nan where a run did not get there.
-    summary : Array, shape (runs, N_SUMMARY)
+    summary : Array, shape (runs, N_SUMMARY + width)
         Numbers of every run; see `symgen.runtime.ensemble_abi`.
     done : Array of bool, shape (runs,)
         Which runs have been done: all, unless it was interrupted.
@@ -95,7 +98,13 @@ class Sweep:
     @cached_property
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
         compiled = self.ensemble.compiled
-        return judge_all(self.summary, self.done, compiled.info, compiled.law, self.ensemble.recipe.spec)
+        recipe, events = self.ensemble.recipe, self.ensemble.events
+        return judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
+
+    @cached_property
+    def events(self) -> dict[str, tuple[int, str]]:
+        """Numbers of every run about events, by name: their columns in `summary` and units."""
+        return event_columns(self.ensemble.events)
 
     @property
     def status(self) -> NDArray[np.str_]:
@@ -132,7 +141,9 @@ class Sweep:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
             return column(self.summary, name).reshape(shape)
-        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS]
+        if name in self.events:
+            return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
+        known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
         raise InputError(
             "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
         )
@@ -149,11 +160,13 @@ class Sweep:
             "method": ensemble.compiled.law.method,
             "integrator": ensemble.plan.tableau.name,
             "target": ensemble.target,
+            "coordinates": ensemble.plan.coordinates,
             "step": None if spec.adaptive else spec.step,
             "rtol": spec.rtol if spec.adaptive else None,
             "atol": spec.atol if spec.adaptive else None,
             "until": spec.until,
-            "parameters": json.dumps(ensemble.parameters),
+            "parameters": json.dumps({k: x for k, x in ensemble.parameters.items() if "~" not in k}),
+            "inputs": json.dumps(dict(ensemble.driving.given.told)),
             "options": json.dumps(dict(ensemble.settings.options)),
             "settings": json.dumps(finite(settings)),
             "versions": json.dumps(_versions()),
@@ -165,7 +178,7 @@ class Sweep:
         """Return the contract of ``symgen sweep --json``."""
         facts = {
             key: self.attributes[key]
-            for key in ("mechanism", "method", "integrator", "target", "step", "rtol", "until")
+            for key in ("mechanism", "method", "integrator", "target", "coordinates", "step", "rtol", "until")
         }
         counts = self.counts
         contract: dict[str, Any] = finite(
@@ -175,6 +188,14 @@ class Sweep:
                 "axes": {axis.dimension: len(axis) for axis in self.ensemble.grid.axes},
                 "quantities": [q.name for q in self.ensemble.recipe.quantities],
                 "times": len(self.ensemble.recipe.spec.times),
+                "events": {
+                    name: {
+                        "runs": int(np.sum(counts > 0.0)),
+                        "count": int(np.nansum(counts)),
+                    }
+                    for name in self.ensemble.events
+                    for counts in [self[f"event.{name}.count"]]
+                },
                 "status": {name.replace(" ", "_"): count for name, count in counts.items()},
                 "reasons": [{"reason": reason, "runs": count} for reason, count in self.reasons()],
                 "seconds": self.seconds,
@@ -208,8 +229,9 @@ class Sweep:
             # a quantity of the same name is over time
             label = f"{name}_min" if name == "smallest_pivot" else name
             variables[label] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
-        units = {q.name: q.unit for q in (*ensemble.compiled.info.coordinates, *ensemble.compiled.info.velocities)}
-        units.update({p.name: p.unit for p in ensemble.compiled.info.parameters})
+        for name, (_, unit) in self.events.items():
+            variables[name] = (dimensions, self[name], {"units": unit})
+        units = self.units()
         coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
         for axis in ensemble.grid.axes:
             for name, values in axis.values.items():
@@ -221,7 +243,10 @@ class Sweep:
         return xr.Dataset(variables, coordinates, attributes)
 
     def save(self, path: str | PathLike[str]) -> Path:
-        """Write the data set to a NetCDF file (``.nc``); it appears whole or not at all.
+        """Write the data set to a NetCDF file (``.nc``), or a CSV file with a line for every run and time.
+
+        Headings of a CSV file carry units: ``crank_mass [kg]``, ``t [s]``, ``crank.theta [rad]``. The file appears
+        whole or not at all.
 
         Raises
         ------
@@ -229,8 +254,19 @@ class Sweep:
             If the ending is another, a library is missing, or the file cannot be written.
         """
         file = argument_path("save", path)
-        check_path("save", file, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+        check_path("save", file, SAVED, "data")
+        if file.suffix.lower() == ".csv":
+            return write_csv(file, *csv_of(self))
         return write_whole(file, netcdf(self.to_xarray()))
+
+    def units(self) -> dict[str, str]:
+        """Return the units of what varies, by name; empty where there is none."""
+        info = self.ensemble.compiled.info
+        known = {q.name: q.unit for q in (*info.parameters, *info.coordinates, *info.velocities)}
+        known |= {q.name: q.unit for q in info.joint_coordinates}
+        known |= {f"{q.name}.rate": f"{q.unit}/s" for q in info.joint_coordinates}
+        names = Names.of(self.ensemble.model.mechanism)
+        return {name: known.get(names.one(name), "") for name in self.ensemble.grid.names}
 
 
 def _kind(reason: str) -> str:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from symgen import arguments
 from symgen.ensemble.axes import RUN_SIZE
+from symgen.ensemble.lines import SAVED
 from symgen.ensemble.local import run_here
 from symgen.ensemble.plan import Ensemble, make_ensemble
 from symgen.ensemble.study import Sweep
@@ -57,16 +58,18 @@ def sweep(
         What `symgen.load` takes, or what it gave.
     vary : mapping
         Name -> values: an array, or a text such as ``"lin(1, 3, 21)"``, ``"log(0.1, 10, 21)"``, ``"values(1, 2, 5)"``
-        or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies at the start
-        (``crank.theta``, ``crank.omega``): a coordinate that varies is held while the others are closed. Each name is
-        a dimension of the grid.
+        or ``"uniform(0, 1, 100, 7)"``. Names are parameters, and coordinates and velocities of bodies and joints at
+        the start (``crank.theta``, ``crank.omega``, ``motor.angle``): a coordinate that varies is held while
+        the others are closed. Each name is a dimension of the grid.
     runs : mapping, optional
         The same for names that vary together, all with as many values: one dimension, ``run``.
     quantities : sequence of str, optional
-        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; by default all
-        coordinates and velocities. Memory grows with these and with the output times alone.
+        What to keep: ``crank.theta``, ``crank`` (all of a body), ``q``, ``v``, ``energy``, ...; ``event`` or
+        ``event.NAME``, what happened; by default all coordinates and velocities. Memory grows with these and with the
+        output times alone.
     output : path, optional
-        ``.nc``: a NetCDF file, with the folder ``<file>.parts`` beside it until all runs are done; otherwise a folder.
+        ``.nc``: a NetCDF file; ``.csv``: a line for every run and time, with units in the heading; both with the
+        folder ``<file>.parts`` beside them until all runs are done. Otherwise a folder.
         Finished runs survive an interruption and a kill.
     resume : bool
         Continue what an earlier call began at `output`.
@@ -133,9 +136,9 @@ def sweep(
 
 def _check_room(ensemble: Ensemble, path: Path | None, folder: Path | None) -> None:
     """Refuse an ensemble whose rows do not fit where they are collected."""
-    runs, quantities, times, _ = ensemble.sizes
+    runs, quantities, times, _, further = ensemble.sizes
     what = f"{runs:g} runs, each with {quantities} quantities at {times} times"
-    rows = 8.0 * runs * (quantities * times + N_SUMMARY)
+    rows = 8.0 * runs * (quantities * times + N_SUMMARY + further)
     if folder is None:
         require("sweep", what, rows + RUN_SIZE * runs)
     else:
@@ -189,7 +192,7 @@ def folder_of(path: Path, resume: bool) -> Path:
     if not path.suffix:
         check_folder(path, resume)
         return path
-    check_path("output", path, {".nc": ("xarray", "h5netcdf", "h5py")}, "data")
+    check_path("output", path, SAVED, "data")
     parts = path.with_name(path.name + PARTS)
     if resume and path.exists() and not parts.exists():
         hint = "leave --resume out to compute it again"

@@ -44,17 +44,19 @@ class Table:
         Sizes.
     chunk : int
         Runs in a chunk; the last one may have fewer.
+    further : int
+        Numbers that each run leaves of events.
 
     Attributes
     ----------
     values : Array, shape (runs, quantities, times)
         Quantities at the output times.
-    summary : Array, shape (runs, N_SUMMARY)
+    summary : Array, shape (runs, N_SUMMARY + further)
         See `symgen.runtime.ensemble_abi`.
     """
 
-    def __init__(self, runs: int, quantities: int, times: int, chunk: int) -> None:
-        self.runs, self.chunk = runs, chunk
+    def __init__(self, runs: int, quantities: int, times: int, chunk: int, further: int = 0) -> None:
+        self.runs, self.chunk, self._width = runs, chunk, N_SUMMARY + further
         self.finished: set[int] = set()
         self.values: Array
         self.summary: Array
@@ -62,7 +64,7 @@ class Table:
 
     def _open(self, quantities: int, times: int) -> None:
         self.values = np.full((self.runs, quantities, times), np.nan)
-        self.summary = np.zeros((self.runs, N_SUMMARY))
+        self.summary = np.zeros((self.runs, self._width))
 
     @property
     def chunks(self) -> int:
@@ -147,7 +149,7 @@ class FolderTable(Table):
         self,
         folder: Path,
         description: Mapping[str, Any],
-        sizes: tuple[int, int, int, int],
+        sizes: tuple[int, int, int, int, int],
         resume: bool,
     ) -> None:
         self.folder = folder
@@ -187,14 +189,15 @@ class FolderTable(Table):
     def _check_description(self, where: str) -> None:
         found = json.loads((self.folder / DESCRIPTION).read_text(encoding="utf-8"))
         differing = sorted(k for k in {*found, *self._description} if found.get(k) != self._description.get(k))
-        if differing:
-            raise InputError(
-                where, "the sweep that was begun there", f"one with another {differing[0]}", "name another output"
-            )
+        if not differing:
+            return
+        # other versions may say the same in other words, so nothing is said of what they have
+        got = "one by another version of symgen" if "code" in differing else f"one with another {differing[0]}"
+        raise InputError(where, "the sweep that was begun there", got, "name another output")
 
     def _begin(self, quantities: int, times: int) -> None:
         self.values = self._file(VALUES, (self.runs, quantities, times))
-        self.summary = self._file(SUMMARY, (self.runs, N_SUMMARY))
+        self.summary = self._file(SUMMARY, (self.runs, self._width))
         if not (self.folder / DESCRIPTION).exists():  # last, so that a folder with a description is whole
             write_whole(self.folder / DESCRIPTION, json.dumps(self._description, indent=1) + "\n")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +14,7 @@ from symgen.result.judge import JUMP_FAILURE, judge_alone
 from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
+from symgen.runtime.events import gathered
 from symgen.runtime.outcome import RankEvent
 from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
@@ -48,13 +49,13 @@ def column(summary: Array, name: str) -> Array:
 
 
 def judge_all(
-    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec
+    summary: Array, done: NDArray[np.bool_], info: ModelInfo, law: LawInfo, spec: RunSpec, events: Sequence[str] = ()
 ) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
     """Return status and reason of every run.
 
     Parameters
     ----------
-    summary : Array, shape (n, N_SUMMARY)
+    summary : Array, shape (n, N_SUMMARY + width)
         See `symgen.runtime.ensemble_abi`.
     done : Array of bool, shape (n,)
         Which runs have been done.
@@ -62,6 +63,8 @@ def judge_all(
         What was run.
     spec : RunSpec
         How.
+    events : sequence of str
+        Names of those that were looked for.
 
     Returns
     -------
@@ -81,9 +84,29 @@ def judge_all(
         if column(row, "start") != e.ASSEMBLED:
             status[i], reason[i] = FAILED, str(refusal(row, info))
             continue
+        if (told := _of_events(row, events)) is not None:
+            status[i], reason[i] = FAILED, told
+            continue
         verdict = judge_alone(_seen(row, spec), law.position_correction)
         status[i], reason[i] = verdict.status, verdict.reason or ""
     return status, reason
+
+
+def _of_events(row: Array, events: Sequence[str]) -> str | None:
+    """Return why an event, or an input, ended a run as failed, None where none did."""
+    code, time, further = int(column(row, "code")), float(column(row, "end")), row[e.N_SUMMARY :]
+    if code == abi.GATHERED:
+        names = [name for i, name in enumerate(events) if int(further[e.GATHERING]) >> i & 1]
+        return gathered(names, float(further[e.ACCUMULATION]))
+    if code != e.IMPOSSIBLE:
+        return None
+    if not len(further) or np.isnan(further[e.IMPOSSIBLE_EVENT]):
+        return f"inputs: expected values for which every formula is finite, got others at t = {time:.6g} s"
+    name = events[int(further[e.IMPOSSIBLE_EVENT])]
+    return (
+        f"event '{name}': reset: expected velocities that the joints and each other allow, "
+        f"got others at t = {time:.6g} s"
+    )
 
 
 def _jumped(summary: Array) -> NDArray[np.bool_]:

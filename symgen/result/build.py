@@ -142,7 +142,7 @@ def _last_state(
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, start = compiled.info, outcome.start
     if isinstance(outcome, CarriedOutcome):
-        return _last_of_bodies(mechanism, compiled, outcome, parameters)
+        return _last_of_bodies(mechanism, plan, compiled, outcome, parameters)
     arrays = _arrays(outcome)
     y, w = arrays["y"], arrays["w"]
     whole = outcome.code in (abi.DONE, abi.STOPPED)
@@ -173,7 +173,11 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
 
 
 def _last_of_bodies(
-    mechanism: Mechanism, compiled: CompiledModel, outcome: CarriedOutcome, parameters: Mapping[str, float]
+    mechanism: Mechanism,
+    plan: Plan,
+    compiled: CompiledModel,
+    outcome: CarriedOutcome,
+    parameters: Mapping[str, float],
 ) -> LastState:
     """Return where a run in joint coordinates ended: the coordinates of bodies, and all that it kept of joints."""
     info, start, last = compiled.info, outcome.start, outcome.end_state
@@ -187,7 +191,7 @@ def _last_of_bodies(
         work_before=start.work,
         windings=tuple(float(x) for x in outcome.w[abi.WINDING : abi.WINDING + info.windings]),
         rank=start.rank,
-        made=outcome.tree.made(parameters),
+        made=outcome.tree.made(plan, parameters),
         arrays=_arrays(outcome.inner) | outcome.tree.kept(outcome),
         failed="" if outcome.code in (abi.DONE, abi.STOPPED) else outcome.reason,
     )

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError, nearest
-from symgen.files import check_writable, write_whole
+from symgen.files import check_writable, headed, write_whole
 from symgen.memory import require
 from symgen.result.result import SIDE
 
@@ -181,13 +181,16 @@ def _texts(names: tuple[str, ...]) -> np.ndarray[tuple[int], np.dtype[np.object_
     return np.array(names, dtype=object)
 
 
-def save(result: Result, path: Path, quantities: Sequence[str] = ()) -> Path:
+def save(result: Result, path: Path, quantities: Sequence[str] = (), units: bool = False) -> Path:
     """Write all tables, or some columns, in the format that the ending of `path` names.
 
-    Columns of CSV files that were chosen carry their units: ``spring.force [N]``.
+    Columns of CSV files that were chosen carry their units, all of them where `units` ask for it:
+    ``spring.force [N]``.
     """
     check_path("save", path, SAVED, "data")
     ending = path.suffix.lower()
+    if units and ending != ".csv":
+        raise InputError("save: units", "a file ending in .csv, whose headings carry them", f"'{path}'")
     if quantities and ending != ".nc":
         frame = chosen_frame(result, quantities, units=ending == ".csv")
     else:
@@ -199,6 +202,10 @@ def save(result: Result, path: Path, quantities: Sequence[str] = ()) -> Path:
 
             return write_whole(path, netcdf(with_last_state(to_xarray(result), result)))
         frame = to_dataframe(result)
+        if units:
+            own = frame.attrs["units"]
+            frame = frame.rename(columns={name: headed(name, own[name]) for name in frame.columns})
+            frame.index.name = headed("t", "s")
     if ending == ".parquet":
         return write_whole(path, lambda file: frame.to_parquet(file, engine="pyarrow"))
     return write_whole(path, lambda file: frame.to_csv(file, mode="wb"))
@@ -210,7 +217,8 @@ def chosen_frame(result: Result, quantities: Sequence[str], units: bool) -> pd.D
     import pandas as pd
 
     chosen = result.select(quantities)
-    names = [f"{n} [{u}]" if units and u else n for n, u in zip(chosen.names, chosen.units, strict=True)]
-    frame = pd.DataFrame(chosen.values, columns=names, index=pd.Index(result.t, name="t [s]" if units else "t"))
+    names = [headed(n, u) if units else n for n, u in zip(chosen.names, chosen.units, strict=True)]
+    index = pd.Index(result.t, name=headed("t", "s") if units else "t")
+    frame = pd.DataFrame(chosen.values, columns=names, index=index)
     frame.attrs["units"] = dict(zip(names, chosen.units, strict=True))
     return frame

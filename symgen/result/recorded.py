@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, quoted
+from symgen.files import unheaded
 from symgen.result.export import PREFIX
 from symgen.result.saved import read_saved
 
@@ -123,7 +124,7 @@ def _of_columns(option: str, path: Path) -> Recorded:
     if path.suffix.lower() == ".csv":
         with path.open(encoding="utf-8", newline="") as file:
             rows = csv.reader(file)
-            names = [name.partition(" [")[0] for name in next(rows)]
+            names = [unheaded(name) for name in next(rows)]
             values = np.array([[float(x) for x in row] for row in rows])
         columns = {name: values[:, i] for i, name in enumerate(names)}
     else:

@@ -379,7 +379,7 @@ class Result:
             of_kind("beside", beside, Result, "a Result")
         return view(self, beside, switch("live", live))
 
-    def save(self, path: str | PathLike[str], quantities: Sequence[str] = ()) -> Path:
+    def save(self, path: str | PathLike[str], quantities: Sequence[str] = (), units: bool = False) -> Path:
         """Write all tables to ``.nc`` (NetCDF), ``.parquet`` or ``.csv``; the file appears whole or not at all.
 
         Parameters
@@ -389,6 +389,8 @@ class Result:
         quantities : sequence of str, optional
             Columns to write, as `select` takes them, with units in the header of a CSV file. A ``.nc`` file always
             holds everything.
+        units : bool
+            Whether the header of a CSV file carries units, ``crank.theta [rad]``, also where it holds everything.
 
         Raises
         ------
@@ -397,7 +399,7 @@ class Result:
         """
         from symgen.result.export import save
 
-        return save(self, argument_path("save", path), words("quantities", quantities))
+        return save(self, argument_path("save", path), words("quantities", quantities), switch("units", units))
 
     def plot(self, path: str | PathLike[str], what: tuple[str, ...] = ("positions", "energy", "violations")) -> Path:
         """Draw panels over time into a PNG, SVG or PDF file.

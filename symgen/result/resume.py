@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.errors import InputError
+from symgen.files import unheaded
 from symgen.result.saved import read_saved
 from symgen.runtime.last_state import LastState
 
@@ -80,7 +81,7 @@ def _last_row(path: Path) -> dict[str, float]:
             names, row = next(rows), next(rows)
             for following in rows:
                 row = following
-        return {name: float(x) for name, x in zip(names, row, strict=True)}
+        return {unheaded(name): float(x) for name, x in zip(names, row, strict=True)}
     import pandas as pd
 
     frame = pd.read_parquet(path, engine="pyarrow")

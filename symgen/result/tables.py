@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from symgen.arguments import path as argument_path
 from symgen.arguments import words
 from symgen.errors import MOST_LISTED, InputError, nearest
+from symgen.files import headed
 from symgen.result.export import PLOTTED, PREFIX, check_path, need
 from symgen.result.labelled import Labelled
 
@@ -136,8 +137,8 @@ class Tables(ABC):
         need("to_dataframe", "pandas")
         import pandas as pd
 
-        names = {name: f"{name} [{unit}]" if units and unit else name for name, (_, unit) in columns.items()}
-        index = pd.Index(self.t, name="t [s]" if units else "t")
+        names = {name: headed(name, unit) if units else name for name, (_, unit) in columns.items()}
+        index = pd.Index(self.t, name=headed("t", "s") if units else "t")
         frame = pd.DataFrame({names[name]: values for name, (values, _) in columns.items()}, index=index)
         frame.attrs["units"] = {names[name]: unit for name, (_, unit) in columns.items()}
         return frame

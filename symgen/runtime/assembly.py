@@ -152,7 +152,7 @@ def assemble(
         determines the accelerations of a massless body.
     """
     fixed = held or Held()
-    info, y, start = compiled.info, np.zeros(compiled.info.ny), _Closed(compiled, fixed, strict, ask_light, *instant)
+    info, y, start = compiled.info, np.zeros(compiled.info.ny), Closed(compiled, fixed, strict, ask_light, *instant)
     y[: info.nq] = q
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
@@ -178,7 +178,7 @@ def assemble(
 
 
 @dataclass(frozen=True)
-class _Closed:
+class Closed:
     """The start of a single run with what it holds, and attempts with less."""
 
     compiled: CompiledModel

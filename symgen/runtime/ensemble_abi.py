@@ -53,6 +53,17 @@ SUMMARY = (
 )
 N_SUMMARY = len(SUMMARY)
 
+#: How a run ended that asked for what cannot be, beside the ends of single runs (`symgen.runtime.abi`).
+IMPOSSIBLE = 50
+
+# -- behind that row, where events are looked for ----------------------------------------------------------------------
+#: First where they accumulate, which of them do (a sum of powers of 2), and which one asked for what cannot be.
+ACCUMULATION, GATHERING, IMPOSSIBLE_EVENT = range(3)
+HEAD_OF_EVENTS = 3
+#: Then for each of them: how often it happened, and when first and last.
+EVENT_COLUMNS = (("count", "1"), ("first", "s"), ("last", "s"))
+OF_EVENT = len(EVENT_COLUMNS)
+
 #: How an assembly ended.
 ASSEMBLED, UNDEFINED, NO_MASS, OPEN, CONTRADICTION, MOVED, PROJECTED, UNDETERMINED = range(8)
 

@@ -224,12 +224,19 @@ class Events:
         return False
 
     @property
+    def recent(self) -> tuple[str, ...]:
+        """Events whose resets came last."""
+        names = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
+        return tuple(name for name in self.watched.names if name in names)
+
+    @property
     def reason(self) -> str:
         """Why a run ended whose events accumulate."""
         assert self.accumulation is not None, "events accumulate"
-        recent = {e.name for e in self.happened[-_SHRINKING:] if e.action == RESET}
-        names = " and ".join(f"'{name}'" for name in self.watched.names if name in recent)
-        return (
-            f"events of {names} accumulate at t = {self.accumulation:.13g} s: "
-            "nothing says how the motion goes on behind that"
-        )
+        return gathered(self.recent, self.accumulation)
+
+
+def gathered(names: Sequence[str], t: float) -> str:
+    """Return why a run ended whose events of some names accumulate at a time [s]."""
+    told = " and ".join(f"'{name}'" for name in names)
+    return f"events of {told} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"

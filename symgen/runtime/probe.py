@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 from typing import Any
+from weakref import WeakKeyDictionary
+
+#: Functions that have machine code, each for some signatures: asking for it again costs more than most calls.
+_made: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
 
 
 class Ready:
@@ -17,11 +21,14 @@ class Ready:
     """
 
     def __init__(self, function: Any, kind: Any) -> None:
-        self._function, self._signature = function, kind.signature
+        self._function, self._kind = function, kind
 
     def __call__(self, *arguments: Any) -> Any:
         """Call it."""
-        if self._signature is not None and hasattr(self._function, "compile"):
-            self._function.compile(self._signature)
-        self._signature = None
+        if self._kind is not None and hasattr(self._function, "compile"):
+            made = _made.setdefault(self._function, set())
+            if id(self._kind) not in made:  # types are constants of a module
+                self._function.compile(self._kind.signature)
+                made.add(id(self._kind))
+        self._kind = None
         return self._function(*arguments)

@@ -144,10 +144,39 @@ def integrate(
             held.append((float(outputs.times[count - 1]), state.p.copy()))
 
     code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations, follow)
+    after = cache_stats()
+    compiling = sum(after[name] - before[name] for name in ("compile_seconds", "load_seconds"))
+    return outcome_of(simulation, outputs, code, tuple(held), (seconds, compiling), interrupted)
+
+
+def outcome_of(
+    simulation: Simulation,
+    outputs: Outputs,
+    code: int,
+    held: tuple[tuple[float, Array], ...] = (),
+    seconds: tuple[float, float] = (0.0, 0.0),
+    interrupted: bool = False,
+) -> Outcome:
+    """Return what a run gave whose loop has ended.
+
+    Parameters
+    ----------
+    simulation, outputs : Simulation, Outputs
+        The run, and what it wrote.
+    code : int
+        How its loop ended, see `symgen.runtime.abi`.
+    held : tuple of (float, Array)
+        Parameters of earlier pieces, each with the last time that it holds at.
+    seconds : tuple of float
+        What running and compiling took [s].
+    interrupted : bool
+        Whether it was stopped from outside.
+    """
+    compiled, spec, start, state = simulation.compiled, simulation.spec, simulation.start, simulation.state
     w, clock, gauges, control = state.w, state.clock, state.gauges, state.control
     end = spec.until if code == abi.DONE else float(clock[abi.TIME])  # a grid of steps meets it up to rounding
     k = int(control[abi.OUTPUTS])
-    after, before_it = cache_stats(), simulation.before
+    before_it = simulation.before
     counters = {name: int(state.iw[i]) for i, name in enumerate(COUNTERS)}
     counters["iterations"] -= simulation.iterations_before
     times, states, status = (array[:k] for array in outputs)
@@ -180,17 +209,14 @@ def integrate(
         rank_events=tuple(RankEvent(float(a), float(b), int(r), float(s)) for a, b, r, s in table),
         rank_event_count=int(control[abi.EVENTS]),
         interrupted=interrupted,
-        run_seconds=seconds,
-        compile_seconds=after["compile_seconds"]
-        + after["load_seconds"]
-        - before["compile_seconds"]
-        - before["load_seconds"],
+        run_seconds=seconds[0],
+        compile_seconds=seconds[1],
         compiled=compiled,
         start=start,
         p=state.p,
         w=w,
         simulation=simulation,
-        held=tuple(held),
+        held=held,
         happened=() if events is None else tuple(events.happened),
         accumulation=None if events is None else events.accumulation,
     )

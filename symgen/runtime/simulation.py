@@ -56,6 +56,8 @@ class Simulation:
 
     Attributes
     ----------
+    compiled, integrator, start, spec
+        As above.
     state : State
         All that the run keeps, as arrays. They stay where they are: views of them are up to date for ever.
     span : Span
@@ -78,7 +80,7 @@ class Simulation:
     """
 
     def __init__(self, compiled: CompiledModel, integrator: Integrator, start: Start, spec: RunSpec) -> None:
-        self.compiled, self.integrator, self.spec = compiled, integrator, spec
+        self.compiled, self.integrator, self.start, self.spec = compiled, integrator, start, spec
         self.setup = integrator.setup(compiled, spec, start.w)
         self.sizes = sizes_of(compiled)
         self.scheme, self.span = self.setup.scheme, span_of(spec, self.setup)
@@ -185,7 +187,12 @@ class Simulation:
             if (ended := self._ended(code)) is not None:
                 return ended
 
-    def run(self, outputs: Outputs, follow: Callable[[], None] | None = None) -> int:
+    def run(
+        self,
+        outputs: Outputs,
+        follow: Callable[[], None] | None = None,
+        ask: tuple[Callable[[], bool], float] | None = None,
+    ) -> int:
         """Go through all pieces of the run, from where it stands; return how the loop ended.
 
         Parameters
@@ -194,16 +201,28 @@ class Simulation:
             From `outputs`.
         follow : callable, optional
             Called at the end of each piece but the last, before the numbers of the next one are set.
+        ask : (callable, float), optional
+            Whether to stop (`STOPPED`), asked whenever so many further steps are accepted.
         """
         self.take_pieces()
         while (begin := self.next_piece) < self.spec.until:
-            code = self.enter(outputs, until=begin)
+            code = self._asking(outputs, begin, ask)
             if code != abi.DONE:
                 return code
             if follow is not None:
                 follow()
             self.take_pieces(begin)
-        return self.enter(outputs)
+        return self._asking(outputs, self.spec.until, ask)
+
+    def _asking(self, outputs: Outputs, until: float, ask: tuple[Callable[[], bool], float] | None) -> int:
+        """Go on as `enter` does, and ask whether to stop."""
+        if ask is None:
+            return self.enter(outputs, until=until)
+        stop, steps = ask
+        while (code := self.enter(outputs, until, self.state.control[abi.STEPS] + steps)) == abi.PAUSED:
+            if stop():
+                return abi.STOPPED
+        return code
 
     def is_ahead(self, moment: float) -> bool:
         """Whether a time is far enough from the present one for a step between the two."""

@@ -8,20 +8,22 @@ of the mechanism here.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
-from symgen.ir.program import STATUS
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
+from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.exact import plain_form
+from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import weigh_rows
-from symgen.runtime.start_records import Instant
+from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
 
@@ -62,7 +64,7 @@ def settle_tree(
         now = Instant(y, p, w)
         w[abi.LENGTH], w[abi.SPEED], gauge = scales
         compiled.section(w, "gauge")[:] = gauge
-        w[STATUS.index("mean_mass")] = float(compiled.section(w, "mass") @ gauge) / max(1, info.nv)
+        w[abi.MEAN_MASS] = plain_form(mean_mass)(layout, w)
         geometry(t, y, p, w)
         masked = _dependent(compiled, geometry, y, p, w, t)
         compiled.section(w, "mask")[masked] = np.inf
@@ -70,6 +72,104 @@ def settle_tree(
         plain_form(weigh_rows)(layout, now)
     rank = int(np.sum(compiled.section(w, "pivot") >= SKIP))
     return w, rank, tuple(info.rows[i].name for i in np.flatnonzero(masked))
+
+
+class Carrying(NamedTuple):
+    """Where what stands in rows of bodies and of a tree.
+
+    Attributes
+    ----------
+    runs, work, outs : int
+        Rows; elements of a tree's state before the work; numbers that ``observe`` writes.
+    places : Array of int, shape (2 work,)
+        Of each of these elements: 0 and where it stands in the state of bodies, or 1 and where ``observe`` writes it.
+    windings, gauges : Array of int
+        Where angles that count turns, and squares of lengths, stand in the scratch of bodies; -1 where that is 1.
+    dependent : Array of int, shape (runs,)
+        Set to 1 where rows of loops depend on others, 0 elsewhere.
+    """
+
+    runs: int
+    work: int
+    outs: int
+    places: Any
+    windings: Any
+    gauges: Any
+    dependent: Any
+
+
+@exact()
+def mean_mass(layout: Any, w: Any) -> float:
+    """Return what a velocity has of mass on average, those of angles over the square of a length."""
+    total = 0.0
+    for j in range(layout.nv):
+        total += w[layout.mass + j] * w[layout.gauge + j]
+    return float(total / max(1, layout.nv))
+
+
+_I, _A = types.int64[::1], types.float64[::1]
+_CARRYING = types.NamedTuple((types.int64, types.int64, types.int64, _I, _I, _I, _I), Carrying)
+
+
+@exact(types.int64(abi.OBSERVE, abi.MEASURE, LAYOUT, INSTANT, INSTANT, _CARRYING, _A, _I, _I))
+def settle_rows(
+    observe: Any,
+    geometry: Any,
+    layout: Any,
+    of_bodies: Any,
+    of_tree: Any,
+    carrying: Any,
+    room: Any,
+    selected: Any,
+    control: Any,
+) -> int:
+    """Do what `settle_tree` does for many rows, but for those in which rows of loops depend on others.
+
+    Parameters
+    ----------
+    observe, geometry : emitted functions
+        Of bodies, and of the tree.
+    layout : Layout
+        Of the tree.
+    of_bodies, of_tree : Instant
+        Of all rows, one behind the other: consistent, and with parameters and masses prepared.
+    carrying : Carrying
+        Where what stands.
+    room : Array
+        Working memory: a state, what ``observe`` writes, and scratch.
+    selected, control : Array of int
+        Rows to work on; what the watching thread shares.
+    """
+    layout, carrying, (ys, ps, ws), (yt, pt, wt) = bare(layout), bare(carrying), bare(of_bodies), bare(of_tree)
+    runs, outs = carrying.runs, carrying.outs
+    ny, n_p, nw = ys.shape[0] // runs, ps.shape[0] // runs, ws.shape[0] // runs
+    ny_t, np_t, nw_t = yt.shape[0] // runs, pt.shape[0] // runs, wt.shape[0] // runs
+    rate, out, scratch = part(room, 0, ny), part(room, ny, outs), part(room, ny + outs, nw)
+    for s in range(selected.shape[0]):
+        if control[abi.STOP] != 0:
+            return int(s)
+        r = selected[s]
+        y, p, w = part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw)
+        y_t, p_t, w_t = part(yt, r * ny_t, ny_t), part(pt, r * np_t, np_t), part(wt, r * nw_t, nw_t)
+        for i in range(nw):
+            scratch[i] = w[i]
+        observe(layout.t, y, p, scratch, rate, out)
+        for k in range(carrying.work):
+            at = carrying.places[2 * k + 1]
+            y_t[k] = y[at] if carrying.places[2 * k] == 0 else out[at]
+        for i in range(carrying.windings.shape[0]):
+            w_t[abi.WINDING + i] = w[carrying.windings[i]]
+        w_t[abi.LENGTH], w_t[abi.SPEED] = w[abi.LENGTH], w[abi.SPEED]
+        for j in range(layout.nv):
+            w_t[layout.gauge + j] = 1.0 if carrying.gauges[j] < 0 else w[carrying.gauges[j]]
+        w_t[abi.MEAN_MASS] = mean_mass(layout, w_t)
+        geometry(layout.t, y_t, p_t, w_t)
+        for i in range(layout.m):
+            if not w_t[layout.pivot + i] >= SKIP:
+                carrying.dependent[r] = 1
+        geometry(layout.t, y_t, p_t, w_t)
+        weigh_rows(layout, Instant(y_t, p_t, w_t))
+    return int(selected.shape[0])
 
 
 def _dependent(compiled: CompiledModel, geometry: Ready, y: Array, p: Array, w: Array, t: float) -> NDArray[np.bool_]:

@@ -94,7 +94,7 @@ def code_identity() -> str:
             name = path.relative_to(package).as_posix()
             if name not in TELLING:
                 found.update(name.encode() + b"\0" + path.read_bytes())
-    for name in ("auto.py", "plan.py", "api.py"):
+    for name in ("auto.py", "plan.py", "api.py", "run_setup.py", "tree_run.py"):
         found.update((package / name).read_bytes())
     return found.hexdigest()
 

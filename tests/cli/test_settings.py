@@ -31,8 +31,8 @@ WITHOUT = {
         *("method", "integrator", "step", "rtol", "atol", "times", "strict", "verify", "inputs", "coordinates"),
         *EVENTS,
     },
-    "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps"},
-    "sweep": {"verify", "repeat", "shape", "inputs", "coordinates", *EVENTS},
+    "stress": {*settings.names()} - {"max_violation", "max_energy_error", "max_steps", "coordinates"},
+    "sweep": {"verify", "repeat", "shape", "events"},
 }
 #: Defaults of commands that are not those of a single run.
 OTHER = {("compare", "repeat"): 3}

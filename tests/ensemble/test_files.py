@@ -175,7 +175,7 @@ def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["thesis.txt"]
 
 
-@pytest.mark.parametrize("name", ["x.csv", "missing/x.nc", "missing/x"])
+@pytest.mark.parametrize("name", ["x.xls", "missing/x.nc", "missing/x"])
 def test_outputs_that_cannot_be_written_are_refused_before_anything_runs(tmp_path, name):
     with pytest.raises(InputError, match=r"output|folder"):
         symgen.sweep("no-such-model", {"a": [1.0]}, output=tmp_path / name)

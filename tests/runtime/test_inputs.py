@@ -367,11 +367,34 @@ def test_bad_files_are_told_in_a_sentence(model, tmp_path, text, word, message):
     assert message in str(caught.value)
 
 
-def test_studies_take_numbers_alone(model):
+def test_outputs_read_what_a_run_gives_an_input():
+    """A formula of time, one that jumps, a curve and samples: what [outputs] show is what pushes."""
+    mechanism = (
+        MechanismBuilder("watched-point")
+        .run(until=1.0, step=0.01)
+        .input("push", 0.5, unit="N")
+        .body("block", type="point", mass=1.0, velocity=(0.0, 0.0))
+        .force("all", "force", body="block", force=("push", 0.0))
+        .output("shove", "2*push", unit="N")
+        .output("impulse", "integral(push)", unit="N s")
+        .build()
+    )
+    times = (0.2, 0.6, 1.0)
+    for push, expected, impulse in (
+        ("sin(3*t)", [2.0 * math.sin(3.0 * t) for t in times], (1.0 - math.cos(3.0)) / 3.0),
+        ("2 if t > 0.25 else 0", [0.0, 4.0, 4.0], 1.5),
+        ({"t": [0.0, 1.0], "u": [1.0, 3.0], "interpolation": "linear"}, [2.8, 4.4, 6.0], 2.0),
+        ({"t": [0.0, 0.5], "u": [1.0, 3.0], "interpolation": "hold"}, [2.0, 6.0, 6.0], 2.0),
+    ):
+        result = Model(mechanism).simulate(method="lagrange", inputs={"push": push}, times=times)
+        shown = result.select(["shove", "impulse"]).values
+        np.testing.assert_allclose(shown[:, 0], expected, atol=1e-14)
+        assert shown[-1, 1] == pytest.approx(impulse, abs=1e-9) == result.v["block.vx"][-1]
+
+
+def test_sweeps_take_numbers_as_parameters(model):
     from symgen.ensemble.sweep import sweep
 
-    with pytest.raises(InputError, match="inputs: expected a single run; here an input is a number, as parameters are"):
-        sweep(model, vary={"start": [1.0, 2.0]}, inputs={"push": "t"}, until=0.1)
     found = sweep(model, vary={"push": [1.0, 2.0]}, until=1.0, step=0.01, method="lagrange", quantities=["block.x"])
     for row, push in enumerate((1.0, 2.0)):
         single = model.simulate(until=1.0, step=0.01, method="lagrange", inputs={"push": push}, times=(1.0,))

@@ -263,7 +263,19 @@ def test_rows_come_in_order_and_fit_the_contract(tmp_path):
     assert [row.family for row in study.rows] == ["duration"] * 15 + ["gravity"] * 25
     found = study.to_json()
     assert json.loads(json.dumps(found, allow_nan=False))
-    keys = {"models", "quick", "interrupted", "accurate", "budget", "cells", "outcomes", "rows", "limits", "skipped"}
+    keys = {
+        "models",
+        "coordinates",
+        "quick",
+        "interrupted",
+        "accurate",
+        "budget",
+        "cells",
+        "outcomes",
+        "rows",
+        "limits",
+        "skipped",
+    }
     assert set(found) == keys | {"unusable", "left_out", "false_successes", "findings"}
     assert found["cells"] == len(study.rows) == sum(found["outcomes"].values())
     assert not [row for row in study.false_successes if row.method == "auto"]

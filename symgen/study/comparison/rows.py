@@ -11,13 +11,25 @@ from typing import Any, cast
 
 from symgen.arguments import path as argument_path
 from symgen.errors import InputError
-from symgen.files import check_writable, write_csv
+from symgen.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.result.labelled import html_table
 from symgen.result.result import FAILED
 
 #: Ratios of run time are to this method, with the same integrator and the same step or tolerance.
 YARDSTICK = "lagrange"
+
+
+#: Units of columns that have one.
+UNITS = {
+    **dict.fromkeys(("step", "run_seconds", "run_seconds_spread", "run_seconds_median"), "s"),
+    **{"error": "m", "energy_drift_max": "J"},
+    **{
+        f"{level}_violation_{kind}": unit
+        for level, unit in (("position", "m"), ("velocity", "m/s"), ("acceleration", "m/s^2"))
+        for kind in ("max", "rms", "final")
+    },
+}
 
 
 @dataclass(frozen=True)
@@ -261,10 +273,10 @@ class Study:
         return save_csv([self], argument_path("save", path))
 
 
-def save_csv(studies: Sequence[Study], path: Path) -> Path:
-    """Write the rows of studies to one CSV file, with the mechanism in the first column."""
+def save_csv(studies: Sequence[Study], path: Path, units: bool = False) -> Path:
+    """Write the rows of studies to one CSV file, with the mechanism in the first column, and units if asked for."""
     if path.suffix.lower() != ".csv":
         raise InputError("save", "a file ending in .csv", f"'{path}'")
     check_writable("save", path)
-    heading = ["mechanism", *(f.name for f in fields(Row))]
+    heading = ["mechanism", *(headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(Row))]
     return write_csv(path, heading, [[study.mechanism, *row.texts()] for study in studies for row in study.rows])

@@ -34,6 +34,7 @@ from symgen.study.stress.known import KnownModel
 from symgen.study.stress.other_route import EmittedGeometry
 from symgen.study.stress.outcome import Run, classify, largest_error
 from symgen.study.stress.reference import equations_of, reference_of, times_of, without_reference
+from symgen.tree_run import tree_run
 
 Array = NDArray[np.float64]
 Fields = dict[str, Any]
@@ -67,7 +68,7 @@ class ReferenceTask:
 class RunTask:
     """Run a case with a method and an integrator; `reference` is the outcome of its `ReferenceTask`.
 
-    `limits` are those of a run that watches itself.
+    `limits` are those of a run that watches itself, `coordinates` those of the state.
     """
 
     level: Level
@@ -75,6 +76,7 @@ class RunTask:
     integrator: str
     reference: Fields
     limits: Limits = WATCHED
+    coordinates: str = "absolute"
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,7 @@ class LimitTask:
     method: str
     integrator: str
     reference: Fields
+    coordinates: str = "absolute"
 
 
 def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
@@ -92,7 +95,7 @@ def compute(task: ReferenceTask | RunTask | LimitTask) -> Fields:
     if isinstance(task, ReferenceTask):
         return reference_of(task.level)
     if isinstance(task, RunTask):
-        return _run(task.level, task.method, task.integrator, task.reference, task.limits).to_json()
+        return _run(task).to_json()
     return _limit(task)
 
 
@@ -124,8 +127,9 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
     return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
 
 
-def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limits = WATCHED) -> RunFields:
+def _run(task: RunTask) -> RunFields:
     """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
+    level, method, integrator, known, limits = task.level, task.method, task.integrator, task.reference, task.limits
     why = without_reference(known)
     if why is not None:
         return _nothing(judged.UNJUDGED, why)
@@ -140,6 +144,7 @@ def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limi
         times=times_of(level),
         parameters=parameters,
         options=level.options,
+        coordinates=task.coordinates,
         **asdict(watched),
     )
     try:
@@ -150,14 +155,16 @@ def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limi
         if least > budget:
             what = "at least " if plan.spec.adaptive else ""
             return _nothing(judged.TOO_SLOW, f"{what}{least:.3g} evaluations, more than {budget:.3g}", 0, chosen)
-        compiled, start = model.ready(plan, parameters)
+        tree = tree_run(level.mechanism, plan, parameters) if plan.coordinates == "joint" else None
+        compiled, start = model.ready(plan, parameters) if tree is None else (tree.compiled, tree.start)
     except (InputError, AssemblyError) as error:
         return _nothing(judged.REFUSED, str(error))
     plan = replace(plan, spec=replace(plan.spec, max_evaluations=budget))
     outcome = integrate(compiled, plan.tableau, start, plan.spec)
     second = None
     if method == AUTO:
-        second = settle(model.mechanism, parameters, plan, compiled, outcome, free=True)
+        positions = None if tree is None else tree.positions
+        second = settle(model.mechanism, parameters, plan, compiled, outcome, free=True, positions=positions)
         plan, outcome = second.plan, second.outcome
     if outcome.interrupted:
         raise KeyboardInterrupt
@@ -165,7 +172,7 @@ def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limi
         return _nothing(judged.TOO_SLOW, f"more than {budget:.3g} evaluations", budget, chosen)
     verdict = judge(plan, compiled, outcome, second, asked=False)
     assert verdict.reason != INTERRUPTED, "an interrupted run has raised"
-    run, note = _compared(level, parameters, outcome, known), ""
+    run, note = _compared(level, parameters, outcome if tree is None else tree.carried(outcome), known), ""
     found = classify(run)
     if outcome.code != abi.DONE:
         note = f"ended at t = {outcome.end:.4g} s"
@@ -177,7 +184,7 @@ def _run(level: Level, method: str, integrator: str, known: Fields, limits: Limi
         further = integrate(compiled, plan.tableau, start, spec)
         if further.interrupted:
             raise KeyboardInterrupt
-        run = _compared(level, parameters, further, known)
+        run = _compared(level, parameters, further if tree is None else tree.carried(further), known)
         found = classify(run)
         if found == judged.GOOD:
             found, note = judged.INACCURATE, f"{note}; off its constraints, not off the motion"
@@ -199,14 +206,16 @@ def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
     """Return settings without ``auto``, and the plan; an adaptive run chooses its own first step.
 
     The shape is looped where a method has one: it compiles once for all mechanisms, and the runs of a study are short.
+    Joint coordinates have straight code only.
     """
-    settings, _ = resolve(model.mechanism, replace(settings, shape="looped"))
-    settings = replace(settings, shape="straight")
+    coordinates = settings.coordinates
+    settings, _ = resolve(model.mechanism, replace(settings, shape="looped", coordinates="absolute"))
+    settings = replace(settings, shape="straight", coordinates=coordinates)
     plan = make_plan(model.mechanism, settings)
     if plan.spec.adaptive and settings.step is not None:
         settings = replace(settings, step=None)
         plan = make_plan(model.mechanism, settings)
-    if is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
+    if plan.coordinates == "absolute" and is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
         plan = replace(plan, choice=replace(plan.choice, shape="looped"))
     return settings, plan
 
@@ -254,7 +263,7 @@ def _limit(task: LimitTask) -> Fields:
     def attempt(step: float) -> tuple[bool, bool]:
         if step not in ran:
             level = replace(task.level, step=step, watched=False, options={**task.level.options, **_constant(task)})
-            found = _run(level, task.method, task.integrator, task.reference)
+            found = _run(RunTask(level, task.method, task.integrator, task.reference, coordinates=task.coordinates))
             lost = judged.LOST * task.reference["size"]
             error = found.error if found.error is not None and found.note == "" else math.inf
             ran[step] = error <= lost, error <= judged.ACCURATE

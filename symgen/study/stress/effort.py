@@ -134,7 +134,9 @@ def straight_seconds(mechanism: Mechanism) -> float:
     return STRAIGHT_LEAST + STRAIGHT_EACH * coordinates(mechanism)
 
 
-def left_out(mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float) -> tuple[LeftOut, ...]:
+def left_out(
+    mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float, straight: bool = False
+) -> tuple[LeftOut, ...]:
     """Return the pairs that do not fit into a time of compilation.
 
     Parameters
@@ -146,8 +148,10 @@ def left_out(mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], 
     seconds : float
         Expected seconds of compilation that pairs without a looped shape may take together [s]. They are taken in the
         order of `mechanisms` and `pairs`, those with a method's own integrator first.
+    straight : bool
+        Whether all pairs have straight code, but the one that chooses for itself.
     """
-    wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair)]
+    wanted = [pair for pair in dict.fromkeys(pairs) if needs_straight(*pair) or (straight and pair[0] != AUTO)]
     wanted.sort(key=lambda pair: METHODS.get(pair[0]).default_integrator != pair[1])
     found, spent = [], 0.0
     for mechanism in mechanisms:

@@ -6,10 +6,16 @@ from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, cast
 
-from symgen.files import check_writable, write_csv
+from symgen.files import check_writable, headed, write_csv
 from symgen.result.contract import finite
 from symgen.study.stress.effort import ADAPTIVE_BUDGET, BUDGET, IMPLICIT_BUDGET
 from symgen.study.stress.outcome import ACCURATE, counts, false_success
+
+#: Units of columns that have one.
+UNITS = {
+    **{"step": "s", "until": "s", "error": "m", "reference_error": "m"},
+    **{"position_violation_max": "m", "velocity_violation_max": "m/s", "energy_drift_max": "J"},
+}
 
 
 @dataclass(frozen=True)
@@ -107,6 +113,8 @@ class Stress:
         Mechanism, method, integrator and why the pair is not run at all.
     quick, interrupted : bool
         Fewer cases were asked for; cells are missing because the study was stopped.
+    coordinates : str
+        Of the state of all runs.
     """
 
     models: tuple[str, ...]
@@ -117,6 +125,7 @@ class Stress:
     left_out: tuple[tuple[str, str, str, str], ...] = ()
     quick: bool = False
     interrupted: bool = False
+    coordinates: str = "absolute"
 
     @property
     def false_successes(self) -> tuple[Row, ...]:
@@ -129,6 +138,7 @@ class Stress:
 
         contract = {
             "models": list(self.models),
+            "coordinates": self.coordinates,
             "quick": self.quick,
             "interrupted": self.interrupted,
             "accurate": ACCURATE,
@@ -148,8 +158,9 @@ class Stress:
         return cast(dict[str, Any], finite(contract))
 
 
-def save_csv(study: Stress, path: Path) -> Path:
-    """Write the rows of a study to a CSV file; it appears whole or not at all."""
+def save_csv(study: Stress, path: Path, units: bool = False) -> Path:
+    """Write the rows of a study to a CSV file, with units if asked for; it appears whole or not at all."""
     check_writable("csv", path)
     rows = [asdict(row) | {"values": " ".join(f"{x!r}" for x in row.values)} for row in study.rows]
-    return write_csv(path, [f.name for f in fields(Row)], [list(row.values()) for row in rows])
+    heading = [headed(f.name, UNITS.get(f.name, "")) if units else f.name for f in fields(Row)]
+    return write_csv(path, heading, [list(row.values()) for row in rows])

@@ -77,6 +77,7 @@ def stress(
     max_violation: float = WATCHED.max_violation,
     max_energy_error: float = WATCHED.max_energy_error,
     max_steps: float | None = None,
+    coordinates: str = "absolute",
 ) -> Stress:
     """Run methods on families of stiff and extreme cases.
 
@@ -101,6 +102,8 @@ def stress(
         are left out and listed.
     max_violation, max_energy_error, max_steps : float
         As for `symgen.Settings`; the first two are of the cases whose runs watch themselves.
+    coordinates : {"absolute", "joint", "auto"}
+        Those of the state of all runs; references and errors are of bodies in any.
 
     Returns
     -------
@@ -112,7 +115,12 @@ def stress(
     InputError
         If a name is wrong; nothing has been run then.
     """
-    asked = Settings(max_violation=max_violation, max_energy_error=max_energy_error, max_steps=max_steps)
+    asked = Settings(
+        max_violation=max_violation,
+        max_energy_error=max_energy_error,
+        max_steps=max_steps,
+        coordinates=coordinates,
+    )
     limits = Limits(asked.max_violation, asked.max_energy_error, asked.max_steps)
     cases, methods = arguments.words("cases", cases), arguments.words("methods", methods)
     quick, jobs = arguments.switch("quick", quick), arguments.whole("jobs", jobs, 1, 4096)
@@ -134,7 +142,8 @@ def stress(
     found = list(_cases(bases, chosen, quick, skipped))
     say = progress or (lambda what, status: None)
     kept = Journal() if journal is None else journal
-    return _Study(bases, found, wanted, quick, tuple(skipped), kept, jobs, say, compilation, limits).run()
+    how = kept, jobs, say, compilation, limits, asked.coordinates
+    return _Study(bases, found, wanted, quick, tuple(skipped), *how).run()
 
 
 def _cases(
@@ -167,6 +176,12 @@ class _Study:
     say: Progress
     compilation: float
     limits: Limits
+    coordinates: str = "absolute"
+
+    @property
+    def _coordinates(self) -> dict[str, str]:
+        """What keys of cells say of coordinates: nothing of those that were there first."""
+        return {} if self.coordinates == "absolute" else {"coordinates": self.coordinates}
 
     @cached_property
     def left_out(self) -> dict[str, tuple[LeftOut, ...]]:
@@ -177,7 +192,7 @@ class _Study:
             made = [base.stressed, *(case.level.mechanism for case in self.cases if case.model == base.name)]
             # cases that differ in their start alone share code, and have the name of the base
             distinct = list({mechanism.name: mechanism for mechanism in made}.values())
-            found[base.name] = left_out(distinct, asked, self.compilation)
+            found[base.name] = left_out(distinct, asked, self.compilation, self.coordinates == "joint")
         return found
 
     def _is_left_out(self, case: _Case, method: str, integrator: str) -> bool:
@@ -209,6 +224,7 @@ class _Study:
             left_out=tuple((x.mechanism, x.method, x.integrator, x.why) for out in self.left_out.values() for x in out),
             quick=self.quick,
             interrupted=interrupted,
+            coordinates=self.coordinates,
         )
 
     def _computed(self, what: str, cells: Sequence[Cell]) -> tuple[dict[str, Outcome], bool]:
@@ -235,8 +251,10 @@ class _Study:
             for method, integrator in self._pairs(case.level):
                 if self._is_left_out(case, method, integrator):
                     continue
-                task = RunTask(case.level, method, integrator, _crashed_or(motions[reference.key]), self.limits)
+                known = _crashed_or(motions[reference.key])
+                task = RunTask(case.level, method, integrator, known, self.limits, self.coordinates)
                 parts = {"kind": "run", "code": code_identity(), "method": method, "integrator": integrator}
+                parts |= self._coordinates
                 key = cell_key(**parts, limits=asdict(self.limits), reference=reference.key, **_parts(case.level))
                 yield (
                     Cell(key, f"{case.level.mechanism.name} {method}", task, _cost(case.level, integrator)),
@@ -254,8 +272,10 @@ class _Study:
                 integrator = METHODS.get(method).default_integrator
                 if self._is_left_out(case, method, integrator):
                     continue
-                task = LimitTask(case.level, method, integrator, _crashed_or(motions[reference.key]))
+                known = _crashed_or(motions[reference.key])
+                task = LimitTask(case.level, method, integrator, known, self.coordinates)
                 parts = {"kind": "limit", "code": code_identity(), "method": method, "integrator": integrator}
+                parts |= self._coordinates
                 key = cell_key(**parts, reference=reference.key, **_parts(case.level))
                 yield Cell(key, f"{case.level.mechanism.name} {method}", task), case
 

@@ -1,0 +1,268 @@
+"""Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
+
+Where events are looked for or an input jumps, Python has something to do between two parts of a run; and what is
+observed of joints' motion as one of bodies is worked out as for single runs. Such runs are done one after the other, in
+the same threads, chunks and folders; ensembles that need none of it know nothing of this module.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.compiling.events import compile_events, masses_of
+from symgen.compiling.side import compile_side
+from symgen.describe.digest import identity
+from symgen.describe.events import in_words
+from symgen.describe.outputs import TABLES
+from symgen.errors import InputError
+from symgen.ir.numerics import SKIP
+from symgen.result.export import PREFIX
+from symgen.result.reactions import Forces, seats
+from symgen.runtime import abi
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.assembly import Start
+from symgen.runtime.rows import summarise
+from symgen.runtime.run import outcome_of
+from symgen.runtime.simulation import Simulation
+from symgen.tree_run import TreeRun, begin_on_tree
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Event, Mechanism
+    from symgen.ensemble.kernel import Results
+    from symgen.ensemble.recipe import Recipe
+    from symgen.ensemble.starts import Rows
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.events import Watched
+    from symgen.runtime.integrator import Integrator
+    from symgen.runtime.outcome import Outcome
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+_REDUNDANT = e.SUMMARY.index("redundant_rows")
+_TABLES = {e.REACTION: "reactions", e.BODY_REACTION: "in_body_axes", e.MAGNITUDE: "magnitudes"}
+#: Steps between two looks at whether somebody wants it to stop.
+_STEPS = 1e5
+
+
+@dataclass(frozen=True)
+class Singly:
+    """What runs need that are done one by one.
+
+    Attributes
+    ----------
+    mechanism : Mechanism
+        What is run, with what it is given in the place of inputs.
+    events : tuple of Event
+        What is looked for.
+    ends : bool
+        Whether the only output is the end of a run, wherever an event puts it.
+    """
+
+    mechanism: Mechanism
+    events: tuple[Event, ...] = ()
+    ends: bool = False
+
+    @property
+    def width(self) -> int:
+        """Numbers that each run leaves beside those of every ensemble."""
+        return e.HEAD_OF_EVENTS + e.OF_EVENT * len(self.events) if self.events else 0
+
+    @property
+    def described(self) -> list[Any]:
+        """What it is, as JSON can express it."""
+        return [identity(self.mechanism), in_words(self.events), self.ends]
+
+
+@dataclass
+class SingleRuns:
+    """Runs rows of a compiled model one by one.
+
+    Attributes
+    ----------
+    recipe : Recipe
+        What the runs share.
+    compiled : CompiledModel
+        In the bodies' own coordinates, which starts are closed in.
+    tree : (Mechanism, CompiledModel) or None
+        What is run where it is the tree of joints.
+    """
+
+    recipe: Recipe
+    singly: Singly
+    compiled: CompiledModel
+    integrator: Integrator
+    tree: tuple[Mechanism, CompiledModel] | None = None
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _warm: bool = False
+
+    @cached_property
+    def _watched(self) -> Watched | None:
+        mechanism, compiled = (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
+        values = {q.name: q.value for q in self.singly.mechanism.parameters}
+        return compile_events(mechanism, compiled, self.singly.events, values)
+
+    @cached_property
+    def _formulas(self) -> tuple[list[str], Any]:
+        """Quantities that are formulas of a run, and the compiled function of them."""
+        mechanism = self.singly.mechanism
+        known = {PREFIX[table] + c.name: c.formula for table, of in TABLES.items() for c in of(mechanism)}
+        names = [q.name for q in self.recipe.quantities if q.source == e.SIDE]
+        formulas = [(name, known[name]) for name in names]
+        return names, compile_side(mechanism, self.compiled, "measured", "what is kept of the runs of sweeps", formulas)
+
+    def run(
+        self, rows: Rows, starts: tuple[Array, Array, Array], selected: Integers, out: Results, control: Integers
+    ) -> bool:
+        """Run selected rows from consistent starts; return whether all are done.
+
+        Parameters
+        ----------
+        rows : Rows
+            What distinguishes the runs.
+        starts : tuple of Array
+            States, parameters and scratch of all rows.
+        selected, control : Array of int
+            Rows to work on; what the watching thread shares.
+        out : Results
+            Written.
+        """
+        for r in selected:
+            if control[abi.STOP] != 0:
+                return False
+            began = self._begun(int(r), rows, starts)
+            if not self._run(int(r), rows, began, out, control):
+                return False
+            control[e.RUNS_DONE] += 1
+        return True
+
+    def _begun(self, r: int, rows: Rows, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
+        info, (ys, ps, ws) = self.compiled.info, starts
+        y, p, w = ys[r].copy(), ps[r].copy(), ws[r].copy()
+        rank = int(np.sum(self.compiled.section(w, "pivot") >= SKIP))
+        redundant = tuple(info.rows[i].name for i in np.flatnonzero(self.compiled.section(w, "mask")))
+        start = Start(y, p, w, rank, redundant, ())
+        if self.tree is None:
+            return start
+        numbers = self.recipe.method_parameters
+        return begin_on_tree(self.singly.mechanism, *self.tree, self.compiled, start, numbers, self.singly.events)
+
+    def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
+        tree = began if isinstance(began, TreeRun) else None
+        start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
+        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
+        simulation = Simulation(compiled, self.integrator, start, spec)
+        outputs = simulation.outputs(spec.times)
+        with self._lock:
+            if not self._warm:
+                simulation.warm(outputs)
+                self._warm = True
+        held = list[tuple[float, Array]]()
+
+        def follow() -> None:
+            count = int(simulation.state.control[abi.OUTPUTS])
+            if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
+                held.append((float(outputs.times[count - 1]), simulation.state.p.copy()))
+
+        try:
+            code = simulation.run(outputs, follow, (lambda: bool(control[abi.STOP]), _STEPS))
+        except InputError:  # a reset, or numbers of an input, that cannot be
+            code = e.IMPOSSIBLE
+        if code == abi.STOPPED:
+            return False
+        outcome = outcome_of(simulation, outputs, abi.NOT_FINITE if code == e.IMPOSSIBLE else code, tuple(held))
+        done = e.IMPOSSIBLE if code == e.IMPOSSIBLE else outcome.code
+        if done == abi.DONE and code != abi.MET:  # a grid of steps meets the end up to rounding
+            simulation.state.clock[abi.TIME] = spec.until
+        summarise(done, simulation.state, out.summary[r])
+        note_events(out.events[r], outcome, code)
+        count = int(simulation.state.control[abi.OUTPUTS])
+        shown = outcome if tree is None else tree.carried(outcome)
+        if self.singly.ends and len(shown.times) > count:
+            out.values[r, :, 0] = self._quantities(r, rows, shown, out)[-1]
+        elif count:
+            out.values[r, :, :count] = self._quantities(r, rows, shown, out)[:count].T
+        return True
+
+    def _events(self, rows: Rows, r: int) -> Watched | None:
+        if self._watched is None or not self._watched.resets:
+            return self._watched
+        mechanism = self.singly.mechanism if self.tree is None else self.tree[0]
+        return replace(self._watched, masses=masses_of(mechanism, self._values(rows, r)))
+
+    def _values(self, rows: Rows, r: int) -> dict[str, float]:
+        """Return the parameters of a row by name."""
+        names = (q.name for q in self.compiled.info.parameters)
+        return {name: float(x) for name, x in zip(names, rows.parameters[r], strict=True)}
+
+    def _quantities(self, r: int, rows: Rows, outcome: Outcome, out: Results) -> Array:
+        """Return what is kept of a run at its outputs, shape (outputs, quantities)."""
+        info, found = self.compiled.info, np.full((len(outcome.times), len(self.recipe.quantities)), np.nan)
+        sources = {q.source for q in self.recipe.quantities}
+        unique = out.summary[r, _REDUNDANT] == 0.0
+        kinetic, potential = outcome.status_columns[:, abi.KINETIC], outcome.status_columns[:, abi.POTENTIAL]
+        columns: dict[int, Any] = {
+            e.STATE: lambda: outcome.states,
+            e.STATUS: lambda: outcome.status_columns,
+            e.ENERGY: lambda: (kinetic + potential)[:, np.newaxis],
+            e.ENERGY_ERROR: lambda: (kinetic + potential - outcome.energy_start - outcome.states[:, info.work])[
+                :, np.newaxis
+            ],
+            e.ACCELERATION: lambda: outcome.accelerations,
+            e.JOINT: lambda: outcome.joint_coordinates,
+        }
+
+        def multipliers() -> Array:  # those of dependent rows are not unique
+            return outcome.multipliers if unique else np.full((len(outcome.times), info.m), np.nan)
+
+        columns[e.MULTIPLIER] = multipliers
+        names, side = self._formulas if e.SIDE in sources else ([], None)
+        if side is not None:
+            columns[e.SIDE] = lambda: outcome.observed(side.function, len(names), multipliers())
+        forces = Forces(outcome, {})
+        if sources & set(_TABLES):
+            forces = Forces(outcome, seats(self.singly.mechanism, self._values(rows, r)))
+            acting = forces.reactions(replace(forces.multipliers(), values=multipliers()))
+            columns[e.REACTION] = lambda: acting.values
+            columns[e.BODY_REACTION] = lambda: forces.in_body_axes(acting).values
+            columns[e.MAGNITUDE] = lambda: forces.magnitudes(acting).values
+        known = {source: columns[source]() for source in sources}
+        for i, q in enumerate(self.recipe.quantities):
+            found[:, i] = known[q.source][:, names.index(q.name) if q.source == e.SIDE else q.column]
+        return found
+
+
+def note_events(row: Array, outcome: Outcome, code: int) -> None:
+    """Write what happened in a run into its numbers (`symgen.runtime.ensemble_abi`)."""
+    watch = outcome.simulation.events
+    if watch is None:
+        return
+    numbers = {name: i for i, name in enumerate(watch.watched.names)}
+    row[:] = np.nan
+    row[e.HEAD_OF_EVENTS :: e.OF_EVENT] = 0.0
+    for event in outcome.happened:
+        at = e.HEAD_OF_EVENTS + e.OF_EVENT * numbers[event.name]
+        row[at] += 1.0
+        row[at + 1] = event.t if np.isnan(row[at + 1]) else row[at + 1]
+        row[at + 2] = event.t
+    if outcome.accumulation is not None:
+        row[e.ACCUMULATION] = outcome.accumulation
+        row[e.GATHERING] = sum(2.0 ** numbers[name] for name in watch.recent)
+    if code == e.IMPOSSIBLE and outcome.happened:
+        row[e.IMPOSSIBLE_EVENT] = numbers[outcome.happened[-1].name]
+
+
+def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:
+    """Return the numbers that each run leaves of events: name -> (column behind those of every ensemble, unit)."""
+    found = dict[str, tuple[int, str]]()
+    for i, name in enumerate(names):
+        at = e.N_SUMMARY + e.HEAD_OF_EVENTS + e.OF_EVENT * i
+        found |= {f"event.{name}.{what}": (at + k, unit) for k, (what, unit) in enumerate(e.EVENT_COLUMNS)}
+    return found

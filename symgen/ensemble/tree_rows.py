@@ -1,0 +1,154 @@
+"""Rows of an ensemble in joint coordinates: starts of bodies carried to the tree, and its motion back, in loops.
+
+What single runs do in `symgen.tree_run`, with the same bits. Rows whose start has dependent rows of loops, and
+quantities beside coordinates, velocities and energies, are left to `symgen.ensemble.singly`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.assembler import Assembly
+from symgen.runtime.exact import compiled_form
+from symgen.runtime.start_records import Instant
+from symgen.runtime.starting import prepare_rows
+from symgen.runtime.tree_start import Carrying, settle_rows
+from symgen.tree_run import carrying_of
+
+if TYPE_CHECKING:
+    from symgen.describe.mechanism import Mechanism
+    from symgen.ensemble.quantities import Quantity
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+#: What loops leave of a motion in joint coordinates.
+_PLAIN = {e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR}
+
+
+def are_plain(quantities: Sequence[Quantity], info: ModelInfo) -> bool:
+    """Return whether loops leave all of some quantities; of Euler parameters, which have two signs, all four.
+
+    Parameters
+    ----------
+    quantities : sequence of Quantity
+        What is kept.
+    info : ModelInfo
+        The model in the bodies' own coordinates.
+    """
+    kept = {q.column for q in quantities if q.source == e.STATE}
+    groups = ({first, first + 1, first + 2, first + 3} for first, _ in info.spins)
+    return {q.source for q in quantities} <= _PLAIN and all(not kept & g or g <= kept for g in groups)
+
+
+@dataclass(frozen=True)
+class TreeRows:
+    """Rows as those of a tree.
+
+    Attributes
+    ----------
+    bodies, compiled : CompiledModel
+        In the bodies' own coordinates, and in those of joints.
+    p : Array
+        Parameters of the second, those of a row left out.
+    carrying : Carrying
+        Where what stands.
+    assembly : Assembly
+        Of the second.
+    """
+
+    bodies: CompiledModel
+    compiled: CompiledModel
+    p: Array
+    carrying: Carrying
+    assembly: Assembly
+
+    @classmethod
+    def of(
+        cls, whole: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel, p: Array
+    ) -> TreeRows:
+        """Return the rows of a mechanism.
+
+        Parameters
+        ----------
+        whole, carried : Mechanism
+            As described, and with its tree.
+        bodies, compiled, p
+            See the class.
+        """
+        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled), Assembly.of(compiled))
+
+    @property
+    def width(self) -> int:
+        """Numbers that tell the motion of bodies."""
+        return self.bodies.info.nq + 2 * self.bodies.info.nv
+
+    def picks(self, quantities: Sequence[Quantity]) -> Integers:
+        """Return (source, column) of each quantity in what the loop of the tree leaves, flat."""
+        info, own = self.bodies.info, self.compiled.info
+        found = list[tuple[int, int]]()
+        for q in quantities:
+            if q.source != e.STATE:
+                found.append((q.source, q.column))
+            elif q.column < info.work:  # behind multipliers, where loops look for joint coordinates
+                found.append((e.JOINT, q.column - own.m))
+            else:
+                found.append((e.STATE, q.column - info.work + own.work))
+        return np.array(found, dtype=np.int64).ravel()
+
+    def settle(
+        self, starts: tuple[Array, Array, Array], selected: Integers, control: Integers
+    ) -> tuple[tuple[Array, Array, Array], NDArray[np.bool_]]:
+        """Return states, parameters and scratch of the tree, and which of the selected rows have no dependent rows.
+
+        Parameters
+        ----------
+        starts : tuple of Array
+            Consistent states of bodies, with parameters and scratch.
+        selected, control : Array of int
+            Rows to work on; what the watching thread shares.
+        """
+        info, own, model = self.bodies.info, self.compiled.info, self.compiled.model
+        runs, law, scratch = len(starts[0]), self.compiled.law_module, self.compiled.scratch()
+        ys, ps, ws = np.zeros((runs, own.ny)), np.tile(self.p, (runs, 1)), np.zeros((runs, len(scratch)))
+        count = len(info.parameters)
+        ps[:, :count] = starts[1][:, :count]
+        flat = Instant(ys.reshape(-1), ps.reshape(-1), ws.reshape(-1))
+        compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, *flat[1:], runs, selected)
+        of_bodies = Instant(*(array.reshape(-1) for array in starts))
+        places = self.carrying._replace(runs=runs, dependent=np.zeros(runs, dtype=np.int64))
+        room = np.zeros(info.ny + info.m + 2 * len(info.joint_coordinates) + starts[2].shape[1])
+        functions = self.bodies.model.observe, model.geometry
+        compiled_form(settle_rows)(*functions, self.assembly.layout, of_bodies, flat, places, room, selected, control)
+        return (ys, ps, ws), places.dependent[selected] == 0
+
+    def turn(self, quantities: Sequence[Quantity], selected: Integers, starts: Array, values: Array) -> None:
+        """Give Euler parameters the signs that they have at the start.
+
+        Parameters
+        ----------
+        quantities : sequence of Quantity
+            What is kept.
+        selected : Array of int
+            Rows that were run.
+        starts : Array, shape (runs, ny)
+            Where bodies began.
+        values : Array, shape (runs, quantities, times)
+            Changed.
+        """
+        at = {q.column: i for i, q in enumerate(quantities) if q.source == e.STATE}
+        for first, _ in self.bodies.info.spins:
+            if first in at and values.shape[2]:
+                columns = [at[first + k] for k in range(4)]
+                turned = (
+                    np.einsum("rk,rk->r", values[selected][:, columns, 0], starts[selected, first : first + 4]) < 0.0
+                )
+                rows = selected[turned]
+                values[np.ix_(rows, columns)] *= -1.0

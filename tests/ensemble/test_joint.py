@@ -1,0 +1,91 @@
+"""Sweeps in joint coordinates: the single runs bit for bit, the motion of bodies' own coordinates within tolerances."""
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen.errors import InputError
+
+#: Model, what varies, how it is said of a single run, and whether rows of loops depend on others: those run apart.
+CASES = [
+    ("four-bar", "crank_mass", (1.0, 3.0), "parameters"),
+    ("slider-crank", "crank.theta", (0.3, 1.0), "start"),
+    ("driven-four-bar", "coupler_mass", (1.0, 2.0), "parameters"),
+    ("bricard", "rod1.z", (0.0, 0.02), "start"),
+]
+FURTHER = ("q", "v", "energy", "violation", "smallest_pivot")
+
+
+def column_of(one, name):
+    table, _, rest = name.partition(".")
+    if table == "energy":
+        return one.kinetic + one.potential if rest == "total" else one.energy[rest]
+    if table == "violation":
+        return one.violations[rest]
+    return one.smallest_pivot if name == "smallest_pivot" else one[name]
+
+
+@pytest.mark.parametrize(("name", "varies", "values", "how"), CASES, ids=[case[0] for case in CASES])
+def test_rows_are_single_runs_to_the_last_bit(name, varies, values, how):
+    model, asked = symgen.load(name), {"until": 0.1, "times": (0.0, 0.051, 0.1), "coordinates": "joint"}
+    found = symgen.sweep(model, {varies: values}, quantities=FURTHER, **asked)
+    plain = symgen.sweep(model, {varies: values}, quantities=FURTHER, **{**asked, "coordinates": "absolute"})
+    assert [q.name for q in found.ensemble.recipe.quantities] == [q.name for q in plain.ensemble.recipe.quantities]
+    for i, value in enumerate(values):
+        one = model.simulate(**{how: {varies: value}}, **asked)
+        assert one.coordinates == "joint" and (found.status[i], found.reason[i]) == (one.status, one.reason or "")
+        for quantity in (q.name for q in found.ensemble.recipe.quantities):
+            np.testing.assert_array_equal(found[quantity][i], column_of(one, quantity), err_msg=quantity)
+        for number in ("steps", "evaluations", "position_violation_max", "energy_drift_max"):
+            assert found[number][i] == getattr(one, number), number
+    assert found.to_json()["coordinates"] == "joint" == found.attributes["coordinates"]
+
+
+def test_both_coordinates_give_one_motion():
+    asked = {"integrator": "dop853", "rtol": 1e-11, "atol": 1e-13, "until": 1.0, "times": (0.5, 1.0)}
+    vary = {"crank_mass": [1.0, 3.0], "crank.omega": [0.0, 2.0]}
+    bodies, joints = (symgen.sweep("four-bar", vary, coordinates=c, **asked) for c in ("absolute", "joint"))
+    assert bodies.counts["ok"] == joints.counts["ok"] == 4
+    np.testing.assert_allclose(joints.values, bodies.values, rtol=0.0, atol=1e-8)
+    assert np.any(joints["evaluations"] != bodies["evaluations"])  # it is another state that was integrated
+
+
+def test_whatever_else_is_kept_is_that_of_single_runs():
+    """Accelerations, reactions, multipliers and joint coordinates are worked out as for single runs, one by one."""
+    asked = {"until": 0.05, "times": (0.0, 0.05), "coordinates": "joint"}
+    kept = ("crank.alpha", "joint.B.angle", "lam", "reaction.A")
+    found, model = (
+        symgen.sweep("four-bar", {"crank_mass": [1.0, 3.0]}, quantities=kept, **asked),
+        symgen.load("four-bar"),
+    )
+    names = [q.name for q in found.ensemble.recipe.quantities]
+    assert {"crank.alpha", "joint.B.angle", "reaction.A.Fx"} < {*names}
+    for i, mass in enumerate((1.0, 3.0)):
+        one = model.simulate(parameters={"crank_mass": mass}, **asked).select(names)
+        np.testing.assert_array_equal(found.values[i].T, one.values)
+
+
+def test_events_are_found_in_both_and_auto_takes_what_is_smaller():
+    vary, stop = {"crank_mass": [1.0, 3.0]}, {"stop_when": "crank.theta < 0", "until": 2.0, "integrator": "dop853"}
+    bodies, joints = (symgen.sweep("four-bar", vary, coordinates=c, **stop) for c in ("absolute", "auto"))
+    assert joints.ensemble.plan.coordinates == "joint" and joints.counts["ok"] == 2
+    np.testing.assert_allclose(joints["crank.theta"][:, 0], 0.0, atol=1e-12)
+    np.testing.assert_allclose(joints["end"], bodies["end"], atol=1e-6)
+    np.testing.assert_array_equal(joints["event.crank.theta < 0.first"], joints["end"])
+
+
+def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():
+    asked = {"until": 0.05, "times": (0.05,), "coordinates": "joint"}
+    found = symgen.sweep("four-bar", {"coupler_mass": [8.0, 1e-9]}, **asked)
+    assert list(found["light"]) == [0.0, 1.0]
+    one = symgen.load("four-bar").simulate(parameters={"coupler_mass": 1e-9}, **asked)
+    for name in one.q.names:
+        np.testing.assert_array_equal(found[name][1], one[name], err_msg=name)
+
+
+def test_targets_without_joint_coordinates_say_so():
+    for target in ("lanes", "cuda"):
+        with pytest.raises(InputError, match=f"target '{target}'|CUDA|cuda"):
+            symgen.sweep("four-bar", {"crank_mass": [1.0]}, coordinates="joint", target=target)
+    found = symgen.sweep("four-bar", {"crank_mass": [1.0]}, coordinates="auto", target="lanes", until=0.01, step=1e-3)
+    assert found.ensemble.plan.coordinates == "absolute"
