@@ -15,7 +15,6 @@ from __future__ import annotations
 import ast
 import functools
 import gc
-import hashlib
 import marshal
 import os
 import sys
@@ -51,11 +50,13 @@ _SHORT = 60
 
 
 class Origin(NamedTuple):
-    """Where a function comes from: digest of all sources it depends on, its file, and the digest of that file."""
+    """Where a function comes from: digest of all sources it depends on, and the text of its file as it was loaded.
+
+    What was loaded is what counts: whether its file is still there, or still the same, says how full a cache is.
+    """
 
     stamp: str
-    path: Path
-    content: str
+    content: bytes
 
 
 class _Entry(NamedTuple):
@@ -258,7 +259,7 @@ def _definition(function: Any) -> ast.FunctionDef | None:
     if not isinstance(function, EmittedFunction) or function._origin is None or function.targetoptions != _OPTIONS:
         return None
     first = function.py_func.__code__.co_firstlineno - 1
-    lines = _lines(function._origin.path, function._origin.content)
+    lines = _lines(function._origin.content)
     last = next((i for i in range(first + 2, len(lines)) if lines[i][:1].strip()), len(lines))
     try:
         found = ast.parse("\n".join(lines[first:last])).body
@@ -268,10 +269,6 @@ def _definition(function: Any) -> ast.FunctionDef | None:
 
 
 @functools.lru_cache(maxsize=4)
-def _lines(path: Path, content: str) -> tuple[str, ...]:
-    """Return the lines of a file if its content is still what it was."""
-    try:
-        data = path.read_bytes()
-    except OSError:
-        return ()
-    return tuple(data.decode().split("\n")) if hashlib.sha256(data).hexdigest() == content else ()
+def _lines(content: bytes) -> tuple[str, ...]:
+    """Return the lines of a file."""
+    return tuple(content.decode().split("\n"))
