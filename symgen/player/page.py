@@ -27,7 +27,7 @@ from symgen.player.recording import Recording, frames_within, packed
 LARGEST = {False: 147_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
-SCRIPTS = ("draw.js", "plots.js", "player.js")
+SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
 @lru_cache(maxsize=8)
@@ -66,7 +66,7 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         "live": None if live is None else live.spec,
         "note": note,
     }
-    script = _script(live)
+    script = _script(live, spatial)
     held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(_json(data))
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
@@ -84,8 +84,8 @@ def _json(data: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _script(live: Live | None) -> str:
-    own = "".join(_web(name) for name in SCRIPTS)
+def _script(live: Live | None, spatial: bool) -> str:
+    own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
     wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()

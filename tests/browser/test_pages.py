@@ -70,15 +70,72 @@ def test_pages_of_the_catalogue(
         assert chromium.run("document.documentElement.scrollWidth <= window.innerWidth")
         if KEPT:
             chromium.picture(Path(KEPT) / f"{name}-{width}.png")
-        colours = chromium.run(
-            "(() => { const c = document.getElementById('view'), d = c.getContext('2d').getImageData(0, 0, c.width, "
-            "c.height).data; const s = new Set(); for (let i = 0; i < d.length; i += 4) s.add(d[i] * 65536 + d[i + 1] "
-            "* 256 + d[i + 2]); return s.size; })()"
-        )
-        assert colours > 5
+        assert chromium.run("!document.getElementById('solid').hidden") == spatial
+        assert colours(chromium) > 5
     pace = chromium.run("window.symgen.live ? window.symgen.pace() : null")
-    drawn = sorted(chromium.run("window.symgen.frames(60)"))
+    drawn = sorted(chromium.run(f"window.symgen.frame({k / 60})") for k in range(60))
     note(name, {"bytes": size, "pace": pace, "frame": [drawn[30], drawn[57]]})
+
+
+def colours(chromium: Chromium) -> int:
+    """Return how many colours the picture has, of both canvases, in the task that draws a frame."""
+    counted = """(() => {
+      window.symgen.frame(0.5);
+      const c = document.createElement('canvas'), parts = ['solid', 'view'].map((id) => document.getElementById(id));
+      Object.assign(c, { width: parts[1].width, height: parts[1].height });
+      const context = c.getContext('2d');
+      for (const part of parts) if (!part.hidden) context.drawImage(part, 0, 0);
+      const d = context.getImageData(0, 0, c.width, c.height).data, s = new Set();
+      for (let i = 0; i < d.length; i += 4) s.add(d[i] * 65536 + d[i + 1] * 256 + d[i + 2]);
+      return s.size;
+    })()"""
+    return int(chromium.run(counted))
+
+
+def test_without_webgl_a_canvas_draws_what_is_in_space(
+    chromium: Chromium, pages: dict[str, Path], tmp_path: Path
+) -> None:
+    path = page_of("flyball-governor", pages, tmp_path)
+    without = """const given = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind.startsWith('webgl') ? null : given.call(this, kind, ...rest);
+      };"""
+    script = chromium.call("Page.addScriptToEvaluateOnNewDocument", source=without)["identifier"]
+    chromium.open(path)
+    chromium.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+    chromium.frame()
+    assert chromium.run("document.getElementById('solid').hidden")
+    assert colours(chromium) > 5
+    assert chromium.said == []
+
+
+def test_near_bars_hide_far_ones_from_either_side(chromium: Chromium, tmp_path: Path) -> None:
+    """Two bars that cross, seen from before and from behind: the colour in the middle is that of the nearer one."""
+    from symgen.player.page import page
+    from symgen.player.recording import Recording
+
+    crossed = MechanismBuilder("crossed", space="spatial", gravity=(0.0, 0.0, 0.0))
+    for name, reach in (("a", (1.0, 0.0, 0.0)), ("b", (0.0, 0.0, 1.0))):
+        ends = {"p": tuple(-x for x in reach), "q": reach}
+        crossed.body(name, mass=1.0, inertia=(0.1, 0.1, 0.1), points=ends)
+        crossed.joint(f"of_{name}", "spherical", between=("ground", name), at=(ends["p"], "p"))
+    q = np.array([[0.3, -0.3, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0]])
+    path = tmp_path / "crossed.html"
+    path.write_text(page(Recording(crossed.build(), {}, np.zeros(1), q)))
+    chromium.open(path)
+    middle = """(() => {
+      window.symgen.look(%r, 0, [0, 0, 0]);
+      window.symgen.frame(0);
+      const solid = document.getElementById('solid'), c = document.createElement('canvas');
+      Object.assign(c, { width: solid.width, height: solid.height });
+      const context = c.getContext('2d');
+      context.drawImage(solid, 0, 0);
+      return [...context.getImageData(c.width >> 1, c.height >> 1, 1, 1).data];
+    })()"""
+    red, _, blue, _ = chromium.run(middle % (0.5 * math.pi))  # from where y is negative: the first body, in blue
+    assert blue > red + 50
+    red, _, blue, _ = chromium.run(middle % (-0.5 * math.pi))  # from behind: the second one, in orange
+    assert red > blue + 50
 
 
 def plainly_python(function: Any) -> Any:
@@ -207,8 +264,18 @@ def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], 
     assert chromium.said == []
 
 
+def busy(chromium: Chromium) -> float:
+    """Return how long the page's thread was at work so far [ms]."""
+    measured = chromium.call("Performance.getMetrics")["metrics"]
+    return 1e3 * next(float(x["value"]) for x in measured if x["name"] == "TaskDuration")
+
+
 def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
-    """Script time a frame: median and 95 %; the bound of 8 ms is that of the median."""
+    """Time of the page's thread a frame, script and all that calls it, each frame in a task of its own: 95 % in 8 ms.
+
+    Time of the thread, not of the clock: other processes do not count. Many frames in one task would count what the
+    browser paints, which it does as soon as too many strokes wait for it.
+    """
     chain = MechanismBuilder("long", gravity=(0.0, -9.81))
     for i in range(200):
         chain.body(f"b{i}", mass=1.0, inertia=0.1, points={"a": (-0.5, 0.0), "b": (0.5, 0.0)}, position=(i + 0.5, 0.0))
@@ -229,13 +296,19 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
     path = tmp_path / "long.html"
     path.write_text(page(Recording(mechanism, {}, t, q)))
     chromium.open(path)
-    chromium.run("window.symgen.frames(20)")
-    found = np.array(chromium.run("window.symgen.frames(200)"))
+    chromium.call("Performance.enable", timeDomain="threadTicks")
+    found = []
+    for k in range(220):
+        before = busy(chromium)
+        chromium.run(f"window.symgen.frame({k % 200 / 200})")
+        found.append(busy(chromium) - before)
+    chromium.call("Performance.disable")
+    warm = np.array(found[20:])
     note(
         "200 bodies",
-        {"median": float(np.median(found)), "95 %": float(np.quantile(found, 0.95)), "bytes": path.stat().st_size},
+        {"median": float(np.median(warm)), "95 %": float(np.quantile(warm, 0.95)), "bytes": path.stat().st_size},
     )
-    assert np.median(found) <= 8.0
+    assert np.quantile(warm, 0.95) <= 8.0
     if KEPT:
         chromium.picture(Path(KEPT) / "long.png")
 

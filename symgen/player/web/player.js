@@ -2,7 +2,16 @@
 
 const data = JSON.parse(document.getElementById("data").textContent);
 const $ = (id) => document.getElementById(id);
-const view = makeScene($("view"), data.scene);
+let solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
+$("solid").hidden = !solid;
+let view = makeScene($("view"), data.scene, solid);
+$("solid").addEventListener("webglcontextlost", () => {
+  // the canvas above draws what it can
+  $("solid").hidden = true;
+  solid = null;
+  view = makeScene($("view"), data.scene);
+  refit();
+});
 const plot = makePlot($("plot"), $("key"));
 
 function recorded(part) {
@@ -52,9 +61,8 @@ function columnAt(column, t, time) {
 
 // -- drawing --------------------------------------------------------------------------------------------------------------
 
-let took = 0;
 function render() {
-  const began = performance.now(), q = between(motion, time);
+  const q = between(motion, time);
   view.clear();
   if (!q) return;
   for (const [name, points, colour] of traced) if (name) view.trace(points, colour);
@@ -64,7 +72,6 @@ function render() {
   if ($("forces").checked) arrows(q);
   if ($("gaps").checked) gaps(q);
   if ($("labels").checked) view.names();
-  took = performance.now() - began;
   timeline();
   if (group) plot.cursor(time, group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
   const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
@@ -182,6 +189,7 @@ function tick(now) {
 
 function traces() {
   const chosen = $("trace").value, list = chosen === "all" ? data.points : data.points.filter((p) => p[0] === chosen);
+  view.forget();
   traced = list.map(([name, body, at], i) => [name, motion.rows.map((q) => view.where(q, body, at)), COLOURS[i % COLOURS.length]]);
   wanted = true;
 }
@@ -363,8 +371,10 @@ drag($("timeline"), (e) => {
 drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left)));
 drag($("view"), (e, dx, dy, pinch) => {
   const { camera } = view;
-  if (pinch) camera.scale *= pinch;
-  else if (view.spatial && !e.shiftKey && e.button !== 2) {
+  if (pinch) {
+    camera.scale *= pinch; // each finger moves the middle by half its way
+    view.pan((-0.5 * dx) / camera.scale, (0.5 * dy) / camera.scale);
+  } else if (view.spatial && !e.shiftKey && e.button !== 2) {
     camera.turn += 0.01 * dx;
     camera.tilt = Math.min(Math.max(camera.tilt + 0.01 * dy, -1.57), 1.57);
   } else {
@@ -423,15 +433,17 @@ window.symgen = {
     live.reset();
     return y && Array.from(y);
   },
-  // Milliseconds that drawing one frame takes, at each of some times.
-  frames(count = 100) {
-    const found = [];
-    for (let k = 0; k < count; k++) {
-      go(motion.t[0] + (k / count) * (motion.end - motion.t[0]));
-      render();
-      found.push(took);
-    }
-    return found;
+  // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].
+  look(turn, tilt, at) {
+    Object.assign(view.camera, { turn, tilt, at });
+    wanted = true;
+  },
+  // Draw the frame at a share of the whole motion; milliseconds that took.
+  frame(share) {
+    const began = performance.now();
+    go(motion.t[0] + share * (motion.end - motion.t[0]));
+    render();
+    return performance.now() - began;
   },
   // Seconds of motion that the live part works out in one second.
   pace(milliseconds = 300) {
