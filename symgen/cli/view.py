@@ -76,7 +76,7 @@ def command(
 
         if file.suffix.lower() == ".gif":
             raise InputError("--output", "a page of a saved result, .html", f"'{file}'")
-        made = view_file("view", stored, model.mechanism, None if beside is None else Path(beside))
+        made = view_file("view", stored, model.mechanism, None if beside is None else Path(beside), live)
         made.save(file)
         return _told(file, made.live, as_json, "ok")
     if beside is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from functools import lru_cache
@@ -21,7 +22,7 @@ from symgen.drawing.scene import Dot, Line, Look, Mark, Scene, Solid, Stretch, T
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
-from symgen.player.recording import Recording, frames_within, packed
+from symgen.player.recording import Recording, fitted, frames_within, packed
 
 #: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
 LARGEST = {False: 147_000, True: 480_000}
@@ -70,7 +71,11 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(_json(data))
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
-    data["motions"] = [packed(each, frames_within(each, room // len(motions))) for each in motions]
+    share = room // len(motions)
+    data["motions"] = []
+    for each in motions:
+        kept, coarse = fitted(each, share)
+        data["motions"].append(packed(kept, frames_within(kept, share, coarse), coarse))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
     for name, part in parts.items():
@@ -95,12 +100,13 @@ def _script(live: Live | None, spatial: bool) -> str:
 
 
 def scene_data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as JSON has it: marks by letters, looks by number, lengths with six digits."""
+    """Return a scene as JSON has it: marks by letters, looks by number, points to a two-hundredth of a symbol."""
     looks: dict[Look, int] = {}
     size = 3 if scene.spatial else 2
+    grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
 
     def point(p: Sequence[float]) -> list[float]:
-        return [float(f"{x:.6g}") for x in p[:size]]
+        return [float(f"{round(x / grid) * grid + 0.0:.9g}") for x in p[:size]]
 
     def mark(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))

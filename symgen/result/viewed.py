@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
-from symgen.errors import InputError
-from symgen.player.live import Live, live_part
+from symgen.errors import AssemblyError, InputError
+from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
 from symgen.player.recording import Group, Moment, Recording
 from symgen.result.export import need
@@ -134,24 +134,44 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
 
 def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
     """Return the live part of a page of a result: with its coordinates, its start and its parameters."""
+    return _live_of(recording.mechanism, dict(result.parameters), result.coordinates, result.step, result.start)
+
+
+def _live_of(
+    mechanism: Mechanism, parameters: dict[str, float], coordinates: str, step: float | None, begun: Mapping[str, Any]
+) -> tuple[Live | None, str]:
     from symgen.plan import make_plan
     from symgen.run_setup import ready
     from symgen.settings import Settings
     from symgen.tree_run import tree_run
 
-    mechanism = recording.mechanism
-    step = result.step or mechanism.defaults.step
-    asked = Settings(shape="straight", coordinates=result.coordinates, parameters=dict(result.parameters), step=step)
-    plan = make_plan(mechanism, asked)
-    if result.coordinates == "joint":
-        tree = tree_run(mechanism, plan, dict(result.parameters))
+    if begun["t"]:
+        return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
+    step = step or mechanism.defaults.step
+    plan = make_plan(mechanism, Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step))
+    if coordinates == "joint":
+        tree = tree_run(mechanism, plan, parameters)
         return live_part(mechanism, tree.compiled, tree.start, step)
-    compiled, start = ready(mechanism, plan, dict(result.parameters))
-    return live_part(mechanism, compiled, start, step)
+    compiled, start = ready(mechanism, plan, parameters)
+    names = [x.name for x in (*compiled.info.coordinates, *compiled.info.velocities)]
+    known = {**begun["q"], **begun["v"]}
+    whole = set(names) <= set(known)
+    return live_part(mechanism, compiled, start, step, np.array([known[n] for n in names]) if whole else None)
 
 
-def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None) -> Page:
+def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:
     """Return the page of a result in a NetCDF file.
+
+    Parameters
+    ----------
+    option : str
+        Who asks, for messages.
+    path, beside : Path
+        The file, and that of another motion, drawn faintly behind.
+    mechanism : Mechanism
+        Of which it is a result.
+    live : bool
+        Whether the page shall be able to work out other motions.
 
     Raises
     ------
@@ -160,8 +180,23 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
     """
     first = _of_file(option, path, mechanism)
     second = None if beside is None else _of_file(option, beside, mechanism)
-    note = "the page has no live part, as it was made of a file"
-    return Page(page(first, None, note, second), mechanism.name, False)
+    part, note = _live_of_file(option, path, mechanism) if live else (None, "")
+    return Page(page(first, part, note, second), mechanism.name, part is not None)
+
+
+def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
+    """Return the live part of a page of a file: of the mechanism by its name, with what the file says of the run."""
+    run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
+    inputs = run.get("inputs", {})
+    if any(isinstance(x, str) for x in inputs.values()):
+        return None, f"{NONE}: what the run gave its inputs over time is not in the file"
+    known = {p.name for p in mechanism.parameters}
+    values = {k: float(v) for k, v in {**run.get("parameters", {}), **inputs}.items() if k in known}
+    begun = run.get("start", {"t": 0.0, "q": {}, "v": {}})
+    try:
+        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun)
+    except AssemblyError as error:
+        return None, f"{NONE}: {' '.join(str(error).split())}"
 
 
 def mechanism_name(option: str, path: Path) -> str:

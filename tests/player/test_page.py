@@ -80,7 +80,7 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     result.save(file)
     assert main(["view", str(file), "-o", str(tmp_path / "a.html"), "--beside", str(file), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["live"] is False and told["bytes"] == (tmp_path / "a.html").stat().st_size
+    assert told["live"] is True and told["bytes"] == (tmp_path / "a.html").stat().st_size
     data = data_of((tmp_path / "a.html").read_text())
     assert (
         len(data["motions"]) == 2
@@ -88,6 +88,36 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     )
     assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "b.html")]) == 0
     assert data_of((tmp_path / "b.html").read_text())["live"] is not None
+
+
+def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any) -> None:
+    from symgen.result.viewed import view_file
+
+    mechanism = load("slider-crank").mechanism
+    result.save(tmp_path / "a.nc")
+    live = data_of(view_file("view", tmp_path / "a.nc", mechanism).html)["live"]
+    assert live == data_of(result.view().html)["live"]
+    other = load("slider-crank").simulate(until=0.1, parameters={"crank_mass": 2.0}, start={"crank.theta": 1.0})
+    other.save(tmp_path / "b.nc")
+    of_file, of_result = view_file("view", tmp_path / "b.nc", mechanism), other.view()
+    assert data_of(of_file.html)["live"] == data_of(of_result.html)["live"] != live
+    # begun elsewhere than described: there the page begins too
+    begun = [repr(x) for x in (*other.start["q"].values(), *other.start["v"].values())]
+    told = f"q: [{', '.join(begun[:9])}], v: [{', '.join(begun[9:])}]"
+    assert other.start["q"]["crank.theta"] == 1.0
+    assert all(told in page.html for page in (of_file, of_result)) and "q: [a" in result.view().html
+
+
+def test_a_large_mechanism_has_coarse_coordinates_before_it_loses_forces() -> None:
+    from symgen.player.recording import Recording, fitted
+
+    values = np.zeros((70, 90))
+    recording = Recording(
+        load("pendulum").mechanism, {}, values[:, 0], values, reactions=values.reshape(70, 45, 2), pushed=("a",) * 45
+    )
+    whole, half, bare = (fitted(recording, room) for room in (60 * 730, 60 * 490, 60 * 400))
+    assert whole == (recording, False) and half == (recording, True)
+    assert bare[1] and bare[0].reactions is None and bare[0].pushed == ()
 
 
 def test_a_gif_has_pictures(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ $("solid").addEventListener("webglcontextlost", () => {
 const plot = makePlot($("plot"), $("key"));
 
 function recorded(part) {
-  const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = floatColumns(part.q, n);
+  const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
   const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
   for (const name of ["reactions", "pulls"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
