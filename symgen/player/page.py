@@ -18,7 +18,7 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Dot, Line, Look, Mark, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import Dot, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
@@ -106,18 +106,25 @@ def scene_data(scene: Scene) -> dict[str, Any]:
     grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
 
     def point(p: Sequence[float]) -> list[float]:
-        return [float(f"{round(x / grid) * grid + 0.0:.9g}") for x in p[:size]]
+        near = [float(f"{round(x / grid) * grid:.9g}") for x in p[:size]]
+        return [int(x) if x == int(x) else x for x in near]
+
+    shared: dict[tuple[float, ...], int] = {}
+
+    def flat(points: Sequence[Point]) -> int:
+        """Return the number of a list of points; bodies that look alike share theirs."""
+        return shared.setdefault(tuple(x for p in points for x in point(p)), len(shared))
 
     def mark(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
-            return ["L", look, m.body, int(m.closed), [x for p in m.points for x in point(p)]]
+            return ["L", look, m.body, int(m.closed), flat(m.points)]
         if isinstance(m, Dot):
             return ["D", look, m.body, point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
             return ["T", look, m.body, point(m.a), point(m.b), float(f"{m.radius:.6g}")]
         if isinstance(m, Solid):
-            return ["S", look, m.body, [[x for p in face for x in point(p)] for face in m.faces]]
+            return ["S", look, m.body, [flat(face) for face in m.faces]]
         assert isinstance(m, Stretch), "all kinds of marks are known"
         return ["X", look, m.kind, m.body, point(m.at), m.other, point(m.to)]
 
@@ -138,6 +145,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "unit": scene.unit,
         "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
         "looks": [list(astuple(look)) for look in looks],
+        "lists": [list(points) for points in shared],
         "items": items,
     }
 

@@ -1,6 +1,11 @@
 // The page: time, controls, what is drawn beside the mechanism, and the live part.
 
 const data = JSON.parse(document.getElementById("data").textContent);
+// Bodies that look alike share their lists of points.
+for (const item of data.scene.items) for (const mark of item.marks) {
+  if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
+  else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+}
 const $ = (id) => document.getElementById(id);
 let solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
 $("solid").hidden = !solid;
