@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from symgen import arguments
 from symgen.settings import Settings, changed
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from symgen.analyses.locus import Locus
     from symgen.analyses.modes import Modes
     from symgen.describe.mechanism import Mechanism
+    from symgen.player.page import Page
     from symgen.result.result import Result
 
     Array = NDArray[np.float64]
@@ -134,6 +136,40 @@ class Analysed:
         from symgen.analyses.asked import asked_modes
 
         return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
+
+    def view_mode(
+        self,
+        number: int,
+        settings: Settings | None = None,
+        *,
+        at: str | float = "equilibrium",
+        **changes: object,
+    ) -> Page:
+        """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
+
+        Parameters
+        ----------
+        number : int
+            Which shape of `modes`, from 1 on.
+        settings : Settings, optional
+            As for `modes`.
+        at : {"equilibrium", "start"} or float
+            As for `modes`; in a steady motion shapes are not those of bodies.
+        **changes
+            Single settings.
+
+        Raises
+        ------
+        InputError
+            If there is no such mode.
+        AnalysisError
+            If no equilibrium is found.
+        """
+        from symgen.analyses.shown import mode_page
+
+        asked = changed(settings, changes)
+        number = arguments.whole("number", number, 1, 10**6)
+        return mode_page(self.mechanism, self.modes(asked, at=at), number, asked.parameters)
 
     def linearise(
         self,

@@ -18,16 +18,18 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Dot, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import Array, Dot, Line, Look, Mark, Point, Poses, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
-from symgen.player.recording import Recording, fitted, frames_within, packed
+from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
 
 #: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
 LARGEST = {False: 147_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
+#: Joints that hold two points together.
+PINS = ("revolute", "spherical", "universal", "constant-velocity", "rigid")
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
@@ -75,12 +77,29 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     data["motions"] = []
     for each in motions:
         kept, coarse = fitted(each, share)
-        data["motions"].append(packed(kept, frames_within(kept, share, coarse), coarse))
+        keep = frames_within(kept, share, coarse)
+        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, kept.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
     return text
+
+
+def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
+    """Return how far the points are apart that joints hold together, as powers of ten: 32 bits would not tell."""
+    held = [item for item in scene.items if item.role == "joint" and item.kind in PINS and len(item.ends) == 2]
+    if not held:
+        return {}
+    places = np.empty((2, len(q), len(held), 3))
+    for row, coordinates in enumerate(q):
+        poses = Poses(scene.frames, coordinates, scene.spatial)
+        for side in (0, 1):
+            bodies, points = zip(*(item.ends[side] for item in held), strict=True)
+            turns, centres = poses.turns[list(bodies)], poses.centres[list(bodies)]
+            places[side, row] = centres + np.einsum("nij,nj->ni", turns, np.array(points))
+    apart = np.linalg.norm(places[1] - places[0], axis=2)
+    return {"gaps": {"names": [item.name for item in held], **shorts(np.log10(np.maximum(apart, 1e-17)))}}
 
 
 def _json(data: Any) -> str:

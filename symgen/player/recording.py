@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Fewest and most frames of a page.
 FEWEST, MOST = 60, 1500
+#: Columns of one plot at most.
+LONGEST_KEY = 14
 
 
 @dataclass(frozen=True)
@@ -96,6 +98,17 @@ class Recording:
     pulls: Array | None = None
     pulling: tuple[str, ...] = ()
     moments: tuple[Moment, ...] = ()
+
+
+def position_groups(mechanism: Mechanism, q: Array) -> list[Group]:
+    """Return positions and angles of the first bodies over time."""
+    found = []
+    names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
+    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
+        if chosen:
+            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    return found
 
 
 def fitted(recording: Recording, room: int) -> tuple[Recording, bool]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
-from symgen.player.recording import Group, Moment, Recording
+from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
 from symgen.result.export import need
 from symgen.result.labelled import Array, Labelled
 
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-
-#: Columns of one plot at most.
-LONGEST_KEY = 14
 
 
 def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
@@ -65,16 +63,21 @@ def recorded(result: Result) -> Recording:
     mechanism = result.measured.mechanism
     tables: dict[str, Labelled] = {"energy": result.energy, "violations": result.violations}
     tables |= {"reactions": result.reactions, "elements": result.elements, "outputs": result.outputs}
-    moments = [
-        Moment(e.t_in, e.t_out, "rank", f"rank {e.rank}, smallest pivot {e.smallest_pivot:.1e}")
-        for e in result.rank_events
-    ]
-    moments += [Moment(e.t, e.t, "event", e.name) for e in result.events]
+    moments = _moments([asdict(e) for e in result.rank_events], [(e.t, e.name) for e in result.events])
     facts = [("", result.method), ("", result.integrator), ("status", result.status)]
     if result.reason:
         facts.append(("", result.reason))
     values = parameter_values(mechanism) | dict(result.parameters)
     return _recording(mechanism, values, result.t, result.q.values, tables, facts, moments)
+
+
+def _moments(passages: Sequence[Mapping[str, Any]], events: Sequence[tuple[float, str]]) -> list[Moment]:
+    """Return passages near singular positions, and events."""
+    found = [
+        Moment(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
+        for e in passages
+    ]
+    return found + [Moment(t, t, "event", name) for t, name in events]
 
 
 def _recording(
@@ -120,11 +123,7 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
     for unit in dict.fromkeys(outputs.units):
         chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
         found.append(Group("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
-    names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
-    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
-        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
-        if chosen:
-            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    found += position_groups(mechanism, q)
     energy, violations = tables["energy"], tables["violations"]
     found.append(Group("energy", "J", energy.names[:3], energy.values[:, :3]))
     found.append(Group("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
@@ -178,8 +177,8 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
     InputError
         If the file is none of a result of the mechanism.
     """
-    first = _of_file(option, path, mechanism)
-    second = None if beside is None else _of_file(option, beside, mechanism)
+    first = recorded_file(option, path, mechanism)
+    second = None if beside is None else recorded_file(option, beside, mechanism)
     part, note = _live_of_file(option, path, mechanism) if live else (None, "")
     return Page(page(first, part, note, second), mechanism.name, part is not None)
 
@@ -229,7 +228,14 @@ _COLUMNS = {
 }
 
 
-def _of_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
+def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
+    """Return the result in a NetCDF file as a page plays it.
+
+    Raises
+    ------
+    InputError
+        If the file is none of a result of the mechanism.
+    """
     data = _dataset(option, path)
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     if [str(n) for n in data["coordinate"].values] != names:
@@ -253,5 +259,6 @@ def _of_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     known_values = {p.name for p in mechanism.parameters}
     given = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known_values}
     return _recording(
-        mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts, []
+        *(mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts),
+        moments=_moments(run.get("rank_events", []), [(e["t"], e["name"]) for e in run.get("events", [])]),
     )

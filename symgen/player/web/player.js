@@ -23,7 +23,7 @@ function recorded(part) {
   const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
   const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
-  for (const name of ["reactions", "pulls"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
+  for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
 }
 
@@ -127,13 +127,17 @@ function largest(part, d) {
   return part.most;
 }
 
+// Each joint by how far it is open itself: of a recording that is told, here it would be lost in the last bits.
 const PINS = ["revolute", "spherical", "universal", "constant-velocity", "rigid"];
 function gaps(q) {
-  const violation = motion.groups.find((g) => g.title === "violation");
-  const size = violation ? columnAt(violation.columns[0], motion.t, time) : -9; // the power of ten
-  const hue = Math.round(120 * Math.min(Math.max((-4 - size) / 8, 0), 1)); // red from 1e-4 on, green below 1e-12
+  const told = motion.gaps;
   for (const item of data.scene.items) {
-    if (item.role === "joint" && item.ends.length === 2 && PINS.includes(item.kind)) view.gap(q, item.ends, 1000, `hsl(${hue},90%,40%)`);
+    if (item.role !== "joint" || item.ends.length !== 2 || !PINS.includes(item.kind)) continue;
+    const [a, b] = item.ends.map(([body, at]) => worldOf(q, body, at)), seen = Math.hypot(...a.map((x, i) => b[i] - x));
+    const k = told ? told.names.indexOf(item.name) : -1;
+    const size = k < 0 ? Math.log10(Math.max(seen, 1e-17)) : columnAt(told.columns[k], motion.t, time); // the power of ten
+    const hue = Math.round(120 * Math.min(Math.max((-4 - size) / 8, 0), 1)); // red from 1e-4 on, green below 1e-12
+    view.gap(q, item.ends, seen > 0 ? (1000 * 10 ** size) / seen : 0, `hsl(${hue},90%,40%)`);
   }
 }
 
@@ -449,6 +453,11 @@ window.symgen = {
     go(motion.t[0] + share * (motion.end - motion.t[0]));
     render();
     return performance.now() - began;
+  },
+  // How far each joint is open at a share of the motion, as powers of ten [m], by name; of recordings.
+  gaps(share) {
+    const t = motion.t[0] + share * (motion.end - motion.t[0]), told = motions[0].gaps;
+    return told ? Object.fromEntries(told.names.map((name, k) => [name, columnAt(told.columns[k], motions[0].t, t)])) : null;
   },
   // Seconds of motion that the live part works out in one second.
   pace(milliseconds = 300) {
