@@ -101,7 +101,7 @@ def start_of(
     strict, ask_light
         See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
-        What is kept while everything else moves; what the description holds unless given.
+        What is kept while everything else moves; what the description holds by default.
 
     Raises
     ------

@@ -66,7 +66,7 @@ def subject_at(
     run : callable
         Settings -> result of a run.
     cyclic : sequence of str
-        Coordinates that turn on in a steady motion; found unless given.
+        Coordinates that turn on in a steady motion; found by default.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     subject : Subject
         In joint coordinates.
     cyclic : sequence of str
-        Names of these coordinates; those that nothing depends on unless given.
+        Names of these coordinates; those that nothing depends on by default.
 
     Returns
     -------

@@ -214,7 +214,7 @@ class Kinematics(Tables):
         path : path
             The file.
         points : sequence of str, optional
-            Such as ``leg.foot``; all unless given.
+            Such as ``leg.foot``; all by default.
         """
         from symgen.result.export import PLOTTED, check_path
         from symgen.result.plots import paths, write_figure
@@ -240,7 +240,7 @@ def kinematics(
     settings : Settings
         Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
     times : array, optional
-        Increasing, of any sign [s]; the outputs of a run of the file unless given.
+        Increasing, of any sign [s]; the outputs of a run of the file by default.
     transmission : sequence of str
         Joints whose transmission angles are wanted.
 

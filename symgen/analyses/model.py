@@ -88,7 +88,7 @@ class Analysed:
             As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
             and drivers move.
         cyclic : sequence of str
-            Coordinates of joints that turn on; those that nothing depends on unless given.
+            Coordinates of joints that turn on; those that nothing depends on by default.
 
         Raises
         ------
@@ -189,9 +189,9 @@ class Analysed:
             As for `modes`.
         states : sequence of str
             Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
-            ``NAME.rate`` of any of these; rates of coordinates are added. Found unless given.
+            ``NAME.rate`` of any of these; rates of coordinates are added. Found by default.
         cyclic : sequence of str
-            With ``at="steady"``, the coordinates of joints that turn on; found unless given.
+            With ``at="steady"``, the coordinates of joints that turn on; found by default.
         instantaneous : bool
             Whether a motion that is not steady has the system of the instant.
 
@@ -242,7 +242,7 @@ class Analysed:
         Parameters
         ----------
         times : array, optional
-            Increasing, of any sign [s]; those of the outputs of a run of the file unless given.
+            Increasing, of any sign [s]; those of the outputs of a run of the file by default.
         settings : Settings, optional
             All settings at once.
         transmission : sequence of str
@@ -275,13 +275,13 @@ class Analysed:
         Parameters
         ----------
         motion : Result, Kinematics or path, optional
-            A recorded motion, or the file that one was saved to; what the drivers prescribe unless given.
+            A recorded motion, or the file that one was saved to; what the drivers prescribe by default.
         settings : Settings, optional
             All settings at once.
         times : array, optional
             Of a motion that drivers prescribe [s].
         actuators : sequence of str
-            What exerts the motion: drivers, joints, forces and inputs; all drivers unless given.
+            What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
         weights : mapping of str to float, optional
             Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
         **changes

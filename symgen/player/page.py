@@ -18,14 +18,14 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Array, Dot, Line, Look, Mark, Point, Poses, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import Array, Dot, Item, Line, Look, Mark, Point, Poses, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
 from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
 
 #: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
-LARGEST = {False: 147_000, True: 480_000}
+LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
 #: Joints that hold two points together.
@@ -74,11 +74,12 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
     share = room // len(motions)
+    pins = [item for item in scene.items if item.role == "joint" and item.kind in PINS and len(item.ends) == 2]
     data["motions"] = []
     for each in motions:
-        kept, coarse = fitted(each, share)
-        keep = frames_within(kept, share, coarse)
-        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, kept.q[keep]))
+        kept, coarse = fitted(each, share, len(pins))
+        keep = frames_within(kept, share, coarse, len(pins))
+        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, pins, kept.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
     for name, part in parts.items():
@@ -86,9 +87,8 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     return text
 
 
-def _gaps(scene: Scene, q: Array) -> dict[str, Any]:
+def _gaps(scene: Scene, held: list[Item], q: Array) -> dict[str, Any]:
     """Return how far the points are apart that joints hold together, as powers of ten: 32 bits would not tell."""
-    held = [item for item in scene.items if item.role == "joint" and item.kind in PINS and len(item.ends) == 2]
     if not held:
         return {}
     places = np.empty((2, len(q), len(held), 3))

@@ -111,7 +111,7 @@ def position_groups(mechanism: Mechanism, q: Array) -> list[Group]:
     return found
 
 
-def fitted(recording: Recording, room: int) -> tuple[Recording, bool]:
+def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
     """Return what a page holds of a recording, and whether its coordinates have 16 bits.
 
     Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
@@ -123,19 +123,22 @@ def fitted(recording: Recording, room: int) -> tuple[Recording, bool]:
         The motion.
     room : int
         Characters that all columns may take.
+    further : int
+        Columns of 16 bits beside those of the recording.
     """
     for found, coarse in ((recording, False), (recording, True)):
-        if FEWEST * _characters(found, coarse) <= room:
+        if FEWEST * _characters(found, coarse, further) <= room:
             return found, coarse
     return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
 
 
-def _characters(recording: Recording, coarse: bool) -> float:
+def _characters(recording: Recording, coarse: bool, further: int) -> float:
     """Return the characters of a frame."""
-    return sum((4 if wide and not coarse else 2) * int(part.shape[1]) for part, wide in _parts(recording)) * 4 / 3
+    wide = sum((4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _parts(recording))
+    return (wide + 2 * further) * 4 / 3
 
 
-def frames_within(recording: Recording, room: int, coarse: bool = False) -> Array:
+def frames_within(recording: Recording, room: int, coarse: bool = False, further: int = 0) -> Array:
     """Return the indices of outputs that a page holds, evenly spread, as many as fit into a number of characters.
 
     Parameters
@@ -146,8 +149,10 @@ def frames_within(recording: Recording, room: int, coarse: bool = False) -> Arra
         Characters that all columns may take; at least `FEWEST` frames are taken in any case.
     coarse : bool
         Whether coordinates have 16 bits.
+    further : int
+        Columns of 16 bits beside those of the recording.
     """
-    a_frame = _characters(recording, coarse)
+    a_frame = _characters(recording, coarse, further)
     count = int(min(max(room / max(a_frame, 1.0), FEWEST), MOST, len(recording.t)))
     return np.unique(np.linspace(0, len(recording.t) - 1, count).round().astype(int))
 
