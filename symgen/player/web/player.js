@@ -335,8 +335,11 @@ function facts() {
   $("note").textContent = data.note;
 }
 
-for (const s of [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10]) $("speed").append(new Option(`${s}×`, s));
-$("speed").value = 1;
+// A motion of less than a second is slowed down until an eye can follow it.
+const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+for (const s of SPEEDS) $("speed").append(new Option(`${s}×`, s));
+speed = motion.end - time < 1 ? SPEEDS.filter((s) => motion.end - time >= 2 * s).pop() || SPEEDS[0] : 1;
+$("speed").value = speed;
 $("trace").append(new Option("none", ""), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
 $("trace").value = data.points.length <= 12 ? "all" : "";
 $("speed").addEventListener("change", () => (speed = Number($("speed").value)));
