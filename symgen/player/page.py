@@ -28,6 +28,8 @@ from symgen.player.recording import Recording, fitted, frames_within, packed, sh
 LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
+#: How a page says that it has no forces.
+BARE = "forces are left out, as the page would be too large with them"
 #: Joints that hold two points together.
 PINS = ("revolute", "spherical", "universal", "constant-velocity", "rigid")
 SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
@@ -78,6 +80,8 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
     data["motions"] = []
     for each in motions:
         kept, coarse = fitted(each, share, len(pins))
+        if kept is not each and not data["note"].endswith(BARE):
+            data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
         keep = frames_within(kept, share, coarse, len(pins))
         data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, pins, kept.q[keep]))
     text = _web("page.html")
