@@ -81,6 +81,8 @@ def command(
         raise InputError("--beside", "two saved results", f"the model '{what}'")
     if mode is not None and stored is not None:
         raise InputError("--mode", "a model, about whose equilibrium modes are", f"the saved result '{what}'")
+    if mode is None and at != "equilibrium":
+        raise InputError("--at", "a mode shape, asked for with --mode", "no --mode")
     file = _checked(Path(output or f"{model.name}.html"))
     if mode is not None:
         return _mode(model, settings, mode, at, file, as_json)

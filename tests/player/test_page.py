@@ -205,6 +205,7 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
         (["none.nc"], "a file of a result"),
         (["a.nc", "--model", "pendulum", "--mode", "1"], "about whose equilibrium"),
         (["pendulum", "--mode", "9"], "from 1 to"),
+        (["pendulum", "--at", "start"], "asked for with --mode"),
     ],
 )
 def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
