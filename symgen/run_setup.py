@@ -107,9 +107,9 @@ def start_of(
     strict, ask_light
         See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
-        What is kept while everything else moves; what the description holds unless given.
+        What is kept while everything else moves; what the description holds by default.
     near : array, optional
-        Coordinates that the mechanism is closed from; those that are described unless given.
+        Coordinates that the mechanism is closed from; those that are described by default.
 
     Raises
     ------

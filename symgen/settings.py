@@ -32,7 +32,7 @@ class About:
     unit : str
         Its unit, empty where it has none.
     flag : str
-        The option of commands; ``--name`` unless given.
+        The option of commands; ``--name`` by default.
     metavar : str
         What stands for a value in the help of commands.
     otherwise : str

@@ -77,7 +77,7 @@ def subject_at(
     run : callable
         Settings -> result of a run.
     cyclic : sequence of str
-        Coordinates that turn on in a steady motion; found unless given.
+        Coordinates that turn on in a steady motion; found by default.
     by : sequence of str
         Parameters that derivatives are wanted by.
 
@@ -114,7 +114,7 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     subject : Subject
         In joint coordinates.
     cyclic : sequence of str
-        Names of these coordinates; those that nothing depends on unless given.
+        Names of these coordinates; those that nothing depends on by default.
 
     Returns
     -------

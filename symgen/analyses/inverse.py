@@ -169,14 +169,14 @@ def inverse(
         Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
     motion : optional
         A result of a run or of kinematics, or the path of a file that a result was saved to; what the drivers
-        prescribe unless given.
+        prescribe by default.
     times : array, optional
         Of a motion that drivers prescribe, see `symgen.analyses.kinematics.kinematics`.
     actuators : sequence of str
-        See `symgen.analyses.actuators.actuated`; the drivers unless given.
+        See `symgen.analyses.actuators.actuated`; the drivers by default.
     weights : mapping of str to float, optional
         Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the length
-        of the mechanism, unless given.
+        of the mechanism, by default.
 
     Raises
     ------

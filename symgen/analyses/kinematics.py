@@ -214,7 +214,7 @@ class Kinematics(Tables):
         path : path
             The file.
         points : sequence of str, optional
-            Such as ``leg.foot``; all unless given.
+            Such as ``leg.foot``; all by default.
         """
         from symgen.result.export import PLOTTED, check_path
         from symgen.result.plots import paths, write_figure
@@ -245,7 +245,7 @@ def kinematics(
         Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count: a start is near the branch that
         is wanted.
     times : array, optional
-        Increasing, of any sign [s]; the outputs of a run of the file unless given.
+        Increasing, of any sign [s]; the outputs of a run of the file by default.
     transmission : sequence of str
         Joints whose transmission angles are wanted.
     where : str

@@ -107,7 +107,7 @@ def linear_system(
     y : Array
         The state: q and v.
     t : float, optional
-        Time [s]; that of the start unless given.
+        Time [s]; that of the start by default.
     states : sequence of str
         Quantities that are the states; rates of coordinates among them are added. Unless given, independent ones that
         determine all others at rest, and in a motion those that stay as they are.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from symgen import arguments
 from symgen.settings import Settings, changed
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from symgen.analyses.locus import Locus
     from symgen.analyses.modes import Modes
     from symgen.describe.mechanism import Mechanism
+    from symgen.player.page import Page
     from symgen.result.result import Result
 
     Array = NDArray[np.float64]
@@ -87,7 +89,7 @@ class Analysed:
             As for `equilibrium`; coordinates are those of joints. Cyclic coordinates keep their speeds of the start,
             and drivers move.
         cyclic : sequence of str
-            Coordinates of joints that turn on; those that nothing depends on unless given.
+            Coordinates of joints that turn on; those that nothing depends on by default.
 
         Raises
         ------
@@ -136,6 +138,40 @@ class Analysed:
 
         return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
 
+    def view_mode(
+        self,
+        number: int,
+        settings: Settings | None = None,
+        *,
+        at: str | float = "equilibrium",
+        **changes: object,
+    ) -> Page:
+        """Return a page that plays a mode shape, with the state that it is about drawn faintly behind.
+
+        Parameters
+        ----------
+        number : int
+            Which shape of `modes`, from 1 on.
+        settings : Settings, optional
+            As for `modes`.
+        at : {"equilibrium", "start"} or float
+            As for `modes`; in a steady motion shapes are not those of bodies.
+        **changes
+            Single settings.
+
+        Raises
+        ------
+        InputError
+            If there is no such mode.
+        AnalysisError
+            If no equilibrium is found.
+        """
+        from symgen.analyses.shown import mode_page
+
+        asked = changed(settings, changes)
+        number = arguments.whole("number", number, 1, 10**6)
+        return mode_page(self.mechanism, self.modes(asked, at=at), number, asked.parameters)
+
     def linearise(
         self,
         settings: Settings | None = None,
@@ -155,9 +191,9 @@ class Analysed:
             As for `modes`.
         states : sequence of str
             Which quantities are the states: coordinates of bodies and joints, velocities, outputs of the file, and
-            ``NAME.rate`` of any of these; rates of coordinates are added. Found unless given.
+            ``NAME.rate`` of any of these; rates of coordinates are added. Found by default.
         cyclic : sequence of str
-            With ``at="steady"``, the coordinates of joints that turn on; found unless given.
+            With ``at="steady"``, the coordinates of joints that turn on; found by default.
         instantaneous : bool
             Whether a motion that is not steady has the system of the instant.
         by : sequence of str
@@ -210,7 +246,7 @@ class Analysed:
         Parameters
         ----------
         times : array, optional
-            Increasing, of any sign [s]; those of the outputs of a run of the file unless given.
+            Increasing, of any sign [s]; those of the outputs of a run of the file by default.
         settings : Settings, optional
             All settings at once.
         transmission : sequence of str
@@ -244,13 +280,13 @@ class Analysed:
         Parameters
         ----------
         motion : Result, Kinematics or path, optional
-            A recorded motion, or the file that one was saved to; what the drivers prescribe unless given.
+            A recorded motion, or the file that one was saved to; what the drivers prescribe by default.
         settings : Settings, optional
             All settings at once.
         times : array, optional
             Of a motion that drivers prescribe [s].
         actuators : sequence of str
-            What exerts the motion: drivers, joints, forces and inputs; all drivers unless given.
+            What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
         weights : mapping of str to float, optional
             Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
         **changes

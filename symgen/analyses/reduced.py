@@ -172,7 +172,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     y : Array
         The state: q and v.
     t : float, optional
-        Time [s]; that of the start unless given.
+        Time [s]; that of the start by default.
 
     Raises
     ------

@@ -123,7 +123,7 @@ class Subject:
     def evaluated(
         self, y: Array, a: Array | None = None, lam: Array | None = None, t: float | None = None
     ) -> Evaluated:
-        """Evaluate the descriptor form; v' and the multipliers are 0 unless given."""
+        """Evaluate the descriptor form; v' and the multipliers are 0 by default."""
         w = self.w.copy()
         self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
         rates = np.zeros(self.nv) if a is None else a

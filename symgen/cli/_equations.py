@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from symgen.report.words import counted
+
 #: A wider Jacobian is listed entry by entry only.
 WIDEST = 150
 
@@ -28,13 +30,18 @@ def as_text(facts: dict[str, Any]) -> str:
 
     lines.append(f"{facts['mechanism']}: {facts['title']}")
     lines.append(
-        f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, {sizes['rows']} constraint rows "
-        f"of rank {facts['rank']}, {_degrees(facts)} of freedom at the start"
+        f"{sizes['coordinates']} coordinates, {sizes['velocities']} velocities, "
+        f"{counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}, {_degrees(facts)} of freedom at the start"
     )
     lines += [f"note: {note}" for note in facts["notes"]]
     shape = facts["shape"]
-    kernels = ", ".join(f"{count} {name}" for name, count in shape["kernels"].items())
-    lines.append(f"shape: {shape['shape']}, as {shape['reason']}; as loops it has the kernels {kernels}")
+    kinds: dict[str, int] = {}
+    for name, count in shape["kernels"].items():  # a kind, and a digest of what the kernel computes
+        kind = name.rpartition("_")[0]
+        kinds[kind] = kinds.get(kind, 0) + count
+    kernels = ", ".join(f"{count} {kind}" for kind, count in kinds.items())
+    lines.append(f"shape: {shape['shape']}, as {shape['reason']}")
+    lines.append(f"as loops: {len(shape['kernels'])} kernels for {kernels}")
     if "tree" in facts:
         lines.append(f"joint coordinates: {facts['state']['reason']}; loops are closed by {_cut(facts)}")
         lines += [
@@ -54,7 +61,7 @@ def as_text(facts: dict[str, Any]) -> str:
     if sizes["velocities"] <= WIDEST:
         width = max((len(r["name"]) for r in facts["rows"]), default=0)
         lines += [f"{r['name']:<{width}}  {line}" for r, line in zip(facts["rows"], facts["pattern"], strict=True)]
-        lines.append("x varies, 1 is a constant of the scene, . is structurally zero")
+        lines.append("x: varies; 1: constant, of any value; .: zero in every position")
     lines += [f"D[{r['name']}, {v}] = {entry}" for r in facts["rows"] for v, entry in r["jacobian"].items()]
     lines += [f"nu[{r['name']}] = {r['nu']}" for r in facts["rows"] if r["nu"] != "0"] or ["nu = 0"]
     section("Quadratic velocity terms gamma: D v' = gamma")

@@ -44,12 +44,16 @@ def command(
     if as_json:
         write_json(facts)
         return OK
+    from symgen.report.words import counted
+
     sizes = facts["sizes"]
     click.echo(f"{facts['mechanism']}: valid, and it closes")
-    click.echo(f"  {sizes['bodies']} bodies, {sizes['joints']} joints, {sizes['forces']} forces")
-    click.echo(f"  {sizes['coordinates']} coordinates, {sizes['rows']} constraint rows of rank {facts['rank']}")
-    degrees = facts["degrees_of_freedom"]
-    click.echo(f"  {degrees} {'degree' if degrees == 1 else 'degrees'} of freedom at the start")
+    parts = (("bodies", "body", "bodies"), ("joints", "joint", ""), ("forces", "force", ""))
+    click.echo("  " + ", ".join(counted(sizes[of], one, many) for of, one, many in parts))
+    click.echo(
+        f"  {sizes['coordinates']} coordinates, {counted(sizes['rows'], 'constraint row')} of rank {facts['rank']}"
+    )
+    click.echo(f"  {counted(facts['degrees_of_freedom'], 'degree')} of freedom at the start")
     for label, rows in (("redundant at the start", facts["redundant_rows"]), ("repeated", facts["dropped_rows"])):
         if rows:
             click.echo(f"  rows {label}: {', '.join(rows)}")

@@ -37,9 +37,9 @@ if TYPE_CHECKING:
     short_help="Compare methods and integrators: error against run time.",
 )
 @click.argument("models", metavar="MODEL...", nargs=-1, required=True)
-@click.option("--methods", metavar="A,B", help="Methods, or all; unless given, the six of the source.")
-@click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 unless given.")
-@click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own unless given.")
+@click.option("--methods", metavar="A,B", help="Methods, or all; by default the six of the source.")
+@click.option("--integrators", metavar="A,B", help="Integrators, or all; rk4, dopri5 and dop853 by default.")
+@click.option("--steps", metavar="H,H", help="Constant steps [s]; multiples of the mechanism's own by default.")
 @click.option("--rtols", metavar="R,R", help="Relative tolerances of adaptive integrators.")
 @setting_options(
     *("until", "output_step", "parameters", "start", "options", "max_violation", "max_energy_error", "max_steps"),
@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 @click.option(
     *("--coordinates", "states"),
     metavar="A,B",
-    help="Coordinates of the state: absolute, joint, auto, or several; absolute unless given.",
+    help="Coordinates of the state: absolute, joint, auto, or several; absolute by default.",
 )
 @click.option(
     "--reference",
@@ -149,22 +149,26 @@ def command(
         from symgen.report.write import write
 
         sketches = sketches_of(loaded, asked["parameters"])
-        write(comparison(studies, command_again(), _asked(step_list, rtol_list), sketches), file)
+        write(comparison(studies, command_again(), _asked(step_list, rtol_list, studies), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     files = {path: lambda file: save_csv(studies, file, units), report: write_report}
     return write_files(_exit_code(studies, resume), files)
 
 
-def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> list[tuple[str, str]]:
-    """Return what was asked for in words, by label."""
+def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Study]) -> list[tuple[str, str]]:
+    """Return what was asked for in words, by label; of steps and tolerances those that some run had."""
     from symgen.report.words import exact
     from symgen.study.comparison.compare import ATOL_SHARE, RTOLS, STEP_FACTORS
 
     own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
     constant = ", ".join(f"{exact(x)} s" for x in steps) or own
     relative = ", ".join(exact(x) for x in rtols or RTOLS)
-    return [("Steps", constant), ("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them")]
+    rows = [row for study in studies for row in study.rows]
+    found = [("Steps", constant)] if any(row.step is not None for row in rows) else []
+    if any(row.rtol is not None for row in rows):
+        found.append(("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"))
+    return found
 
 
 def _exit_code(studies: list[Study], kept: str | None) -> int:

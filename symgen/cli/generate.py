@@ -21,7 +21,7 @@ from symgen.ir.program import PART, TARGETS
     short_help="Write the emitted code of a mechanism.",
 )
 @click.argument("model")
-@click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All unless given.")
+@click.option("--method", "methods", multiple=True, help="Method to emit; may be repeated. All by default.")
 @setting_options("options", "coordinates", text={"options": "Such as direct-correction.weight=mass."})
 @click.option(
     "--shape",
@@ -37,7 +37,7 @@ from symgen.ir.program import PART, TARGETS
     show_default=True,
     help="What the code is for: processors, or device functions for CUDA.",
 )
-@click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name unless given.")
+@click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name by default.")
 @json_option
 def command(
     model: str,

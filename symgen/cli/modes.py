@@ -72,8 +72,10 @@ def _show(found: Modes, most: int = 40) -> None:
     from rich.table import Table
 
     from symgen.cli._tables import console
+    from symgen.report.words import counted
 
-    click.echo(f"{found.degrees_of_freedom} degrees of freedom; {len(found.eigenvalues)} eigenvalues")
+    freedom, many = found.degrees_of_freedom, len(found.eigenvalues)
+    click.echo(f"{counted(freedom, 'degree')} of freedom; {counted(many, 'eigenvalue')}")
     table = Table(box=None, header_style="dim", pad_edge=False)
     tables = {"moves": found.participation, "stiffness by": found.stiffening, "damping by": found.dissipation}
     tables = {heading: parts for heading, parts in tables.items() if parts}

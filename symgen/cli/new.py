@@ -16,7 +16,7 @@ from symgen.cli._options import examples
     short_help="Write a commented mechanism file to start from.",
 )
 @click.argument("name")
-@click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml unless given, - for standard output.")
+@click.option("-o", "--output", metavar="FILE", help="File to write; NAME.toml by default, - for standard output.")
 @click.option(
     "--space",
     type=click.Choice(["planar", "spatial"]),

@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     short_help="Find where methods stop being stable: stiff and extreme cases.",
 )
 @click.argument("models", metavar="[MODEL...]", nargs=-1)
-@click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all unless given.")
-@click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto unless given.")
+@click.option("--cases", metavar="A,B", help="Families of cases, such as stiffness,mass-ratio; all by default.")
+@click.option("--methods", metavar="A,B", help="Methods, auto among them; all and auto by default.")
 @click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
 @click.option("--catalogue", is_flag=True, help="Take every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
@@ -53,7 +53,7 @@ def command(
     as_json: bool,
     **limits: Any,
 ) -> int:
-    """Run every method on stiff and extreme cases made of each MODEL (four-bar unless given).
+    """Run every method on stiff and extreme cases made of each MODEL (four-bar by default).
 
     Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C keeps
     the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success

@@ -32,10 +32,10 @@ class EventSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         happens when it becomes true. Or an expression: it happens where this passes through zero.
     direction : str
         ``"rising"``, ``"falling"`` or ``"any"``: through zero upwards, downwards, or both, which is so for an
-        expression unless given. A condition rises when it becomes true, which is meant unless given.
+        expression by default. A condition rises when it becomes true, which is meant by default.
     action : str
         ``"record"``: time and state are noted; ``"stop"``: the run ends there; ``"reset"``: velocities change.
-        Recorded unless given.
+        Recorded by default.
     reset : table
         New velocities as expressions of those before, such as ``{ "ball.vy" = "-0.7*ball.vy" }``. All other velocities
         change as an impulse in these and in the joints makes them.

@@ -62,7 +62,7 @@ def data_of(where: str, value: object) -> Data | None:
         The input, for the message.
     value : object
         ``"FILE.csv:COLUMN"`` or ``"FILE.csv:COLUMN:INTERPOLATION"``; a pair of times and values; or a mapping with the
-        keys ``t`` and ``u``, or ``file`` and ``column``, and with ``interpolation``, which is linear unless given.
+        keys ``t`` and ``u``, or ``file`` and ``column``, and with ``interpolation``, which is linear by default.
 
     Raises
     ------

@@ -114,7 +114,7 @@ def parse_toml(text: str, source: str) -> dict[str, Any]:
         raw = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, ValueError) as error:
         slip = str(error)
-        raise InputError(source, "a TOML file", f"a slip: {slip[:1].lower() + slip[1:]}") from None
+        raise InputError(source, "a TOML file", f"a syntax error: {slip[:1].lower() + slip[1:]}") from None
     except (RecursionError, MemoryError):
         raise too_deep(source) from None
     check_values(raw, source)

@@ -135,7 +135,7 @@ class _Reader:
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
-            raise self.fail(f"{quoted(text)}, which breaks off or has a slip{near}") from None
+            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}") from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep() from None
         condition = conditions and _is_condition(tree.body)

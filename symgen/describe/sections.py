@@ -33,7 +33,7 @@ class MechanismSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
     space : str
         ``"planar"`` or ``"spatial"``.
     gravity : vector
-        Gravitational acceleration in the ground frame [m/s^2]; none unless given.
+        Gravitational acceleration in the ground frame [m/s^2]; none by default.
     """
 
     name: Text
@@ -140,7 +140,7 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     closed : bool
         Whether a polyline is an area.
     at : point
-        Middle of a box, cylinder or sphere; the centre of mass unless given.
+        Middle of a box, cylinder or sphere; the centre of mass by default.
     size : vector
         Edges of a box along the body's axes [m].
     radius : scalar
@@ -148,9 +148,9 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     length : scalar
         Of a cylinder in space [m]; in the plane it is seen from its end.
     axis : vector
-        Direction of a cylinder in space; z unless given.
+        Direction of a cylinder in space; z by default.
     colour : str
-        ``"#rrggbb"``; one of its own for each body unless given.
+        ``"#rrggbb"``; one of its own for each body by default.
     """
 
     type: Literal["polyline", "box", "cylinder", "sphere"]
@@ -176,7 +176,7 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     inertia : scalar
         About the centre of mass [kg m^2], above 0.
     centre_of_mass : vector
-        In the body's frame [m]; its origin unless given.
+        In the body's frame [m]; its origin by default.
     points : table
         Named points in the body's frame [m].
     position : vector
@@ -184,14 +184,14 @@ class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     angle : scalar
         How far the body's frame is turned at the start [rad].
     velocity : vector
-        Of the centre of mass at the start [m/s]; completed by assembly unless given.
+        Of the centre of mass at the start [m/s]; completed by assembly by default.
     angular_velocity : scalar
-        At the start [rad/s]; completed by assembly unless given.
+        At the start [rad/s]; completed by assembly by default.
     hold : bool, str or list of str
         Which of the described ``"position"`` (of the centre of mass), ``"angle"`` and ``"velocity"`` (both of them)
         assembly keeps while it moves everything else; all that are given where it is true.
     shape : table, or list of tables
-        What the body looks like in pictures; bars and plates through its points unless given.
+        What the body looks like in pictures; bars and plates through its points by default.
     """
 
     type: Literal["rigid", "point"] = "rigid"
@@ -249,26 +249,26 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
         Tensor [kg m^2] as ``[Ixx, Iyy, Izz]``, with products ``[..., Ixy, Ixz, Iyz]`` or as a matrix; the products are
         entries of the tensor, Ixy = - integral of x y dm.
     inertia_at : point
-        The point that `inertia` refers to; the centre of mass unless given.
+        The point that `inertia` refers to; the centre of mass by default.
     inertia_axes : table
-        How the axes of `inertia` are turned against the body's frame, in numbers; not at all unless given.
+        How the axes of `inertia` are turned against the body's frame, in numbers; not at all by default.
     centre_of_mass : vector
-        In the body's frame [m]; its origin unless given.
+        In the body's frame [m]; its origin by default.
     points : table
         Named points in the body's frame [m].
     position : vector
         Where the origin of the body's frame starts [m]; approximately, as assembly closes the mechanism.
     orientation : table
-        How the body's frame is turned at the start; not at all unless given.
+        How the body's frame is turned at the start; not at all by default.
     velocity : vector
-        Of the centre of mass at the start, in ground axes [m/s]; completed by assembly unless given.
+        Of the centre of mass at the start, in ground axes [m/s]; completed by assembly by default.
     angular_velocity : vector
-        At the start, in body axes [rad/s]; completed by assembly unless given.
+        At the start, in body axes [rad/s]; completed by assembly by default.
     hold : bool, str or list of str
         Which of the described ``"position"`` (of the centre of mass), ``"angle"`` (the orientation) and ``"velocity"``
         (both of them) assembly keeps while it moves everything else; all that are given where it is true.
     shape : table, or list of tables
-        What the body looks like in pictures; bars and plates through its points unless given.
+        What the body looks like in pictures; bars and plates through its points by default.
     """
 
     type: Literal["rigid", "point"] = "rigid"

@@ -40,7 +40,7 @@ _PLANAR = """\
 name = "NAME"
 title = "A rod on a pin, with a damper and a motor"
 space = "planar"
-gravity = [0.0, -9.81]                    # none unless given
+gravity = [0.0, -9.81]                    # none by default
 # source = "where the data come from"
 
 [run]                                     # what a run uses where nothing else is asked for [s]
@@ -67,7 +67,7 @@ damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
 [bodies.rod]
 mass = "rod_mass"
 inertia = "rod_mass*rod_length**2/12"     # about the centre of mass
-# centre_of_mass = [0.0, 0.0]             # in the body's frame; its origin unless given
+# centre_of_mass = [0.0, 0.0]             # in the body's frame; its origin by default
 points = { top = ["-rod_length/2", 0.0], tip = ["rod_length/2", 0.0] }
 position = ["rod_length/2", 0.0]          # where the frame's origin starts; approximately: assembly closes the joints
 angle = 0.0                               # how far the frame is turned
@@ -114,7 +114,7 @@ _SPATIAL = """\
 name = "NAME"
 title = "An arm that a motor turns, with a rod on a pin"
 space = "spatial"
-gravity = [0.0, 0.0, -9.81]               # none unless given
+gravity = [0.0, 0.0, -9.81]               # none by default
 # source = "where the data come from"
 
 [run]                                     # what a run uses where nothing else is asked for [s]
@@ -142,7 +142,7 @@ damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
 mass = 2.0
 inertia = [0.02, 0.05, 0.06]              # tensor about the centre of mass; or six numbers, or three rows
 # inertia_at = "centre"                   # another point that it refers to
-# centre_of_mass = [0.0, 0.0, 0.0]        # in the body's frame; its origin unless given
+# centre_of_mass = [0.0, 0.0, 0.0]        # in the body's frame; its origin by default
 points = { end = [0.3, 0.0, 0.0] }
 angular_velocity = [0.0, 0.0, 1.0]        # in body axes; left out: completed from the other velocities
 

@@ -40,7 +40,7 @@ def build_scene(
         Any.
     q : array, shape (nq,) or (k, nq), optional
         Coordinates of all bodies; symbols are laid out for the first, guides long enough for all. The described start
-        unless given, which may be open.
+        by default, which may be open.
     values : mapping of str to float, optional
         Parameters that differ from the described ones.
     open_joints : sequence of str

@@ -68,11 +68,11 @@ class Drawing:
     view : View
         From where it is seen, where it is spatial.
     ghosts : tuple of tuple of float
-        Other positions that are drawn faintly behind, the first one faintest; none unless given.
+        Other positions that are drawn faintly behind, the first one faintest; none by default.
     paths : tuple of tuple of Point
         Lines of the ground frame behind everything, such as the ways of points.
     labels : bool or None
-        Whether bodies have their names beside them; where they are few unless given.
+        Whether bodies have their names beside them; where they are few by default.
     caption : str
         A sentence below the picture.
     """

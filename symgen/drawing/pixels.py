@@ -33,7 +33,7 @@ def write_pixels(
     drawn, behind : sequence of Drawn
         The scene on paper, and what stands faintly behind it.
     labels : bool, optional
-        Whether bodies have their names beside them; where they are few unless given.
+        Whether bodies have their names beside them; where they are few by default.
     caption : str
         A sentence below the picture.
     """

@@ -30,7 +30,7 @@ def sketch(
     mechanism : Mechanism
         Any.
     q : array, shape (nq,), optional
-        Coordinates of all bodies; the described start unless given, which may be open.
+        Coordinates of all bodies; the described start by default, which may be open.
     values : mapping of str to float, optional
         Parameters that differ from the described ones.
     open_joints : sequence of str
@@ -38,7 +38,7 @@ def sketch(
     view : View, optional
         From where a spatial mechanism is seen.
     labels : bool, optional
-        Whether bodies have their names beside them; where they are few unless given.
+        Whether bodies have their names beside them; where they are few by default.
     caption : str
         A sentence below the picture.
 

@@ -35,7 +35,7 @@ def svg(
     behind : sequence of Drawn
         What stands faintly behind it.
     labels : bool, optional
-        Whether bodies have their names beside them; where they are few unless given.
+        Whether bodies have their names beside them; where they are few by default.
     caption : str
         A sentence below the picture.
     """

@@ -26,13 +26,13 @@ class Bushing(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     at : pair of points
         The origins of the two frames.
     axis, reference : direction, or pairs of directions
-        z and x axis of the frames in the bodies' frames; the first body's own axes unless given. They coincide where
-        the bushing is unloaded: as the bodies start unless given for each body.
+        z and x axis of the frames in the bodies' frames; the first body's own axes by default. They coincide where
+        the bushing is unloaded: as the bodies start, or for each body as given.
     stiffness : list of 6 or six rows
         Diagonal or whole of a symmetric matrix: [N/m] for translations, [N m/rad] for rotations, [N/rad] between the
-        two; 0 unless given.
+        two; 0 by default.
     damping : list of 6 or six rows
-        The same for the rates [N s/m], [N m s/rad], [N s/rad]; 0 unless given.
+        The same for the rates [N s/m], [N m s/rad], [N s/rad]; 0 by default.
 
     Notes
     -----

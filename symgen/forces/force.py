@@ -21,7 +21,7 @@ class Force(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     body : body name
         The body.
     at : point
-        Where it acts; the centre of mass unless given.
+        Where it acts; the centre of mass by default.
     force : vector of functions of state
         Components [N], in space three; expressions of t, parameters and body coordinates.
     frame : str

@@ -23,9 +23,9 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     at : pair of points
         The ends, a point of each body; singular where they meet.
     stiffness, damping : scalar
-        [N/m] and [N s/m]; 0 unless given.
+        [N/m] and [N s/m]; 0 by default.
     free_length : scalar
-        Length of the unloaded spring [m]; 0 unless given.
+        Length of the unloaded spring [m]; 0 by default.
     actuator : function of state
         Force that pushes the ends apart [N]; may use ``length`` [m] and ``rate`` [m/s] besides t, parameters and body
         coordinates.

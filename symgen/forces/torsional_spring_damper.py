@@ -25,9 +25,9 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     coordinate : str
         In space: which angle of the joint, where it has several.
     stiffness, damping : scalar
-        [N m/rad] and [N m s/rad]; 0 unless given.
+        [N m/rad] and [N m s/rad]; 0 by default.
     free_angle : scalar
-        Angle of the unloaded spring [rad]; 0 unless given.
+        Angle of the unloaded spring [rad]; 0 by default.
     actuator : function of state
         Further torque on the second body [N m]; may use ``angle`` [rad] and ``rate`` [rad/s] besides t, parameters and
         body coordinates.

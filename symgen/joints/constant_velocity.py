@@ -27,7 +27,7 @@ class ConstantVelocity(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown
         Of the shafts: in the first body's frame, where they start in line, or of each in the frame of its body. Both
         point the same way through the joint.
     reference : pair of directions
-        Directions across the shafts that coincide where these are in line; as the bodies start unless given.
+        Directions across the shafts that coincide where these are in line; as the bodies start by default.
 
     Notes
     -----

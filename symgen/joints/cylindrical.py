@@ -25,7 +25,7 @@ class Cylindrical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     axis : direction, or pair of directions
         The axis in the first body's frame, or in the frame of each body.
     reference : pair of directions
-        Directions across the axis that coincide at angle 0; as the bodies start unless given.
+        Directions across the axis that coincide at angle 0; as the bodies start by default.
 
     Notes
     -----

@@ -24,7 +24,7 @@ class Driver(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     body : body name
         The body that is driven, instead of a joint.
     point : point
-        The point of `body` that is driven; its centre of mass unless given.
+        The point of `body` that is driven; its centre of mass by default.
     coordinate : str
         Of a body ``"x"``, ``"y"`` or ``"theta"``, in space ``"x"``, ``"y"`` or ``"z"``; of a joint the one it reports,
         unless it reports several.

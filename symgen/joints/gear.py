@@ -24,7 +24,7 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     between : pair of body names
         In the plane: the wheels.
     carrier : body name
-        In the plane: the body that holds both axes; the ground unless given.
+        In the plane: the body that holds both axes; the ground by default.
     joints : pair of joint names
         In space: the joints that hold the wheels, r_a angle_a + r_b angle_b = offset.
     coordinates : pair of str
@@ -36,7 +36,7 @@ class Gear(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True
     mesh : str
         ``"external"``, or ``"internal"`` where one wheel is a ring: the second term then has the opposite sign.
     offset : scalar
-        The constant [m with radii, rad with a ratio]; 0 unless given.
+        The constant [m with radii, rad with a ratio]; 0 by default.
 
     Notes
     -----

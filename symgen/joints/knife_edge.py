@@ -30,14 +30,14 @@ class KnifeEdge(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
     body : body name
         The body with the blade.
     at : point
-        Where the blade touches; the centre of mass unless given.
+        Where the blade touches; the centre of mass by default.
     axis : direction
         Of the blade, in the body's frame; its length does not matter.
     normal : direction
         In space: normal of the plane of the ground that the blade stands on, in the ground frame; its length does not
         matter.
     on : point
-        In space: a point of that plane; the origin unless given.
+        In space: a point of that plane; the origin by default.
 
     Notes
     -----

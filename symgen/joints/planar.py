@@ -25,7 +25,7 @@ class Planar(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tr
     normal : direction, or pair of directions
         Normal of the plane in the first body's frame, or of each plane in the frame of its body.
     reference : pair of directions
-        Directions in the planes that coincide at angle 0; as the bodies start unless given.
+        Directions in the planes that coincide at angle 0; as the bodies start by default.
 
     Notes
     -----

@@ -29,7 +29,7 @@ class RackAndPinion(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     radius : scalar
         Pitch radius of the pinion [m]; negative where the rack runs backwards.
     offset : scalar
-        The constant in displacement = radius angle + offset [m]; 0 unless given.
+        The constant in displacement = radius angle + offset [m]; 0 by default.
 
     Notes
     -----

@@ -25,7 +25,7 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
     axis : direction, or pair of directions
         In space: the axis in the first body's frame, or in the frame of each body.
     reference : pair of directions
-        In space: directions across the axis that coincide at angle 0; as the bodies start unless given.
+        In space: directions across the axis that coincide at angle 0; as the bodies start by default.
 
     Notes
     -----

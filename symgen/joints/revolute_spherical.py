@@ -26,7 +26,7 @@ class RevoluteSpherical(msgspec.Struct, frozen=True, kw_only=True, forbid_unknow
     length : scalar
         Of the link [m], above 0.
     reference : direction
-        Where the link points at angle 0, in the frame of the first body; a direction across the axis unless given.
+        Where the link points at angle 0, in the frame of the first body; a direction across the axis by default.
 
     Notes
     -----

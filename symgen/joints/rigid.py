@@ -23,7 +23,7 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     at : pair of points
         The weld, as a point of the first and of the second body.
     angle : scalar
-        In the plane: angle of the second body less that of the first [rad]; 0 unless given.
+        In the plane: angle of the second body less that of the first [rad]; 0 by default.
     axis, reference : direction, or pairs of directions
         In space: two directions of each body that coincide, the second across the first; as the bodies start unless
         given.

@@ -25,11 +25,11 @@ class Rolling(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=T
     axis : pair
         Direction of the line in the frame of the second body; the disc is on its left. The length does not matter.
     centre : point
-        Of the disc, on the first body; its centre of mass unless given.
+        Of the disc, on the first body; its centre of mass by default.
     on : point
         A point of the line, on the second body.
     offset : scalar
-        The constant in displacement + radius (theta_disc - theta_line) = offset [m]; 0 unless given.
+        The constant in displacement + radius (theta_disc - theta_line) = offset [m]; 0 by default.
 
     Notes
     -----

@@ -26,13 +26,13 @@ class RollingDisc(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fiel
     axis : direction
         The disc's axis of symmetry in the body's frame; its length does not matter.
     centre : point
-        Of the disc; the body's centre of mass unless given.
+        Of the disc; the body's centre of mass by default.
     normal : direction
         Normal of the plane in the ground frame, towards the disc; its length does not matter.
     on : point
-        A point of the plane, in the ground frame; the origin unless given.
+        A point of the plane, in the ground frame; the origin by default.
     reference : direction
-        First direction in the plane; any across the normal unless given.
+        First direction in the plane; any across the normal by default.
 
     Notes
     -----

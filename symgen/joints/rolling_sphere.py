@@ -24,13 +24,13 @@ class RollingSphere(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
     radius : scalar
         Of the sphere [m], above 0.
     centre : point
-        Of the sphere; the body's centre of mass unless given.
+        Of the sphere; the body's centre of mass by default.
     normal : direction
         Normal of the plane in the ground frame, towards the sphere; its length does not matter.
     on : point
-        A point of the plane, in the ground frame; the origin unless given.
+        A point of the plane, in the ground frame; the origin by default.
     reference : direction
-        First direction in the plane; any across the normal unless given.
+        First direction in the plane; any across the normal by default.
 
     Notes
     -----

@@ -29,9 +29,9 @@ class Screw(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
     pitch : scalar
         Displacement along the axis a turn [m]; a left-handed thread has a negative one.
     offset : scalar
-        Displacement at angle 0 [m]; 0 unless given.
+        Displacement at angle 0 [m]; 0 by default.
     reference : pair of directions
-        Directions across the axis that coincide at angle 0; as the bodies start unless given.
+        Directions across the axis that coincide at angle 0; as the bodies start by default.
 
     Notes
     -----

@@ -26,9 +26,9 @@ class Translational(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
         Direction of the slide in the frame of the first body, in space also one in the frame of each body; lengths do
         not matter.
     angle : scalar
-        In the plane: angle of the second body less that of the first [rad]; 0 unless given.
+        In the plane: angle of the second body less that of the first [rad]; 0 by default.
     reference : pair of directions
-        In space: directions across the axis that coincide; as the bodies start unless given.
+        In space: directions across the axis that coincide; as the bodies start by default.
 
     Notes
     -----

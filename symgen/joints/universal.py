@@ -27,7 +27,7 @@ class Universal(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields
         The first body's axis of the cross in the first body's frame, and the second body's in the second's.
     reference : pair of directions
         Where the second axis lies in the first body's frame at ``angle1`` 0, and the first axis in the second body's
-        frame at ``angle2`` 0; as the bodies start unless given.
+        frame at ``angle2`` 0; as the bodies start by default.
 
     Notes
     -----

@@ -122,7 +122,7 @@ class Descriptor:
     target : Vector, optional
         g of the acceleration level.
     compliance : Scalar, optional
-        e of the acceleration level; 0 unless given.
+        e of the acceleration level; 0 by default.
     """
 
     level: str

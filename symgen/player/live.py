@@ -11,6 +11,7 @@ import numpy as np
 from symgen.describe.derived import derived
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
+from symgen.drawing.scene import Array
 from symgen.native.javascript import HELPERS, javascript
 from symgen.native.read import Foreign
 from symgen.player.formulas import Lines, NotInPages, Script
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 #: Characters of emitted code that a page holds at most, in the plane and in space, and what these are in operations.
 MOST = {False: 76_000, True: 270_000}
 A_OPERATION = 24
+
+#: How a page says that it has none.
+NONE = "the page has no live part"
 
 #: Sections of the scratch that a start finds and evaluations do not.
 _KEPT = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
@@ -54,7 +58,9 @@ class Live:
     spec: Mapping[str, Any]
 
 
-def live_part(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float) -> tuple[Live | None, str]:
+def live_part(
+    mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, begun: Array | None = None
+) -> tuple[Live | None, str]:
     """Return the live part of a page, or None and why there is none.
 
     Parameters
@@ -67,26 +73,31 @@ def live_part(mechanism: Mechanism, compiled: CompiledModel, start: Start, step:
         Where the motion begins.
     step : float
         Of the Runge-Kutta method [s].
+    begun : Array, shape (nq + nv,), optional
+        Coordinates and velocities of bodies that the motion was begun with, where these are not the described ones.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
     if compiled.shape != "straight":
-        return None, "the page has no live part: the code of this run is looped"
+        return None, f"{NONE}: the code of this run is looped"
     operations = sum(law.operations.get(name, 0) for name in ("rhs", "refactor", "spread"))
     limit = MOST[spatial] // A_OPERATION
     if operations > limit:
-        return None, f"the page has no live part: {operations} operations are more than the {limit} it may have"
+        where = "in space" if spatial else "in the plane"
+        fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
+        return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
     try:
         code = emitted(compiled)
     except Foreign as error:
-        return None, f"the page has no live part: its code has {error}"
+        return None, f"{NONE}: its code has {error}"
     if len(code) > MOST[spatial]:
-        return None, f"the page has no live part: {len(code)} characters are more than the {MOST[spatial]} it may have"
+        return None, f"{NONE}: {len(code)} characters are more than the {MOST[spatial]} that a page may have"
     joint = "function bodies(" in code
+    told = None if joint or begun is None or np.array_equal(begun, start.y[: len(begun)]) else begun
     try:
-        script = _script(mechanism, joint)
+        script = _script(mechanism, joint, told)
     except NotInPages:
-        return None, "the page has no live part: a formula of the start is not one that pages know"
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint)), ""
+        return None, f"{NONE}: a formula of the start is not one that pages know"
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told)), ""
 
 
 def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]:
@@ -138,8 +149,8 @@ def emitted(compiled: CompiledModel, names: Container[str] = (*_LAW, *_MODEL)) -
     return javascript(wanted)
 
 
-def _script(mechanism: Mechanism, joint: bool) -> str:
-    """Return what follows from parameters: derived ones, and the described start."""
+def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
+    """Return what follows from parameters: derived ones, and the start, described or begun with."""
     places = {p.name: f"p[{i}]" for i, p in enumerate(mechanism.parameters)}
     formulas = []
     for name, expression in derived(mechanism.parameters):
@@ -151,6 +162,11 @@ def _script(mechanism: Mechanism, joint: bool) -> str:
     text = "function derive(p, given) {\n" + "\n".join(formulas) + "\n}\n"
     if joint:
         return text + "const describe = null;\n"
+    if begun is not None:
+        nq = sum(len(b.coordinates) for b in mechanism.bodies)
+        numbers = [repr(float(x)) for x in begun]
+        told = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
+        return f"{text}function describe(p) {{ return {{ {told} }}; }}\n"
     lines = Lines(places)
     q, v = described_start(mechanism, lines)
     own = {h.name: h.value for h in holds_of(mechanism)}
@@ -192,7 +208,9 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
     }
 
 
-def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool) -> dict[str, Any]:
+def _spec(
+    mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool, begun: Array | None
+) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
@@ -219,7 +237,7 @@ def _spec(mechanism: Mechanism, compiled: CompiledModel, start: Start, step: flo
             for told, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
-        "fixed": [] if joint else _fixed(mechanism, compiled),
+        "fixed": [] if joint or begun is not None else _fixed(mechanism, compiled),
         "step": step,
     }
 

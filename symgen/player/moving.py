@@ -1,10 +1,17 @@
-"""Motions as GIF, through matplotlib and Pillow, which are imported only here."""
+"""Motions as GIF or MP4, through matplotlib and Pillow, which are imported only here, and ffmpeg."""
 
 from __future__ import annotations
 
 import io
+import itertools
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -16,28 +23,42 @@ from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.recording import Recording
 
-#: Frames at most, and how many a second.
-MOST, RATE = 150, 25
+if TYPE_CHECKING:
+    from PIL import Image
+
+#: Kinds of films.
+ENDINGS = (".gif", ".mp4")
+#: Pictures of a GIF and of an MP4 at most, and how many a second.
+MOST, MOST_OF_FILM, RATE = 150, 1500, 25
 #: Pixels an inch.
 DPI = 80.0
 
 
-def check_gif(where: str, path: Path) -> None:
-    """Refuse a GIF that could not be written, before anything is computed for it.
+def is_film(path: Path) -> bool:
+    """Whether the ending of a file is that of a film."""
+    return path.suffix.lower() in ENDINGS
+
+
+def check_film(where: str, path: Path) -> None:
+    """Refuse a film that could not be written, before anything is computed for it.
 
     Raises
     ------
     InputError
-        If a library is missing or the file cannot be written.
+        If a library or, for MP4, ffmpeg is missing, or the file cannot be written.
     """
     for library in ("matplotlib", "PIL"):
         if find_spec(library) is None:
             raise InputError(where, f"the library {library}", "none", "pip install 'symgen[plot]' installs it")
+    if path.suffix.lower() == ".mp4" and shutil.which("ffmpeg") is None:
+        raise InputError(where, "the program ffmpeg, which makes films of pictures", "none", "a .gif needs none")
     check_writable(where, path)
 
 
-def write_gif(path: Path, recording: Recording) -> Path:
-    """Write a motion as a GIF at its own pace, with fewer pictures where it takes longer than six seconds.
+def write_film(path: Path, recording: Recording) -> Path:
+    """Write a motion as a film at its own pace, as GIF or MP4 by the ending of its name.
+
+    A GIF has at most 150 pictures, an MP4 1500: of longer motions there are fewer a second.
 
     Parameters
     ----------
@@ -45,29 +66,69 @@ def write_gif(path: Path, recording: Recording) -> Path:
         The file.
     recording : Recording
         What moves.
+
+    Raises
+    ------
+    InputError
+        If ffmpeg fails.
     """
+    span = float(recording.t[-1] - recording.t[0])
+    film = path.suffix.lower() == ".mp4"
+    count = int(min(MOST_OF_FILM if film else MOST, max(2, round(span * RATE)), len(recording.t)))
+    pause = max(20.0, 1000.0 * span / count)
+    pictures = _pictures(recording, count)
+    if film:
+        return write_whole(path, lambda file: file.write(_encoded(pictures, 1000.0 / pause)))
+    from PIL import Image
+
+    frames = [picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=64) for picture in pictures]
+
+    def write(file: io.BytesIO) -> None:
+        frames[0].save(file, format="GIF", save_all=True, append_images=frames[1:], duration=round(pause), loop=0)
+
+    return write_whole(path, write)
+
+
+def _pictures(recording: Recording, count: int) -> Iterator[Image.Image]:
+    """Yield pictures of one size, evenly spread over the motion."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg as Canvas
     from matplotlib.figure import Figure
     from PIL import Image
 
     scene = build_scene(recording.mechanism, recording.q, recording.values)
-    span = float(recording.t[-1] - recording.t[0])
-    count = int(min(MOST, max(2, round(span * RATE)), len(recording.t)))
     times = np.linspace(recording.t[0], recording.t[-1], count)
     rows = [recording.q[int(np.argmin(np.abs(recording.t - time)))] for time in times]
     pages = [on_paper(scene, row, View()) for row in rows]
     everything: list[Drawn] = [each for drawn in pages for each in drawn]
     frame = fitted(everything)
-    pictures = []
     for drawn in pages:
-        stream = io.BytesIO()
         figure = Figure(dpi=DPI)
+        canvas: Any = Canvas(figure)  # its methods have no types
         paint(figure, frame, drawn)
-        figure.savefig(stream, format="png", dpi=DPI)
-        stream.seek(0)
-        pictures.append(Image.open(stream).convert("P", palette=Image.Palette.ADAPTIVE, colors=64))
-    pause = round(max(20.0, 1000.0 * span / count))
+        canvas.draw()
+        yield Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB")
 
-    def write(file: io.BytesIO) -> None:
-        pictures[0].save(file, format="GIF", save_all=True, append_images=pictures[1:], duration=pause, loop=0)
 
-    return write_whole(path, write)
+def _encoded(pictures: Iterator[Image.Image], rate: float) -> bytes:
+    """Return pictures as MP4; sizes are even, as most players want them."""
+    first = next(pictures)
+    size = f"{first.width}x{first.height}"
+    even = "crop=trunc(iw/2)*2:trunc(ih/2)*2"
+    with tempfile.TemporaryDirectory(prefix="symgen-film-") as folder:
+        path = Path(folder) / "film.mp4"
+        given = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", f"{rate:.6g}", "-i", "-"]
+        kind = ["-vf", even, "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-bitexact", str(path)]
+        command = ["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", *given, *kind]
+        with tempfile.TemporaryFile() as said:
+            process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=said, stderr=said)
+            assert process.stdin is not None
+            with suppress(BrokenPipeError):  # it has said why
+                for picture in itertools.chain([first], pictures):
+                    process.stdin.write(picture.tobytes())
+            with suppress(BrokenPipeError):
+                process.stdin.close()
+            if process.wait() or not path.is_file():
+                said.seek(0)
+                why = " ".join(said.read().decode(errors="replace").split())[:200]
+                raise InputError("film", "ffmpeg to make an MP4", f"its error: {why or 'none told'}")
+        return path.read_bytes()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 from functools import lru_cache
@@ -17,17 +18,21 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Dot, Line, Look, Mark, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import Array, Dot, Item, Line, Look, Mark, Point, Poses, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
-from symgen.player.recording import Recording, frames_within, packed
+from symgen.player.recording import Recording, fitted, frames_within, packed, shorts
 
 #: Largest page in the plane and in space [characters]; what a page holds beside its data is taken off.
-LARGEST = {False: 147_000, True: 480_000}
+LARGEST = {False: 145_000, True: 480_000}
 #: Characters for data at most.
 MOST_DATA = {False: 60_000, True: 150_000}
-SCRIPTS = ("draw.js", "plots.js", "player.js")
+#: How a page says that it has no forces.
+BARE = "forces are left out, as the page would be too large with them"
+#: Joints that hold two points together.
+PINS = ("revolute", "spherical", "universal", "constant-velocity", "rigid")
+SCRIPTS = {False: ("draw.js", "plots.js", "player.js"), True: ("solid.js", "draw.js", "plots.js", "player.js")}
 
 
 @lru_cache(maxsize=8)
@@ -66,16 +71,39 @@ def page(recording: Recording, live: Live | None = None, note: str = "", second:
         "live": None if live is None else live.spec,
         "note": note,
     }
-    script = _script(live)
+    script = _script(live, spatial)
     held = len(_web("page.html")) + len(_web("style.css")) + len(script) + len(_json(data))
     room = min(MOST_DATA[spatial], LARGEST[spatial] - held)
     motions = [recording] if second is None else [recording, second]
-    data["motions"] = [packed(each, frames_within(each, room // len(motions))) for each in motions]
+    share = room // len(motions)
+    pins = [item for item in scene.items if item.role == "joint" and item.kind in PINS and len(item.ends) == 2]
+    data["motions"] = []
+    for each in motions:
+        kept, coarse = fitted(each, share, len(pins))
+        if kept is not each and not data["note"].endswith(BARE):
+            data["note"] = f"{data['note']}; {BARE}" if data["note"] else BARE
+        keep = frames_within(kept, share, coarse, len(pins))
+        data["motions"].append(packed(kept, keep, coarse) | _gaps(scene, pins, kept.q[keep]))
     text = _web("page.html")
     parts = {"TITLE": escape(data["title"]), "STYLE": _web("style.css"), "DATA": _json(data), "SCRIPT": script}
     for name, part in parts.items():
         text = text.replace(f"<!--{name}-->", part, 1) if name != "TITLE" else text.replace("<!--TITLE-->", part)
     return text
+
+
+def _gaps(scene: Scene, held: list[Item], q: Array) -> dict[str, Any]:
+    """Return how far the points are apart that joints hold together, as powers of ten: 32 bits would not tell."""
+    if not held:
+        return {}
+    places = np.empty((2, len(q), len(held), 3))
+    for row, coordinates in enumerate(q):
+        poses = Poses(scene.frames, coordinates, scene.spatial)
+        for side in (0, 1):
+            bodies, points = zip(*(item.ends[side] for item in held), strict=True)
+            turns, centres = poses.turns[list(bodies)], poses.centres[list(bodies)]
+            places[side, row] = centres + np.einsum("nij,nj->ni", turns, np.array(points))
+    apart = np.linalg.norm(places[1] - places[0], axis=2)
+    return {"gaps": {"names": [item.name for item in held], **shorts(np.log10(np.maximum(apart, 1e-17)))}}
 
 
 def _json(data: Any) -> str:
@@ -84,8 +112,8 @@ def _json(data: Any) -> str:
     return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
 
 
-def _script(live: Live | None) -> str:
-    own = "".join(_web(name) for name in SCRIPTS)
+def _script(live: Live | None, spatial: bool) -> str:
+    own = "".join(_web(name) for name in SCRIPTS[spatial])
     if live is None:
         return f"(() => {{\n'use strict';\nconst emitted = null, makeLive = null;\n{own}}})();"
     wanted = "rhs accept geometry masses prepareModel prepareLaw derive describe".split()
@@ -106,23 +134,31 @@ def rates_script(live: Live) -> str:
 
 
 def scene_data(scene: Scene) -> dict[str, Any]:
-    """Return a scene as JSON has it: marks by letters, looks by number, lengths with six digits."""
+    """Return a scene as JSON has it: marks by letters, looks by number, points to a two-hundredth of a symbol."""
     looks: dict[Look, int] = {}
     size = 3 if scene.spatial else 2
+    grid = 10.0 ** math.floor(math.log10(scene.unit / 200.0))
 
     def point(p: Sequence[float]) -> list[float]:
-        return [float(f"{x:.6g}") for x in p[:size]]
+        near = [float(f"{round(x / grid) * grid:.9g}") for x in p[:size]]
+        return [int(x) if x == int(x) else x for x in near]
+
+    shared: dict[tuple[float, ...], int] = {}
+
+    def flat(points: Sequence[Point]) -> int:
+        """Return the number of a list of points; bodies that look alike share theirs."""
+        return shared.setdefault(tuple(x for p in points for x in point(p)), len(shared))
 
     def mark(m: Mark) -> list[Any]:
         look = looks.setdefault(m.look, len(looks))
         if isinstance(m, Line):
-            return ["L", look, m.body, int(m.closed), [x for p in m.points for x in point(p)]]
+            return ["L", look, m.body, int(m.closed), flat(m.points)]
         if isinstance(m, Dot):
             return ["D", look, m.body, point(m.at), float(f"{m.radius:.6g}"), int(m.mass)]
         if isinstance(m, Tube):
             return ["T", look, m.body, point(m.a), point(m.b), float(f"{m.radius:.6g}")]
         if isinstance(m, Solid):
-            return ["S", look, m.body, [[x for p in face for x in point(p)] for face in m.faces]]
+            return ["S", look, m.body, [flat(face) for face in m.faces]]
         assert isinstance(m, Stretch), "all kinds of marks are known"
         return ["X", look, m.kind, m.body, point(m.at), m.other, point(m.to)]
 
@@ -143,6 +179,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "unit": scene.unit,
         "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
         "looks": [list(astuple(look)) for look in looks],
+        "lists": [list(points) for points in shared],
         "items": items,
     }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Fewest and most frames of a page.
 FEWEST, MOST = 60, 1500
+#: Columns of one plot at most.
+LONGEST_KEY = 14
 
 
 @dataclass(frozen=True)
@@ -98,7 +100,45 @@ class Recording:
     moments: tuple[Moment, ...] = ()
 
 
-def frames_within(recording: Recording, room: int) -> Array:
+def position_groups(mechanism: Mechanism, q: Array) -> list[Group]:
+    """Return positions and angles of the first bodies over time."""
+    found = []
+    names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
+    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
+        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
+        if chosen:
+            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    return found
+
+
+def fitted(recording: Recording, room: int, further: int = 0) -> tuple[Recording, bool]:
+    """Return what a page holds of a recording, and whether its coordinates have 16 bits.
+
+    Where `FEWEST` frames are too many characters, coordinates have 16 bits instead of 32 between the smallest and the
+    largest value, and where that is not enough, forces are left out.
+
+    Parameters
+    ----------
+    recording : Recording
+        The motion.
+    room : int
+        Characters that all columns may take.
+    further : int
+        Columns of 16 bits beside those of the recording.
+    """
+    for found, coarse in ((recording, False), (recording, True)):
+        if FEWEST * _characters(found, coarse, further) <= room:
+            return found, coarse
+    return replace(recording, reactions=None, pushed=(), pulls=None, pulling=()), True
+
+
+def _characters(recording: Recording, coarse: bool, further: int) -> float:
+    """Return the characters of a frame."""
+    wide = sum((4 if exact and not coarse else 2) * int(part.shape[1]) for part, exact in _parts(recording))
+    return (wide + 2 * further) * 4 / 3
+
+
+def frames_within(recording: Recording, room: int, coarse: bool = False, further: int = 0) -> Array:
     """Return the indices of outputs that a page holds, evenly spread, as many as fit into a number of characters.
 
     Parameters
@@ -107,8 +147,12 @@ def frames_within(recording: Recording, room: int) -> Array:
         The motion.
     room : int
         Characters that all columns may take; at least `FEWEST` frames are taken in any case.
+    coarse : bool
+        Whether coordinates have 16 bits.
+    further : int
+        Columns of 16 bits beside those of the recording.
     """
-    a_frame = sum(4 * part.shape[1] if wide else 2 * part.shape[1] for part, wide in _parts(recording)) * 4 / 3
+    a_frame = _characters(recording, coarse, further)
     count = int(min(max(room / max(a_frame, 1.0), FEWEST), MOST, len(recording.t)))
     return np.unique(np.linspace(0, len(recording.t) - 1, count).round().astype(int))
 
@@ -125,11 +169,11 @@ def _parts(recording: Recording) -> Iterator[tuple[Array, bool]]:
             yield further.reshape(k, -1), False
 
 
-def packed(recording: Recording, keep: Array) -> dict[str, Any]:
+def packed(recording: Recording, keep: Array, coarse: bool = False) -> dict[str, Any]:
     """Return what a page reads of a recording; arrays are columns behind each other in base 64."""
     found: dict[str, Any] = {
         "t": floats(recording.t[keep, None]),
-        "q": floats(recording.q[keep]),
+        "q": shorts(recording.q[keep]) if coarse else floats(recording.q[keep]),
         "count": len(keep),
         "facts": [list(fact) for fact in recording.facts],
         "status": recording.status,

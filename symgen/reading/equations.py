@@ -239,8 +239,8 @@ class SymbolicEquations:
         Returns
         -------
         callable
-            Takes the time [s], sequences of q and v, of the parameters, with their values in the file unless given, and
-            of `turned`, all 0 unless given; gives what `names` say, a tuple where they are several.
+            Takes the time [s], sequences of q and v, of the parameters, with their values in the file by default, and
+            of `turned`, all 0 by default; gives what `names` say, a tuple where they are several.
         """
         import numpy as np
 

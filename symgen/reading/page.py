@@ -69,7 +69,7 @@ class Subject:
     values : mapping
         Values of the parameters.
     q : sequence of float, optional
-        Coordinates of bodies that are drawn; as described unless given.
+        Coordinates of bodies that are drawn; as described by default.
     facts : sequence of str
         Sentences about the start, and what was chosen.
     text : str

@@ -15,7 +15,7 @@ _FILLS = {"x": "#1f5fa8", "1": "#b9c7d8", "f": "#c4622d"}
 
 
 def of_jacobian(equations: Equations) -> dict[tuple[int, int], str]:
-    """Return the entries of D: ``x`` varies, ``1`` is a constant of the scene."""
+    """Return the entries of D: ``x`` varies, ``1`` is constant, of any value."""
     g = equations.graph
     return {(i, j): "x" if g.value(n) is None else "1" for i, r in enumerate(equations.rows) for j, n in r.entries}
 

@@ -197,9 +197,15 @@ def _costs(study: Study) -> str:
 
 
 def order(rows: Sequence[Row], estimated: float) -> float | None:
-    """Return the slope of error against step, both logarithmic, fitted over errors clear of the reference's own."""
+    """Return the slope of error against step, both logarithmic, fitted where errors fall as steps do.
+
+    Errors near the reference's own are left out, and those from where a smaller step has no smaller error, which
+    rounding has made.
+    """
     floor = CLEAR * estimated if math.isfinite(estimated) else 0.0
     good = [(r.step, r.error) for r in rows if r.ended and r.step and r.error and floor < r.error < 0.1]
+    good.sort(reverse=True)
+    good = good[: next((k for k in range(1, len(good)) if good[k][1] >= good[k - 1][1]), len(good))]
     if len(good) < 2:
         return None
     x, y = [math.log(s) for s, _ in good], [math.log(e) for _, e in good]

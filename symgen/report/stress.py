@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 from symgen.auto import AUTO
 from symgen.report import words
@@ -67,7 +68,7 @@ def stress_report(study: Stress, command: str = "", sketches: Mapping[str, str] 
         *_left_out(study),
         _cells_section(study),
     ]
-    title = f"Stiff and extreme cases: {words.listed(study.models)}"
+    title = f"Stiff and extreme cases: {words.listed([Path(model).stem for model in study.models])}"
     return Document(title, tuple(lead), facts, command, tuple(sections))
 
 

@@ -151,7 +151,7 @@ class Tables(ABC):
         path : path
             The file; its ending says the kind.
         what : sequence of str, optional
-            As `select` takes them; the first table unless given.
+            As `select` takes them; the first table by default.
         """
         from symgen.result.plots import by_unit, over_time, write_figure
 

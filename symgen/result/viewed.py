@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values
-from symgen.errors import InputError
-from symgen.player.live import Live, live_part
+from symgen.errors import AssemblyError, InputError
+from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
-from symgen.player.recording import Group, Moment, Recording
+from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
 from symgen.result.export import need
 from symgen.result.labelled import Array, Labelled
 
@@ -22,9 +23,6 @@ if TYPE_CHECKING:
 
     from symgen.describe.mechanism import Mechanism
     from symgen.result.result import Result
-
-#: Columns of one plot at most.
-LONGEST_KEY = 14
 
 
 def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
@@ -65,16 +63,21 @@ def recorded(result: Result) -> Recording:
     mechanism = result.measured.mechanism
     tables: dict[str, Labelled] = {"energy": result.energy, "violations": result.violations}
     tables |= {"reactions": result.reactions, "elements": result.elements, "outputs": result.outputs}
-    moments = [
-        Moment(e.t_in, e.t_out, "rank", f"rank {e.rank}, smallest pivot {e.smallest_pivot:.1e}")
-        for e in result.rank_events
-    ]
-    moments += [Moment(e.t, e.t, "event", e.name) for e in result.events]
+    moments = _moments([asdict(e) for e in result.rank_events], [(e.t, e.name) for e in result.events])
     facts = [("", result.method), ("", result.integrator), ("status", result.status)]
     if result.reason:
         facts.append(("", result.reason))
     values = parameter_values(mechanism) | dict(result.parameters)
     return _recording(mechanism, values, result.t, result.q.values, tables, facts, moments)
+
+
+def _moments(passages: Sequence[Mapping[str, Any]], events: Sequence[tuple[float, str]]) -> list[Moment]:
+    """Return passages near singular positions, and events."""
+    found = [
+        Moment(e["t_in"], e["t_out"], "rank", f"rank {e['rank']}, smallest pivot {e['smallest_pivot']:.1e}")
+        for e in passages
+    ]
+    return found + [Moment(t, t, "event", name) for t, name in events]
 
 
 def _recording(
@@ -120,11 +123,7 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
     for unit in dict.fromkeys(outputs.units):
         chosen = [i for i, u in enumerate(outputs.units) if u == unit][:LONGEST_KEY]
         found.append(Group("outputs", unit, tuple(outputs.names[i] for i in chosen), outputs.values[:, chosen]))
-    names = [(f"{b.name}.{c}", c) for b in mechanism.bodies for c in b.coordinates]
-    for title, unit, wanted in (("position", "m", ("x", "y", "z")), ("angle", "rad", ("theta",))):
-        chosen = [i for i, (_, c) in enumerate(names) if c in wanted][:LONGEST_KEY]
-        if chosen:
-            found.append(Group(title, unit, tuple(names[i][0] for i in chosen), q[:, chosen]))
+    found += position_groups(mechanism, q)
     energy, violations = tables["energy"], tables["violations"]
     found.append(Group("energy", "J", energy.names[:3], energy.values[:, :3]))
     found.append(Group("energy error", "J", ("error",), energy.values[:, 3:4], logarithmic=True))
@@ -134,34 +133,69 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
 
 def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
     """Return the live part of a page of a result: with its coordinates, its start and its parameters."""
+    return _live_of(recording.mechanism, dict(result.parameters), result.coordinates, result.step, result.start)
+
+
+def _live_of(
+    mechanism: Mechanism, parameters: dict[str, float], coordinates: str, step: float | None, begun: Mapping[str, Any]
+) -> tuple[Live | None, str]:
     from symgen.plan import make_plan
     from symgen.run_setup import ready
     from symgen.settings import Settings
     from symgen.tree_run import tree_run
 
-    mechanism = recording.mechanism
-    step = result.step or mechanism.defaults.step
-    asked = Settings(shape="straight", coordinates=result.coordinates, parameters=dict(result.parameters), step=step)
-    plan = make_plan(mechanism, asked)
-    if result.coordinates == "joint":
-        tree = tree_run(mechanism, plan, dict(result.parameters))
+    if begun["t"]:
+        return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
+    step = step or mechanism.defaults.step
+    plan = make_plan(mechanism, Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step))
+    if coordinates == "joint":
+        tree = tree_run(mechanism, plan, parameters)
         return live_part(mechanism, tree.compiled, tree.start, step)
-    compiled, start = ready(mechanism, plan, dict(result.parameters))
-    return live_part(mechanism, compiled, start, step)
+    compiled, start = ready(mechanism, plan, parameters)
+    names = [x.name for x in (*compiled.info.coordinates, *compiled.info.velocities)]
+    known = {**begun["q"], **begun["v"]}
+    whole = set(names) <= set(known)
+    return live_part(mechanism, compiled, start, step, np.array([known[n] for n in names]) if whole else None)
 
 
-def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None) -> Page:
+def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:
     """Return the page of a result in a NetCDF file.
+
+    Parameters
+    ----------
+    option : str
+        Who asks, for messages.
+    path, beside : Path
+        The file, and that of another motion, drawn faintly behind.
+    mechanism : Mechanism
+        Of which it is a result.
+    live : bool
+        Whether the page shall be able to work out other motions.
 
     Raises
     ------
     InputError
         If the file is none of a result of the mechanism.
     """
-    first = _of_file(option, path, mechanism)
-    second = None if beside is None else _of_file(option, beside, mechanism)
-    note = "the page has no live part, as it was made of a file"
-    return Page(page(first, None, note, second), mechanism.name, False)
+    first = recorded_file(option, path, mechanism)
+    second = None if beside is None else recorded_file(option, beside, mechanism)
+    part, note = _live_of_file(option, path, mechanism) if live else (None, "")
+    return Page(page(first, part, note, second), mechanism.name, part is not None)
+
+
+def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
+    """Return the live part of a page of a file: of the mechanism by its name, with what the file says of the run."""
+    run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
+    inputs = run.get("inputs", {})
+    if any(isinstance(x, str) for x in inputs.values()):
+        return None, f"{NONE}: what the run gave its inputs over time is not in the file"
+    known = {p.name for p in mechanism.parameters}
+    values = {k: float(v) for k, v in {**run.get("parameters", {}), **inputs}.items() if k in known}
+    begun = run.get("start", {"t": 0.0, "q": {}, "v": {}})
+    try:
+        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun)
+    except AssemblyError as error:
+        return None, f"{NONE}: {' '.join(str(error).split())}"
 
 
 def mechanism_name(option: str, path: Path) -> str:
@@ -194,7 +228,14 @@ _COLUMNS = {
 }
 
 
-def _of_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
+def recorded_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
+    """Return the result in a NetCDF file as a page plays it.
+
+    Raises
+    ------
+    InputError
+        If the file is none of a result of the mechanism.
+    """
     data = _dataset(option, path)
     names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
     if [str(n) for n in data["coordinate"].values] != names:
@@ -218,5 +259,6 @@ def _of_file(option: str, path: Path, mechanism: Mechanism) -> Recording:
     known_values = {p.name for p in mechanism.parameters}
     given = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known_values}
     return _recording(
-        mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts, []
+        *(mechanism, parameter_values(mechanism, given), data["time"].values, data["q"].values, tables, facts),
+        moments=_moments(run.get("rank_events", []), [(e["t"], e["name"]) for e in run.get("events", [])]),
     )

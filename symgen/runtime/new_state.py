@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
-    """Return how far a loop goes, to the end of the run unless given, and by which steps."""
+    """Return how far a loop goes, to the end of the run by default, and by which steps."""
     end = spec.until if until is None else until
     numbers = setup.step, spec.largest_step, end, spec.scale_time, spec.rtol, spec.atol, spec.relative
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, pause)))

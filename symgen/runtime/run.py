@@ -66,7 +66,7 @@ class RunSpec:
     max_steps : float
         An adaptive run is stopped when it has taken, or at its present rate would take, more attempts at a step.
     duration : float or None
-        In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` unless given.
+        In which a motion that begins at rest counts as one that crosses the mechanism [s]; until `until` by default.
     pieces : tuple of Piece
         Where inputs jump, and what they are from there on; the first one is what the start has.
     events : Watched or None

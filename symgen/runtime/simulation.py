@@ -162,11 +162,11 @@ class Simulation:
         outputs : Outputs
             From `outputs`; what is written already is left as it is.
         until : float, optional
-            End [s]; that of the run unless given.
+            End [s]; that of the run by default.
         pause : float
             The loop is left (`PAUSED`) when so many steps of the run have been accepted.
         most : float, optional
-            Attempts at an adaptive step that the run may have taken then; as many as it has been told unless given.
+            Attempts at an adaptive step that the run may have taken then; as many as it has been told by default.
 
         Raises
         ------

@@ -16,7 +16,6 @@ import ast
 import contextlib
 import functools
 import gc
-import hashlib
 import marshal
 import os
 import sys
@@ -54,11 +53,13 @@ _SHORT = 60
 
 
 class Origin(NamedTuple):
-    """Where a function comes from: digest of all sources it depends on, its file, and the digest of that file."""
+    """Where a function comes from: digest of all sources it depends on, and the text of its file as it was loaded.
+
+    What was loaded is what counts: whether its file is still there, or still the same, says how full a cache is.
+    """
 
     stamp: str
-    path: Path
-    content: str
+    content: bytes
 
 
 class _Entry(NamedTuple):
@@ -255,14 +256,14 @@ def plain(function: Any) -> Any:
     path = Path(function.__code__.co_filename)
     made = njit(error_model="numpy", fastmath={"contract"})(function)
     with contextlib.suppress(OSError):  # a program without sources: Numba's to compile, from the bytes of its code
-        EmittedFunction.of(made, Origin(source_stamp(function), path, _content(path)))
+        EmittedFunction.of(made, Origin(source_stamp(function), _content(path)))
     return made
 
 
 @functools.lru_cache(maxsize=4)
-def _content(path: Path) -> str:
-    """Return the digest of a file."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+def _content(path: Path) -> bytes:
+    """Return what a file holds."""
+    return path.read_bytes()
 
 
 def _compiler() -> str:
@@ -291,7 +292,7 @@ def _definition(function: Any) -> ast.FunctionDef | None:
     if not isinstance(function, EmittedFunction) or function._origin is None or function.targetoptions != _OPTIONS:
         return None
     first = function.py_func.__code__.co_firstlineno - 1
-    lines = _lines(function._origin.path, function._origin.content)
+    lines = _lines(function._origin.content)
     last = next((i for i in range(first + 2, len(lines)) if lines[i][:1].strip()), len(lines))
     try:
         found = ast.parse("\n".join(lines[first:last])).body
@@ -301,10 +302,6 @@ def _definition(function: Any) -> ast.FunctionDef | None:
 
 
 @functools.lru_cache(maxsize=4)
-def _lines(path: Path, content: str) -> tuple[str, ...]:
-    """Return the lines of a file if its content is still what it was."""
-    try:
-        data = path.read_bytes()
-    except OSError:
-        return ()
-    return tuple(data.decode().split("\n")) if hashlib.sha256(data).hexdigest() == content else ()
+def _lines(content: bytes) -> tuple[str, ...]:
+    """Return the lines of a file."""
+    return tuple(content.decode().split("\n"))

@@ -36,9 +36,10 @@ _lock = threading.RLock()
 
 @dataclass(frozen=True)
 class _Source:
-    """An emitted file that was read: where, its content's digest, its code, and the siblings it imports."""
+    """An emitted file that was read: where, its content and the digest of that, its code, the siblings it imports."""
 
     path: Path
+    content: bytes
     digest: str
     code: CodeType
     siblings: tuple[str, ...]
@@ -110,7 +111,7 @@ def _read(path: Path) -> _Source:
         raise InputError(str(path), "a generated module", error.strerror or "an unreadable file") from error
     digest = hashlib.sha256(content).hexdigest()
     code = _code(path, content, digest)
-    return _Source(path, digest, code, tuple(_siblings(code)))
+    return _Source(path, content, digest, code, tuple(_siblings(code)))
 
 
 def _code(path: Path, content: bytes, digest: str) -> CodeType:
@@ -210,7 +211,7 @@ def _attach(module: ModuleType, stamp: str, source: _Source) -> None:
 
         for value in own:
             if value.py_func.__module__ == module.__name__:
-                EmittedFunction.of(value, Origin(stamp, source.path, source.digest))
+                EmittedFunction.of(value, Origin(stamp, source.content))
 
 
 def interpreted(function: Any) -> Any:

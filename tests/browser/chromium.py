@@ -17,7 +17,15 @@ from typing import Any, Self
 #: Names under which systems have it; `SYMGEN_BROWSER` says where another one is.
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 SWITCHES = (
-    *("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars"),
+    *(
+        "--headless",
+        "--no-sandbox",
+        "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader",
+        "--disable-quic",
+        "--no-first-run",
+        "--hide-scrollbars",
+    ),
     *("--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"),
     *("--remote-debugging-pipe", "--allow-file-access-from-files=false", "--host-resolver-rules=MAP * ~NOTFOUND"),
 )

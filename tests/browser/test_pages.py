@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 import math
 import os
-import types
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +14,9 @@ import pytest
 from symgen import catalogue
 from symgen.api import Model, load
 from symgen.describe.builder import MechanismBuilder
+from symgen.native.javascript import HELPERS
 from tests.browser.chromium import Chromium
+from tests.browser.uncontracted import Uncontracted, prepared
 
 pytestmark = pytest.mark.browser
 
@@ -66,53 +66,118 @@ def test_pages_of_the_catalogue(
             chromium.run(f"document.getElementById('{box}').click()")
         chromium.run("document.getElementById('play').click()")
         chromium.frame()
+        chromium.run("document.getElementById('play').click()")
         assert chromium.said == []
         assert chromium.run("document.documentElement.scrollWidth <= window.innerWidth")
         if KEPT:
             chromium.picture(Path(KEPT) / f"{name}-{width}.png")
-        colours = chromium.run(
-            "(() => { const c = document.getElementById('view'), d = c.getContext('2d').getImageData(0, 0, c.width, "
-            "c.height).data; const s = new Set(); for (let i = 0; i < d.length; i += 4) s.add(d[i] * 65536 + d[i + 1] "
-            "* 256 + d[i + 2]); return s.size; })()"
-        )
-        assert colours > 5
+        assert chromium.run("!document.getElementById('solid').hidden") == spatial
+        assert colours(chromium) > 5
     pace = chromium.run("window.symgen.live ? window.symgen.pace() : null")
-    drawn = sorted(chromium.run("window.symgen.frames(60)"))
-    note(name, {"bytes": size, "pace": pace, "frame": [drawn[30], drawn[57]]})
+    drawn = sorted(chromium.run(f"window.symgen.frame({k / 20})") for k in range(20))
+    note(name, {"bytes": size, "pace": pace, "frame": [drawn[10], drawn[18]]})
 
 
-def plainly_python(function: Any) -> Any:
-    """Return an emitted function, and all that it calls, as plain Python, where nothing is fused."""
-    inner = function.py_func
-    known, called = dict(inner.__globals__), set(inner.__code__.co_names)
-    known |= {name: plainly_python(known[name]) for name in called if hasattr(known.get(name), "py_func")}
-    return types.FunctionType(inner.__code__, known)
+def colours(chromium: Chromium) -> int:
+    """Return how many colours the picture has, of both canvases, in the task that draws a frame."""
+    counted = """(() => {
+      window.symgen.frame(0.5);
+      const c = document.createElement('canvas'), parts = ['solid', 'view'].map((id) => document.getElementById(id));
+      Object.assign(c, { width: parts[1].width, height: parts[1].height });
+      const context = c.getContext('2d');
+      for (const part of parts) if (!part.hidden) context.drawImage(part, 0, 0);
+      const d = context.getImageData(0, 0, c.width, c.height).data, s = new Set();
+      for (let i = 0; i < d.length; i += 4) s.add(d[i] * 65536 + d[i + 1] * 256 + d[i + 2]);
+      return s.size;
+    })()"""
+    return int(chromium.run(counted))
+
+
+def test_without_webgl_a_canvas_draws_what_is_in_space(
+    chromium: Chromium, pages: dict[str, Path], tmp_path: Path
+) -> None:
+    path = page_of("flyball-governor", pages, tmp_path)
+    without = """const given = HTMLCanvasElement.prototype.getContext;
+      HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+        return kind.startsWith('webgl') ? null : given.call(this, kind, ...rest);
+      };"""
+    script = chromium.call("Page.addScriptToEvaluateOnNewDocument", source=without)["identifier"]
+    chromium.open(path)
+    chromium.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+    chromium.frame()
+    assert chromium.run("document.getElementById('solid').hidden")
+    assert colours(chromium) > 5
+    assert chromium.said == []
+
+
+def test_near_bars_hide_far_ones_from_either_side(chromium: Chromium, tmp_path: Path) -> None:
+    """Two bars that cross, seen from before and from behind: the colour in the middle is that of the nearer one."""
+    from symgen.player.page import page
+    from symgen.player.recording import Recording
+
+    crossed = MechanismBuilder("crossed", space="spatial", gravity=(0.0, 0.0, 0.0))
+    for name, reach in (("a", (1.0, 0.0, 0.0)), ("b", (0.0, 0.0, 1.0))):
+        ends = {"p": tuple(-x for x in reach), "q": reach}
+        crossed.body(name, mass=1.0, inertia=(0.1, 0.1, 0.1), points=ends)
+        crossed.joint(f"of_{name}", "spherical", between=("ground", name), at=(ends["p"], "p"))
+    q = np.array([[0.3, -0.3, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0]])
+    path = tmp_path / "crossed.html"
+    path.write_text(page(Recording(crossed.build(), {}, np.zeros(1), q)))
+    chromium.open(path)
+    middle = """(() => {
+      window.symgen.look(%r, 0, [0, 0, 0]);
+      window.symgen.frame(0);
+      const solid = document.getElementById('solid'), c = document.createElement('canvas');
+      Object.assign(c, { width: solid.width, height: solid.height });
+      const context = c.getContext('2d');
+      context.drawImage(solid, 0, 0);
+      return [...context.getImageData(c.width >> 1, c.height >> 1, 1, 1).data];
+    })()"""
+    red, _, blue, _ = chromium.run(middle % (0.5 * math.pi))  # from where y is negative: the first body, in blue
+    assert blue > red + 50
+    red, _, blue, _ = chromium.run(middle % (-0.5 * math.pi))  # from behind: the second one, in orange
+    assert red > blue + 50
+
+
+def test_sines_of_a_page_are_within_half_a_last_bit(chromium: Chromium) -> None:
+    """Against 40 digits: what rounding leaves, and a hundredth for what the series and its sums leave out."""
+    import mpmath
+
+    random = np.random.default_rng(3)
+    angles = [*random.uniform(-0.8, 0.8, 1000), *random.uniform(-7.0, 7.0, 1000), *random.uniform(-9e4, 9e4, 1000)]
+    found = chromium.run(f"(() => {{ {HELPERS} return {json.dumps(angles)}.map((x) => [sine(x), cosine(x)]); }})()")
+    with mpmath.workdps(40):
+        for angle, pair in zip(angles, found, strict=True):
+            for value, exact in zip(pair, (mpmath.sin(angle), mpmath.cos(angle)), strict=True):
+                assert abs(mpmath.mpf(value) - exact) <= 0.51 * math.ulp(float(exact))
+    assert chromium.run(
+        f"(() => {{ {HELPERS} return [Object.is(sine(-0), -0), sine(1e300) === Math.sin(1e300)]; }})()"
+    ) == [True, True]
+
+
+@pytest.fixture(scope="module")
+def uncontracted() -> Iterator[Uncontracted]:
+    with Uncontracted() as process:
+        yield process
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])
 @pytest.mark.parametrize("name", NAMES)
-def test_rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
+def test_rates_are_those_of_the_compiled_code(
+    name: str, coordinates: str, chromium: Chromium, uncontracted: Uncontracted, tmp_path: Path
+) -> None:
     """On 1000 random states with pivots above 1e-2, by the largest entry of each vector: 1e-12.
 
-    Compiled code fuses multiplication and addition. Where numbers cancel, that alone changes more than this: the same
-    source as plain Python shows by how much, and four times as much is allowed.
+    That of machine code which fuses nothing; where sines of the C library and of the page differ in the last bit, that
+    may change rates by as much as the last bit of every coordinate does. Machine code for this processor fuses
+    multiplication and addition: four times of what that alone changes is allowed beside it.
     """
-    from symgen.plan import make_plan
     from symgen.player.live import live_part
     from symgen.player.page import page
     from symgen.player.recording import Recording
-    from symgen.run_setup import ready
-    from symgen.settings import Settings
-    from symgen.tree_run import tree_run
 
     mechanism = load(name).mechanism
-    plan = make_plan(mechanism, Settings(coordinates=coordinates, shape="straight"))
-    if coordinates == "joint":
-        tree = tree_run(mechanism, plan)
-        compiled, start, q = tree.compiled, tree.start, tree.body_start.y[: tree.bodies.info.nq]
-    else:
-        compiled, start = ready(mechanism, plan)
-        q = start.y[: compiled.info.nq]
+    compiled, start, q = prepared(name, coordinates)
     live, why = live_part(mechanism, compiled, start, 1e-3)
     if live is None:
         assert "operations are more than" in why
@@ -121,8 +186,7 @@ def test_rates_are_those_of_the_compiled_code(name: str, coordinates: str, chrom
     path = tmp_path / "page.html"
     path.write_text(page(recording, live, why))
     random, info = np.random.default_rng(7), compiled.info
-    states, expected, plainly, w = [], [], [], start.w.copy()
-    plain = plainly_python(compiled.law_module.rhs)
+    states, fused, w = [], [], start.w.copy()
     pivots = range(info.sections["pivot"][0], info.sections["pivot"][0] + info.m)
     tried = 0
     while len(states) < 1000 and tried < 20000:
@@ -138,17 +202,27 @@ def test_rates_are_those_of_the_compiled_code(name: str, coordinates: str, chrom
             continue
         w[:] = start.w
         if compiled.law_module.rhs(0.1, y, start.p, w, iw, ydot) == 0 and np.all(np.isfinite(ydot)):
-            states.append(y.tolist())
-            expected.append(ydot)
-            plainly.append(ydot.copy())
-            plain(0.1, y, start.p, start.w.copy(), np.zeros(16, dtype=np.int64), plainly[-1])
+            states.append(y)
+            fused.append(ydot)
     assert len(states) > 100
+    expected, nearby = uncontracted.rates(name, coordinates, np.array(states), tmp_path)
     chromium.open(path)
-    found = np.array(chromium.run(f"{json.dumps(states)}.map((y) => window.symgen.rates(0.1, y))"), dtype=np.float64)
+    asked = json.dumps([y.tolist() for y in states])
+    found = np.array(chromium.run(f"{asked}.map((y) => window.symgen.rates(0.1, y))"), dtype=np.float64)
     largest = np.abs(expected).max(axis=1, keepdims=True)
-    off, fused = (float(np.max(np.abs(x - expected) / largest)) for x in (found, np.array(plainly)))
-    note(f"rates {name} {coordinates}", {"states": len(states), "worst": off, "of plain Python": fused})
-    assert off <= max(1e-12, 4.0 * fused)
+    worst = {
+        what: float(np.max(np.abs(a - b) / largest))
+        for what, a, b in (
+            ("uncontracted", found, expected),
+            ("contracted", found, fused),
+            ("of contraction", expected, fused),
+            ("of a last bit", expected, nearby),
+        )
+    }
+    same = float(np.mean(np.all(found == expected, axis=1)))
+    note(f"rates {name} {coordinates}", {"states": len(states), "the same bits": same, **worst})
+    assert worst["uncontracted"] <= max(1e-12, worst["of a last bit"])
+    assert worst["contracted"] <= max(1e-12, 4.0 * worst["of contraction"])
 
 
 @pytest.mark.parametrize(
@@ -207,8 +281,18 @@ def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], 
     assert chromium.said == []
 
 
+def busy(chromium: Chromium) -> float:
+    """Return how long the page's thread was at work so far [ms]."""
+    measured = chromium.call("Performance.getMetrics")["metrics"]
+    return 1e3 * next(float(x["value"]) for x in measured if x["name"] == "TaskDuration")
+
+
 def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
-    """Script time a frame: median and 95 %; the bound of 8 ms is that of the median."""
+    """Time of the page's thread a frame, script and all that calls it, each frame in a task of its own: 95 % in 8 ms.
+
+    Time of the thread, not of the clock: other processes do not count. Many frames in one task would count what the
+    browser paints, which it does as soon as too many strokes wait for it.
+    """
     chain = MechanismBuilder("long", gravity=(0.0, -9.81))
     for i in range(200):
         chain.body(f"b{i}", mass=1.0, inertia=0.1, points={"a": (-0.5, 0.0), "b": (0.5, 0.0)}, position=(i + 0.5, 0.0))
@@ -229,13 +313,19 @@ def test_frames_with_200_bodies(chromium: Chromium, tmp_path: Path) -> None:
     path = tmp_path / "long.html"
     path.write_text(page(Recording(mechanism, {}, t, q)))
     chromium.open(path)
-    chromium.run("window.symgen.frames(20)")
-    found = np.array(chromium.run("window.symgen.frames(200)"))
+    chromium.call("Performance.enable", timeDomain="threadTicks")
+    found = []
+    for k in range(220):
+        before = busy(chromium)
+        chromium.run(f"window.symgen.frame({k % 200 / 200})")
+        found.append(busy(chromium) - before)
+    chromium.call("Performance.disable")
+    warm = np.array(found[20:])
     note(
         "200 bodies",
-        {"median": float(np.median(found)), "95 %": float(np.quantile(found, 0.95)), "bytes": path.stat().st_size},
+        {"median": float(np.median(warm)), "95 %": float(np.quantile(warm, 0.95)), "bytes": path.stat().st_size},
     )
-    assert np.median(found) <= 8.0
+    assert np.quantile(warm, 0.95) <= 8.0
     if KEPT:
         chromium.picture(Path(KEPT) / "long.png")
 

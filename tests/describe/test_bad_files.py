@@ -354,14 +354,17 @@ def write(tmp_path, content):
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        ("[mechanism", "rod.toml: expected a TOML file, got a slip: expected ']' at the end of a table"),
-        ("[a]\n[a]\n", "rod.toml: expected a TOML file, got a slip: cannot declare ('a',) twice (at line 2, column 3)"),
-        (GOOD + "\n[joints.pin]\n", "expected a TOML file, got a slip: cannot declare ('joints', 'pin') twice"),
+        ("[mechanism", "rod.toml: expected a TOML file, got a syntax error: expected ']' at the end of a table"),
+        (
+            "[a]\n[a]\n",
+            "rod.toml: expected a TOML file, got a syntax error: cannot declare ('a',) twice (at line 2, column 3)",
+        ),
+        (GOOD + "\n[joints.pin]\n", "expected a TOML file, got a syntax error: cannot declare ('joints', 'pin') twice"),
         (b"\xff\xfe", "rod.toml: expected text in UTF-8, got another byte at position 0"),
         ("a = " + "[" * 5000 + "]" * 5000, "expected tables nested at most 20 levels deep, got deeper nesting"),
         ("a = " + "[" * 30 + "]" * 30, "expected tables nested at most 20 levels deep, got deeper nesting"),
         ("#" * (LARGEST_FILE + 1), "rod.toml: expected a file of at most 1000000 bytes, got a larger one"),
-        ("a = " + "9" * 5000, "rod.toml: expected a TOML file, got a slip"),
+        ("a = " + "9" * 5000, "rod.toml: expected a TOML file, got a syntax error"),
         ("[mechanism]\nname = 2001-01-01", "rod.toml: mechanism.name: expected a text, got a date"),
         ("", "rod.toml: mechanism: expected a section [mechanism] with a name, got no such section"),
     ],

@@ -87,8 +87,8 @@ def test_constants_are_folded_and_names_kept():
 REFUSED = [
     ("", "expected a formula, got an empty text"),
     ("  ", "expected a formula, got an empty text"),
-    ("a +", "expected a formula, got 'a +', which breaks off or has a slip"),
-    ("a b", "expected a formula, got 'a b', which breaks off or has a slip"),
+    ("a +", "expected a formula, got 'a +', which is incomplete or has a syntax error"),
+    ("a b", "expected a formula, got 'a b', which is incomplete or has a syntax error"),
     ("2^3", "expected a formula, got the character '^' at column 2; a power is written **"),
     ("7 % 3", "expected a formula, got the character '%' at column 3; there is no remainder"),
     ("7//3", "expected a formula, got '//' at column 2; a division is written /"),

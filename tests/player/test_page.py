@@ -5,12 +5,15 @@ from __future__ import annotations
 import base64
 import json
 import re
+import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from symgen.analyses.shown import mode_recording
 from symgen.api import load
 from symgen.cli import main
 from symgen.errors import InputError
@@ -80,7 +83,7 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     result.save(file)
     assert main(["view", str(file), "-o", str(tmp_path / "a.html"), "--beside", str(file), "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["live"] is False and told["bytes"] == (tmp_path / "a.html").stat().st_size
+    assert told["live"] is True and told["bytes"] == (tmp_path / "a.html").stat().st_size
     data = data_of((tmp_path / "a.html").read_text())
     assert (
         len(data["motions"]) == 2
@@ -88,6 +91,36 @@ def test_view_of_a_model_and_of_a_file(tmp_path: Path, capsys: pytest.CaptureFix
     )
     assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "b.html")]) == 0
     assert data_of((tmp_path / "b.html").read_text())["live"] is not None
+
+
+def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any) -> None:
+    from symgen.result.viewed import view_file
+
+    mechanism = load("slider-crank").mechanism
+    result.save(tmp_path / "a.nc")
+    live = data_of(view_file("view", tmp_path / "a.nc", mechanism).html)["live"]
+    assert live == data_of(result.view().html)["live"]
+    other = load("slider-crank").simulate(until=0.1, parameters={"crank_mass": 2.0}, start={"crank.theta": 1.0})
+    other.save(tmp_path / "b.nc")
+    of_file, of_result = view_file("view", tmp_path / "b.nc", mechanism), other.view()
+    assert data_of(of_file.html)["live"] == data_of(of_result.html)["live"] != live
+    # begun elsewhere than described: there the page begins too
+    begun = [repr(x) for x in (*other.start["q"].values(), *other.start["v"].values())]
+    told = f"q: [{', '.join(begun[:9])}], v: [{', '.join(begun[9:])}]"
+    assert other.start["q"]["crank.theta"] == 1.0
+    assert all(told in page.html for page in (of_file, of_result)) and "q: [a" in result.view().html
+
+
+def test_a_large_mechanism_has_coarse_coordinates_before_it_loses_forces() -> None:
+    from symgen.player.recording import Recording, fitted
+
+    values = np.zeros((70, 90))
+    recording = Recording(
+        load("pendulum").mechanism, {}, values[:, 0], values, reactions=values.reshape(70, 45, 2), pushed=("a",) * 45
+    )
+    whole, half, bare = (fitted(recording, room) for room in (60 * 730, 60 * 490, 60 * 400))
+    assert whole == (recording, False) and half == (recording, True)
+    assert bare[1] and bare[0].reactions is None and bare[0].pushed == ()
 
 
 def test_a_gif_has_pictures(tmp_path: Path) -> None:
@@ -99,6 +132,69 @@ def test_a_gif_has_pictures(tmp_path: Path) -> None:
         assert picture.n_frames == 5  # type: ignore[attr-defined]  # 25 a second
 
 
+def test_a_film_goes_through_ffmpeg(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], result: Any
+) -> None:
+    """What a program of that name is given: pictures of one size, as raw bytes, 25 a second."""
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    monkeypatch.setenv("PATH", str(programs))
+    assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "a.mp4")]) == 2
+    assert "the program ffmpeg" in capsys.readouterr().err and not (tmp_path / "a.mp4").exists()
+    fake = programs / "ffmpeg"
+    fake.write_text(
+        f"#!{sys.executable}\nimport sys\nw, h = map(int, sys.argv[sys.argv.index('-s') + 1].split('x'))\n"
+        "n, left = divmod(len(sys.stdin.buffer.read()), 3 * w * h)\n"
+        "open(sys.argv[-1], 'w').write(f\"{n} {left} {sys.argv[sys.argv.index('-r') + 1]}\")\n"
+    )
+    fake.chmod(0o755)
+    assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "a.mp4")]) == 0
+    assert (tmp_path / "a.mp4").read_text() == "5 0 25"
+    result.save(tmp_path / "a.nc")
+    assert main(["view", str(tmp_path / "a.nc"), "-o", str(tmp_path / "b.mp4")]) == 0
+    assert (tmp_path / "b.mp4").read_text() == "12 0 24"
+    fake.write_text(f"#!{sys.executable}\nimport sys\nsys.exit('no such codec')\n")
+    assert main(["view", "pendulum", "--until", "0.2", "-o", str(tmp_path / "c.mp4")]) == 2
+    assert "no such codec" in capsys.readouterr().err and not (tmp_path / "c.mp4").exists()
+
+
+def test_a_mode_shape_is_played(tmp_path: Path) -> None:
+    """A pendulum's mode is a turn about its pin: points of the page move along the circle's tangent."""
+    model = load("pendulum")
+    page = model.view_mode(1)
+    data = data_of(page.html)
+    moving, still = data["motions"]
+    about = model.modes().about
+    found, rest = (
+        np.frombuffer(base64.b64decode(m["q"]), "<f4").reshape(len(data["names"]), -1) for m in (moving, still)
+    )
+    assert rest[:, 0] == pytest.approx([about[n] for n in data["names"]], abs=1e-6)
+    away = found - rest[:, :1]
+    assert np.abs(away[:, 0]).max() > 0.0 and away[:, 0] == pytest.approx(away[:, -1], abs=1e-6)
+    assert np.ptp(found[0]) > 100.0 * np.ptp(found[1])  # it hangs: x moves, y does not
+    assert ["", f"{model.modes().frequencies[0]:.6g} Hz"] in moving["facts"]
+    assert main(["view", "pendulum", "--mode", "1", "-o", str(tmp_path / "a.gif")]) == 0
+    with pytest.raises(InputError, match="from 1 to"):
+        model.view_mode(7)
+    of_joints = replace(model.modes(), names=("pin.angle",))
+    with pytest.raises(InputError, match="in coordinates of bodies"):
+        mode_recording(model.mechanism, of_joints, 1)
+
+
+def test_gaps_of_single_joints_are_those_of_the_run() -> None:
+    """A four-bar has pins alone, so their squares add up to that of the violation; the method drifts."""
+    run = load("four-bar").simulate(until=0.5, step=0.02, method="lagrange", integrator="rk4")
+    told = data_of(run.view(live=False).html)["motions"][0]["gaps"]
+    assert len(told["names"]) == 4
+    columns = np.frombuffer(base64.b64decode(told["data"]), "<u2").reshape(4, -1)
+    powers = [
+        low + span * column / 65534.0 for low, span, column in zip(told["low"], told["span"], columns, strict=True)
+    ]
+    assert columns.shape[1] == len(run.t)
+    whole = np.sqrt(np.sum(10.0 ** (2.0 * np.array(powers)), axis=0))
+    assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -107,6 +203,9 @@ def test_a_gif_has_pictures(tmp_path: Path) -> None:
         (["pendulum", "--beside", "a.nc"], "two saved results"),
         (["pendulum", "--model", "pendulum"], "a saved result to be viewed"),
         (["none.nc"], "a file of a result"),
+        (["a.nc", "--model", "pendulum", "--mode", "1"], "about whose equilibrium"),
+        (["pendulum", "--mode", "9"], "from 1 to"),
+        (["pendulum", "--at", "start"], "asked for with --mode"),
     ],
 )
 def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -194,6 +194,10 @@ def rows():
     )
     for value in (0, -1, "x", 1.5, True):
         yield f"count {value!r}", lambda x, v=value: x.model.modes(count=v), "count: expected a whole number"
+    for value in (0, -1, 1.5, "1", None, True):
+        yield f"mode {value!r}", lambda x, v=value: x.model.view_mode(v), "number: expected a whole number"
+    yield "mode 99", lambda x: x.model.view_mode(99), "mode: expected a number from 1 to"
+    yield "mode at", lambda x: x.model.view_mode(1, at="nowhere"), "at: expected"
     yield "instantaneous", lambda x: x.model.linearise(instantaneous="x"), "instantaneous: expected True or False"
     # models
     for shown, value in NO_MAPPING.items():
@@ -482,7 +486,10 @@ def test_no_function_with_arguments_is_left_out():
         ),
         *("Result.save", "Result.plot", "Result.reaction", "Labelled.row", "Labelled.unit", "Study.save"),
         *("Sweep.save", "Sweep.reasons", "Model.start", "Model.kinematics", "Model.inverse"),
-        *(f"Model.{name}" for name in ("equilibrium", "equilibria", "steady", "modes", "linearise", "locus")),
+        *(
+            f"Model.{name}"
+            for name in ("equilibrium", "equilibria", "steady", "modes", "linearise", "locus", "view_mode")
+        ),
         *(f"SteppedRun.{name}" for name in ("step", "run", "every", "set", "restore")),
         *(f"MechanismBuilder.{name}" for name in ("run", "parameter", "input", "table", "body", "joint", "force")),
         *("MechanismBuilder.output", "MechanismBuilder.event", "Result.columns", "Result.select", "Result.view"),

@@ -336,7 +336,8 @@ class TestNumbaBeside:
         assert after["translated"] == before["translated"] and after["foreign"] == before["foreign"] + 3
 
     @pytest.mark.parametrize("change", ["edited", "gone", "no longer Python"])
-    def test_a_source_that_changed_since_it_was_loaded_is_not_read(self, law, change):
+    def test_a_source_that_changed_since_it_was_loaded_is_read_as_it_was(self, law, change):
+        """Numba fuses other operations, so numbers would depend on whether another process tidied the cache."""
         module, values = load_module(law), state()
         if change == "gone":
             law.unlink()
@@ -345,7 +346,7 @@ class TestNumbaBeside:
         emitted._lines.cache_clear()
         module.rhs(*values)
         assert right(values, module.rhs)
-        assert not any(isinstance(result.library, Library) for result in module.rhs.overloads.values())
+        assert all(isinstance(result.library, Library) for result in module.rhs.overloads.values())
 
     def test_switches_of_numba(self, law, python):
         plain = python(RUN, law, NUMBA_DISABLE_JIT="1")

@@ -121,7 +121,7 @@ def test_findings_say_what_the_rows_say():
     assert "Least often accurate was penalty with rk4: 0 of 3 cells." in found
     assert "hardest is" in found and "1 of 3 pairs stay accurate throughout (auto)" in found
     assert "auto reports success with an error above 0.001 m in no cell of 2." in found
-    assert "Other methods do in 2 of 5 cells" in found
+    assert "Other methods report success with such an error in 2 of 5 cells" in found
 
 
 def test_findings_name_a_failure_of_auto():

@@ -5,7 +5,8 @@ function rgba(colour, opacity) {
   return `rgba(${r},${g},${b},${opacity})`;
 }
 
-function makeScene(canvas, scene) {
+// In space `solid` draws bodies, symbols and traces, on a canvas beneath; where there is none, this one draws them all.
+function makeScene(canvas, scene, solid = null) {
   const { spatial, frames, unit } = scene;
   const size = spatial ? 3 : 2;
   const context = canvas.getContext("2d");
@@ -14,7 +15,8 @@ function makeScene(canvas, scene) {
   }));
   const poses = new Float64Array(12 * (frames.length + 1)); // rotation by rows, then the centre; the ground's last
   const ground = frames.length;
-  const camera = { turn: 0.6, tilt: 0.42, scale: 1, x: 0, y: 0, width: 1, height: 1, ratio: 1 };
+  // `at` is the point in the middle of the picture, x, y and z the same as the eye has it, all in metres.
+  const camera = { turn: 0.6, tilt: 0.42, scale: 1, at: [0, 0, 0], x: 0, y: 0, z: 0, reach: 1, width: 1, height: 1, ratio: 1 };
   const eye = new Float64Array(9);
 
   function place(q) {
@@ -63,6 +65,11 @@ function makeScene(canvas, scene) {
   }
 
   function aim() {
+    turned();
+    [camera.x, camera.y, camera.z] = look(...camera.at);
+  }
+
+  function turned() {
     if (!spatial) {
       eye.set([1, 0, 0, 0, 1, 0, 0, 0, 1]);
       return;
@@ -78,6 +85,12 @@ function makeScene(canvas, scene) {
 
   function cross(u, v) {
     return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+  }
+
+  // Bring another point into the middle: so far to the right and upwards [m].
+  function pan(right, up) {
+    turned();
+    camera.at = camera.at.map((x, i) => x + right * eye[i] + up * eye[3 + i]);
   }
 
   const px = (x) => (x - camera.x) * camera.scale + camera.width / 2;
@@ -208,12 +221,18 @@ function makeScene(canvas, scene) {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.lineJoin = context.lineCap = "round";
     context.fillStyle = "#ffffff";
-    context.fillRect(0, 0, box.width, box.height);
+    context[solid ? "clearRect" : "fillRect"](0, 0, box.width, box.height);
+    aim();
+    if (solid) solid.clear(eye, camera);
   }
 
   function draw(q, strength = 1, roles = null) {
-    aim();
     place(q);
+    if (solid) {
+      solid.draw(poses, strength, roles);
+      solid.veil(strength, roles);
+      return;
+    }
     context.globalAlpha = strength;
     let items = roles ? scene.items.filter((item) => roles.includes(item.role)) : scene.items;
     if (spatial) items = items.map((item) => [depth(item), item]).sort((a, b) => a[0] - b[0]).map((pair) => pair[1]);
@@ -256,6 +275,10 @@ function makeScene(canvas, scene) {
   }
 
   function trace(points, colour) {
+    if (solid) {
+      solid.trace(points, colour);
+      return;
+    }
     context.beginPath();
     points.forEach((p, k) => {
       const s = look3(p);
@@ -290,12 +313,12 @@ function makeScene(canvas, scene) {
   }
 
   function fit(rows) {
+    camera.at = [0, 0, 0];
     clear();
-    aim();
-    let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    const low = [Infinity, Infinity, Infinity], high = low.map((x) => -x);
     const every = Math.max(1, Math.floor(rows.length / 40));
     const take = (s, r = 0) => {
-      for (let k = 0; k < 2; k++) {
+      for (let k = 0; k < 3; k++) {
         low[k] = Math.min(low[k], s[k] - r);
         high[k] = Math.max(high[k], s[k] + r);
       }
@@ -310,12 +333,15 @@ function makeScene(canvas, scene) {
         else { take(see(mark[3], mark[4])); take(see(mark[5], mark[6])); }
       }
     }
-    if (!(high[0] >= low[0])) { low = [-1, -1]; high = [1, 1]; }
-    const wide = Math.max(high[0] - low[0], 1e-9), tall = Math.max(high[1] - low[1], 1e-9);
+    if (!(high[0] >= low[0])) for (let k = 0; k < 3; k++) [low[k], high[k]] = [-1, 1];
+    const [wide, tall, deep] = high.map((x, k) => Math.max(x - low[k], 1e-9));
     camera.scale = Math.min((camera.width - 40) / wide, (camera.height - 40) / tall);
-    camera.x = (low[0] + high[0]) / 2;
-    camera.y = (low[1] + high[1]) / 2;
+    const middle = low.map((x, k) => 0.5 * (x + high[k]));
+    camera.at = [0, 1, 2].map((i) => middle[0] * eye[i] + middle[1] * eye[3 + i] + middle[2] * eye[6 + i]);
+    camera.reach = 8 * Math.hypot(wide, tall, deep); // before and behind the middle; live motions may reach farther
+    aim();
   }
 
-  return { camera, scene, spatial, clear, draw, names, arrow, trace, where, gap, fit, see, place };
+  const forget = () => solid && solid.forget();
+  return { camera, scene, spatial, clear, draw, names, arrow, trace, forget, pan, where, gap, fit, see, place };
 }

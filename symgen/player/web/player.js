@@ -1,15 +1,29 @@
 // The page: time, controls, what is drawn beside the mechanism, and the live part.
 
 const data = JSON.parse(document.getElementById("data").textContent);
+// Bodies that look alike share their lists of points.
+for (const item of data.scene.items) for (const mark of item.marks) {
+  if (mark[0] === "L") mark[4] = data.scene.lists[mark[4]];
+  else if (mark[0] === "S") mark[3] = mark[3].map((i) => data.scene.lists[i]);
+}
 const $ = (id) => document.getElementById(id);
-const view = makeScene($("view"), data.scene);
+let solid = data.scene.spatial ? makeSolid($("solid"), data.scene) : null;
+$("solid").hidden = !solid;
+let view = makeScene($("view"), data.scene, solid);
+$("solid").addEventListener("webglcontextlost", () => {
+  // the canvas above draws what it can
+  $("solid").hidden = true;
+  solid = null;
+  view = makeScene($("view"), data.scene);
+  refit();
+});
 const plot = makePlot($("plot"), $("key"));
 
 function recorded(part) {
-  const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = floatColumns(part.q, n);
+  const n = part.count, t = floatColumns(part.t, n)[0] || new Float32Array(0), columns = typeof part.q === "string" ? floatColumns(part.q, n) : shortColumns(part.q, n);
   const rows = Array.from({ length: n }, (_, k) => Float64Array.from(columns, (c) => c[k]));
   const groups = part.groups.map((g) => ({ ...g, columns: shortColumns(g, n) }));
-  for (const name of ["reactions", "pulls"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
+  for (const name of ["reactions", "pulls", "gaps"]) if (part[name]) part[name].columns = shortColumns(part[name], n);
   return { ...part, t: Float64Array.from(t), rows, groups, end: n ? t[n - 1] : 0, whole: true };
 }
 
@@ -52,9 +66,8 @@ function columnAt(column, t, time) {
 
 // -- drawing --------------------------------------------------------------------------------------------------------------
 
-let took = 0;
 function render() {
-  const began = performance.now(), q = between(motion, time);
+  const q = between(motion, time);
   view.clear();
   if (!q) return;
   for (const [name, points, colour] of traced) if (name) view.trace(points, colour);
@@ -64,7 +77,6 @@ function render() {
   if ($("forces").checked) arrows(q);
   if ($("gaps").checked) gaps(q);
   if ($("labels").checked) view.names();
-  took = performance.now() - began;
   timeline();
   if (group) plot.cursor(time, group.columns.map((c) => columnAt(c, motion.t, time)), group.log);
   const doubt = motion.moments.filter((m) => m[0] <= time && time <= m[1]);
@@ -115,13 +127,17 @@ function largest(part, d) {
   return part.most;
 }
 
+// Each joint by how far it is open itself: of a recording that is told, here it would be lost in the last bits.
 const PINS = ["revolute", "spherical", "universal", "constant-velocity", "rigid"];
 function gaps(q) {
-  const violation = motion.groups.find((g) => g.title === "violation");
-  const size = violation ? columnAt(violation.columns[0], motion.t, time) : -9; // the power of ten
-  const hue = Math.round(120 * Math.min(Math.max((-4 - size) / 8, 0), 1)); // red from 1e-4 on, green below 1e-12
+  const told = motion.gaps;
   for (const item of data.scene.items) {
-    if (item.role === "joint" && item.ends.length === 2 && PINS.includes(item.kind)) view.gap(q, item.ends, 1000, `hsl(${hue},90%,40%)`);
+    if (item.role !== "joint" || item.ends.length !== 2 || !PINS.includes(item.kind)) continue;
+    const [a, b] = item.ends.map(([body, at]) => worldOf(q, body, at)), seen = Math.hypot(...a.map((x, i) => b[i] - x));
+    const k = told ? told.names.indexOf(item.name) : -1;
+    const size = k < 0 ? Math.log10(Math.max(seen, 1e-17)) : columnAt(told.columns[k], motion.t, time); // the power of ten
+    const hue = Math.round(120 * Math.min(Math.max((-4 - size) / 8, 0), 1)); // red from 1e-4 on, green below 1e-12
+    view.gap(q, item.ends, seen > 0 ? (1000 * 10 ** size) / seen : 0, `hsl(${hue},90%,40%)`);
   }
 }
 
@@ -182,6 +198,7 @@ function tick(now) {
 
 function traces() {
   const chosen = $("trace").value, list = chosen === "all" ? data.points : data.points.filter((p) => p[0] === chosen);
+  view.forget();
   traced = list.map(([name, body, at], i) => [name, motion.rows.map((q) => view.where(q, body, at)), COLOURS[i % COLOURS.length]]);
   wanted = true;
 }
@@ -318,8 +335,11 @@ function facts() {
   $("note").textContent = data.note;
 }
 
-for (const s of [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10]) $("speed").append(new Option(`${s}×`, s));
-$("speed").value = 1;
+// A motion of less than a second is slowed down until an eye can follow it.
+const SPEEDS = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10];
+for (const s of SPEEDS) $("speed").append(new Option(`${s}×`, s));
+speed = motion.end - time < 1 ? SPEEDS.filter((s) => motion.end - time >= 2 * s).pop() || SPEEDS[0] : 1;
+$("speed").value = speed;
 $("trace").append(new Option("none", ""), new Option("all", "all"), ...data.points.map((p) => new Option(p[0], p[0])));
 $("trace").value = data.points.length <= 12 ? "all" : "";
 $("speed").addEventListener("change", () => (speed = Number($("speed").value)));
@@ -363,8 +383,10 @@ drag($("timeline"), (e) => {
 drag($("plot"), (e) => go(plot.timeAt(e.clientX - $("plot").getBoundingClientRect().left)));
 drag($("view"), (e, dx, dy, pinch) => {
   const { camera } = view;
-  if (pinch) camera.scale *= pinch;
-  else if (view.spatial && !e.shiftKey && e.button !== 2) {
+  if (pinch) {
+    camera.scale *= pinch; // each finger moves the middle by half its way
+    view.pan((-0.5 * dx) / camera.scale, (0.5 * dy) / camera.scale);
+  } else if (view.spatial && !e.shiftKey && e.button !== 2) {
     camera.turn += 0.01 * dx;
     camera.tilt = Math.min(Math.max(camera.tilt + 0.01 * dy, -1.57), 1.57);
   } else {
@@ -423,15 +445,22 @@ window.symgen = {
     live.reset();
     return y && Array.from(y);
   },
-  // Milliseconds that drawing one frame takes, at each of some times.
-  frames(count = 100) {
-    const found = [];
-    for (let k = 0; k < count; k++) {
-      go(motion.t[0] + (k / count) * (motion.end - motion.t[0]));
-      render();
-      found.push(took);
-    }
-    return found;
+  // Look from elsewhere: turned and tilted [rad], with a point in the middle [m].
+  look(turn, tilt, at) {
+    Object.assign(view.camera, { turn, tilt, at });
+    wanted = true;
+  },
+  // Draw the frame at a share of the whole motion; milliseconds that took.
+  frame(share) {
+    const began = performance.now();
+    go(motion.t[0] + share * (motion.end - motion.t[0]));
+    render();
+    return performance.now() - began;
+  },
+  // How far each joint is open at a share of the motion, as powers of ten [m], by name; of recordings.
+  gaps(share) {
+    const t = motion.t[0] + share * (motion.end - motion.t[0]), told = motions[0].gaps;
+    return told ? Object.fromEntries(told.names.map((name, k) => [name, columnAt(told.columns[k], motions[0].t, t)])) : null;
   },
   // Seconds of motion that the live part works out in one second.
   pace(milliseconds = 300) {

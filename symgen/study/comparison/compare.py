@@ -38,7 +38,7 @@ __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_
 
 #: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
-#: Relative tolerances of adaptive runs, unless given; absolute ones are this fraction of them.
+#: Relative tolerances of adaptive runs, by default; absolute ones are this fraction of them.
 RTOLS = (1e-6, 1e-8, 1e-10)
 ATOL_SHARE = 1e-2
 #: Output times of a study where the mechanism does not say more coarsely.
@@ -100,11 +100,11 @@ def compare(
         Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not
         suit each other are left out.
     steps : sequence of float
-        Constant steps [s] of integrators without error estimate; multiples of the mechanism's own unless given.
+        Constant steps [s] of integrators without error estimate; multiples of the mechanism's own by default.
     rtols : sequence of float
         Tolerances of adaptive ones.
     until : float, optional
-        End time [s]; the mechanism's own unless given, and no longer than it is predictable.
+        End time [s]; the mechanism's own by default, and no longer than it is predictable.
     repeat : int
         Timed runs a row, after a warm-up; the shortest counts. Short runs are repeated more often; 1 runs once.
     output_step : float, optional
@@ -127,7 +127,7 @@ def compare(
     max_violation, max_energy_error, max_steps : float
         As for `symgen.Settings`.
     coordinates : sequence of str
-        ``absolute``, ``joint`` or both, side by side; absolute ones unless given.
+        ``absolute``, ``joint`` or both, side by side; absolute ones by default.
 
     Returns
     -------

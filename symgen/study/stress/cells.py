@@ -272,6 +272,8 @@ def _limit(task: LimitTask) -> Fields:
     first = task.level.step
     stable = largest(lambda h: attempt(h)[0], first, task.level.until)
     accurate = largest(lambda h: attempt(h)[1], first, task.level.until)
+    if stable is not None and accurate is not None:
+        stable = max(stable, accurate)  # what is accurate follows the motion, also beyond a step that does not
     return {"stable_step": stable, "accurate_step": accurate, "runs": len(ran)}
 
 

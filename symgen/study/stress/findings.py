@@ -237,7 +237,8 @@ def _trust(study: Stress) -> Iterator[str]:
     if not others:
         yield f"No other run reports success with an error above {ACCURATE:g} m, in {len(watched)} cells."
         return
-    yield f"Other methods do in {len(others)} of {len(watched)} cells: {_reasons(others)}."
+    share = f"{len(others)} of {len(watched)} cells"
+    yield f"Other methods report success with such an error in {share}: {_reasons(others)}."
 
 
 def _reasons(rows: Sequence[Row]) -> str:

@@ -84,11 +84,11 @@ def stress(
     Parameters
     ----------
     models : sequence of str or path
-        Base models: catalogue entries or files; `DEFAULT_MODEL` unless given.
+        Base models: catalogue entries or files; `DEFAULT_MODEL` by default.
     cases : sequence of str
-        Families (`symgen.study.stress.cases.CASES`); all unless given.
+        Families (`symgen.study.stress.cases.CASES`); all by default.
     methods : sequence of str
-        Methods, ``auto`` among them; all and ``auto`` unless given.
+        Methods, ``auto`` among them; all and ``auto`` by default.
     quick : bool
         Fewer cases, and each method with its own integrator only.
     journal : Journal, optional
