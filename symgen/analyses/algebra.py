@@ -52,7 +52,9 @@ def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:
 
     A cyclic coordinate or a body that is free to go gives two zeros and one vector, which rounding parts into a pair of
     the square root of its own size. How many zeros there are is a decision of rank: the dimension of what the matrix
-    maps to zero, then that of what it maps there, and so on.
+    maps to zero, then that of what it maps there, and so on. In double numbers that is the square of a frequency below
+    1e-14 n of the largest singular value: beside vibrations of 1e6 rad/s, a swing of less than 0.1 or 0.2 rad/s counts
+    as none.
     """
     values, vectors = np.linalg.eig(a)
     values, n = values.astype(np.complex128), len(a)

@@ -157,7 +157,9 @@ def test_a_kill_at_any_moment_leaves_a_valid_pair_or_a_miss(entries):
     chance = random.Random(1)
     file = entries.root / upkeep.NATIVE / "x" / "f.bin"
     valid = 0
-    for _ in range(8):
+    for kill in range(200):
+        if kill >= 8 and valid:  # on a busy machine the first ones may all come before anything is written
+            break
         process = start(WRITER, FOLDER)
         assert process.stdout is not None
         process.stdout.readline()
