@@ -31,7 +31,7 @@ from symgen.errors import InputError, nearest
 from symgen.native.library import Library, arguments_of, kinds_of, kinds_of_function, result
 from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
-from symgen.store.identity import digest, source_stamp, sources_digest
+from symgen.store.identity import NotDescribable, digest, source_stamp, sources_digest
 from symgen.store.jit import Loading, MachineCode, attach, environment, plain_name, unusable
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
@@ -255,7 +255,9 @@ def plain(function: Any) -> Any:
     """
     path = Path(function.__code__.co_filename)
     made = njit(error_model="numpy", fastmath={"contract"})(function)
-    with contextlib.suppress(OSError):  # a program without sources: Numba's to compile, from the bytes of its code
+    with contextlib.suppress(
+        OSError, NotDescribable
+    ):  # a program without sources: Numba's to compile, from the bytes of its code
         EmittedFunction.of(made, Origin(source_stamp(function), _content(path)))
     return made
 

@@ -57,7 +57,7 @@ def test_tables_are_readable(cli, tmp_path):
     code, out, _ = cli("equilibrium", "four-bar", "--start", "crank.theta=4.0")
     assert code == 0 and out.startswith("stable; omega^2 [1/s^2]: 8.35") and "crank.theta" in out
     code, out, _ = cli("modes", "four-bar", "--start", "crank.theta=4.0")
-    assert code == 0 and "1 degrees of freedom" in out and "coupler" in out and "%" in out
+    assert code == 0 and "1 degree of freedom;" in out and "coupler" in out and "%" in out
     code, out, _ = cli("linearise", "bicycle", "--at", "start", "--states", "lean,steer")
     assert code == 0 and "x' = A x" in out and "+ B u" in out and "steer.rate" in out
     picture = tmp_path / "locus.svg"

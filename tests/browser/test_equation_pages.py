@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import types
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +16,6 @@ from symgen.api import load
 from symgen.cli import main
 from symgen.cli._reading import Started
 from tests.browser.chromium import Chromium
-from tests.browser.test_pages import plainly_python
 
 pytestmark = pytest.mark.browser
 
@@ -60,6 +61,14 @@ def test_pages_of_the_catalogue(name: str, coordinates: str, chromium: Chromium,
     )
     assert chromium.run("window.symgen.names.length") > 0
     rates_are_those_of_the_compiled_code(name, coordinates, chromium)
+
+
+def plainly_python(function: Any) -> Any:
+    """Return an emitted function, and all that it calls, as plain Python, where nothing is fused."""
+    inner = function.py_func
+    known, called = dict(inner.__globals__), set(inner.__code__.co_names)
+    known |= {name: plainly_python(known[name]) for name in called if hasattr(known.get(name), "py_func")}
+    return types.FunctionType(inner.__code__, known)
 
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:

@@ -1,6 +1,8 @@
 """Rates of emitted functions without contraction: a process whose machine code is for a processor that fuses nothing.
 
-    NUMBA_CPU_NAME=generic python -m tests.browser.uncontracted
+Its sines are those of the C library:
+
+    NUMBA_CPU_NAME=generic SYMGEN_COMPILER=libm python -m tests.browser.uncontracted
 
 reads a line of JSON for each mechanism, its name, coordinates and a file of states, and answers with a line when two
 files stand beside it: rates at the states, and at the same with every coordinate off by its last bit.
@@ -53,7 +55,7 @@ class Uncontracted:
     def __enter__(self) -> Self:
         self.process = subprocess.Popen(
             [sys.executable, "-m", "tests.browser.uncontracted"],
-            env=os.environ | {"NUMBA_CPU_NAME": "generic"},
+            env=os.environ | {"NUMBA_CPU_NAME": "generic", "SYMGEN_COMPILER": "libm"},
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,

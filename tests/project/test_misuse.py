@@ -346,7 +346,7 @@ def rows():
         ("quantities", ["bob.z"], "quantity 'bob.z': expected a quantity of pendulum"),
         ("quantities", [3], "quantities: expected a list of names, got 3"),
         ("output", 3, "output: expected a path, got 3"),
-        ("output", "a.csv", "output: expected a file ending in .nc"),
+        ("output", "a.xls", "output: expected a file ending in .nc"),
         ("resume", "yes", "resume: expected True or False"),
         ("resume", True, "resume: expected an output that was begun"),
         ("scheduler", 3, "scheduler: expected the address of a Dask scheduler, or a client, got 3"),

@@ -32,7 +32,7 @@ def test_inspect(name, capsys):
 @pytest.mark.parametrize("name", ["chain:3", "front-suspension"])
 def test_generate(name, capsys, tmp_path):
     assert main(["generate", name, "--method", "direct-correction", "--output", str(tmp_path / "out")]) == 0
-    files = sorted(file for file in (tmp_path / "out").rglob("*.py") if file.name != "simulate.py")
+    files = sorted(file for file in (tmp_path / "out").rglob("*.py") if file.name not in ("simulate.py", "__init__.py"))
     assert {"model.py", "direct_correction.py"} <= {file.name for file in files}
     for file in files:
         imported = {
