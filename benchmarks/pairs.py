@@ -13,7 +13,7 @@ from symgen.methods import METHODS
 INTRODUCTION = """# Pairs of method and integrator
 
 Written by `python -m benchmarks.pairs` from the forms that methods give and integrators solve
-([integrators.md](integrators.md)). **D** marks a method's default integrator, + the others that fit; anything else is
+([integrators](integrators.md)). **D** marks a method's default integrator, + the others that fit; anything else is
 refused with a sentence that names those that fit.
 """
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from types import TracebackType
@@ -69,12 +70,12 @@ class Lines:
 
     def say(self, text: str, share: float, seconds_left: float | None) -> None:
         """Show what is being done, how much of the work is behind it, and about how long the rest takes."""
-        left = "" if seconds_left is None else f", about {_duration(seconds_left)} left"
-        self.bar.title = f"{text}{left}"
+        self.bar.title = text  # the bar says by itself how much is done, and how long the rest takes
         self.bar(share)
         if not self.bar.shown and time.perf_counter() - self.last > BETWEEN_LINES:
             self.last = time.perf_counter()
-            print(f"symgen: {self.bar.title}", file=sys.stderr, flush=True)
+            left = "" if seconds_left is None else f", about {_duration(seconds_left)} left"
+            print(f"symgen: {math.floor(100.0 * share)} %, {text}{left}", file=sys.stderr, flush=True)
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import time
 from contextlib import ExitStack
 from pathlib import Path
@@ -118,7 +117,7 @@ def command(
             share = reached / total
             left = (time.monotonic() - began) * (1.0 - share) / share if share > 0.02 else None
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
-            lines.say(f"{math.floor(100.0 * share)} %, {name}{what}", share, left)
+            lines.say(f"{name}{what}", share, left)
 
         studies = compare_all(
             loaded,

@@ -88,7 +88,7 @@ def lower_linearised(
     turning, sections, rows
         As for `symgen.lower.side.lower_side`.
     groups : sequence of str
-        Groups that are wanted, with derivatives by state, v' and multipliers alone; everything unless given.
+        Groups that are wanted, with derivatives by state, v' and multipliers alone; by default everything.
 
     Raises
     ------
