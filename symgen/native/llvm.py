@@ -343,7 +343,7 @@ class _Printer:
     def operation(self, kind: Scalar, name: str, arguments: tuple[Expression, ...]) -> str:
         """Print an operation."""
         first = arguments[0].type
-        if name in sines.NAMES and (name, arguments[0]) in self.found:
+        if name in sines.NAMES and sines.is_simple(arguments[0]) and (name, arguments[0]) in self.found:
             return self.found[name, arguments[0]]
         if name == "pow" and arguments[1].type == "int":
             exponent = arguments[1]

@@ -64,7 +64,7 @@ def groups(function: Function) -> dict[int, list[tuple[Expression, ...]]]:
     known: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
     wanted: dict[Expression, int] = {}  # by the statement that wants it first
     for i, statement in enumerate(straight):
-        for angle in _angles(_value(statement)):
+        for angle in filter(is_simple, _angles(_value(statement))):
             wanted.setdefault(angle, i)
         if isinstance(statement, Assign) and statement.name in function.fixed:
             known[statement.name] = i + 1
@@ -109,16 +109,22 @@ def _angles(e: Expression | str) -> Iterator[Expression]:
             yield e.arguments[0]
 
 
+def is_simple(e: Expression) -> bool:
+    """Whether a value is a sum or product of variables and numbers: other angles are taken one by one."""
+    if isinstance(e, Operation):
+        return e.name in ("add", "sub", "mul", "neg") and all(map(is_simple, e.arguments))
+    return isinstance(e, Constant | Variable)
+
+
 def _ready(e: Expression, known: dict[str, int]) -> int | None:
-    """Return the index of the statement before which a value is known, None if it is more than fixed variables."""
+    """Return the index of the statement before which a simple value is known, None if a variable of it changes."""
     if isinstance(e, Constant):
         return 0
     if isinstance(e, Variable):
         return known.get(e.name)
-    if isinstance(e, Operation) and e.name in ("add", "sub", "mul", "neg"):
-        parts = [_ready(argument, known) for argument in e.arguments]
-        return None if None in parts else max(part for part in parts if part is not None)
-    return None
+    assert isinstance(e, Operation), "a simple value"
+    parts = [_ready(argument, known) for argument in e.arguments]
+    return None if None in parts else max(part for part in parts if part is not None)
 
 
 def width(count: int) -> int:

@@ -122,16 +122,28 @@ def f(y, out):
 """
 
 
-def groups_of(tmp_path, text: str, name: str) -> list[tuple[object, ...]]:
-    function = load_module(written(tmp_path / name, text)).f
+def groups_of(tmp_path, name: str, *texts: str) -> list[tuple[object, ...]]:
+    function = load_module(written(tmp_path / name, *texts)).f
     read = function.read((("float", True), ("float", True)))
     return [call for calls in sines.groups(read).values() for call in calls]
 
 
+CALLED = """
+def g(x):
+    return 2.0*x
+"""
+CALLING = """
+def f(y, out):
+    out[0] = math.sin(g(y[0])) + math.cos(g(y[1])) + math.sin(y[2]/y[3]) + math.cos(math.sqrt(y[4])) + math.sin(y[5])
+    return 0
+"""
+
+
 def test_which_angles_are_taken_together(tmp_path):
-    """Those known when the first is wanted, of four or more; not what is behind a choice."""
-    assert [len(call) for call in groups_of(tmp_path, MANY, "many")] == [6]
-    assert groups_of(tmp_path, FEW, "few") == []
+    """Those known when the first is wanted, of four or more; not what is behind a choice, nor what is called for."""
+    assert [len(call) for call in groups_of(tmp_path, "many", MANY)] == [6]
+    assert groups_of(tmp_path, "few", FEW) == []
+    assert groups_of(tmp_path, "calling", CALLED, CALLING) == []
 
 
 def test_functions_with_and_without(tmp_path):
