@@ -164,13 +164,7 @@ class SingleRuns:
             if not self._warm:
                 simulation.warm(outputs)
                 self._warm = True
-        held = list[tuple[float, Array]]()
-
-        def follow() -> None:
-            count = int(simulation.state.control[abi.OUTPUTS])
-            if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
-                held.append((float(outputs.times[count - 1]), simulation.state.p.copy()))
-
+        held, follow = simulation.follower(outputs)
         try:
             code = simulation.run(outputs, follow, (lambda: bool(control[abi.STOP]), _STEPS))
         except InputError:  # a reset, or numbers of an input, that cannot be

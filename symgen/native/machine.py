@@ -54,6 +54,7 @@ def optimised(text: str) -> Any:
     module = llvm.parse_assembly(text)
     module.triple, module.data_layout = target._llvm_module.triple, target._data_layout
     passes, builder = target._module_pass_manager()
+    # the function of `symgen.native.sines` jumps by a ``switch``: it needs no more than straight code
     if " br " not in text and "available_externally" not in text:
         passes = llvm.create_new_module_pass_manager()
         passes.add_instruction_combine_pass()

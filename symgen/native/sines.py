@@ -68,17 +68,16 @@ def groups(function: Function) -> dict[int, list[tuple[Expression, ...]]]:
             wanted.setdefault(angle, i)
         if isinstance(statement, Assign) and statement.name in function.fixed:
             known[statement.name] = i + 1
-    ready = {angle: _ready(angle, known) for angle in wanted}
+    ready = {angle: at for angle in wanted if (at := _ready(angle, known)) is not None}
     found: dict[int, list[tuple[Expression, ...]]] = {}
-    waiting = sorted(wanted, key=wanted.__getitem__)
+    waiting = sorted(ready, key=wanted.__getitem__)
     while waiting:
         here = wanted[waiting[0]]
-        together = [angle for angle in waiting if ready[angle] is not None and ready[angle] <= here]  # type: ignore[operator]
-        rest = [angle for angle in waiting if angle not in together]
+        together = [angle for angle in waiting if ready[angle] <= here]
+        waiting = [angle for angle in waiting if ready[angle] > here]
         while len(together) >= FEWEST:
             found.setdefault(here, []).append(tuple(together[:MOST]))
             together = together[MOST:]
-        waiting = [angle for angle in rest if wanted[angle] > here]
     return found
 
 

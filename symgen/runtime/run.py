@@ -135,14 +135,7 @@ def integrate(
     if start.saved is not None:
         simulation.store_first(outputs)
     simulation.warm(outputs)
-    held = list[tuple[float, Array]]()
-    state = simulation.state
-
-    def follow() -> None:
-        count = int(state.control[abi.OUTPUTS])
-        if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
-            held.append((float(outputs.times[count - 1]), state.p.copy()))
-
+    held, follow = simulation.follower(outputs)
     code, seconds, interrupted = _in_thread(simulation, outputs, progress, spec.max_evaluations, follow)
     after = cache_stats()
     compiling = sum(after[name] - before[name] for name in ("compile_seconds", "load_seconds"))

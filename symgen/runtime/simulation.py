@@ -214,6 +214,20 @@ class Simulation:
             self.take_pieces(begin)
         return self._asking(outputs, self.spec.until, ask)
 
+    def follower(self, outputs: Outputs) -> tuple[list[tuple[float, Array]], Callable[[], None]]:
+        """Return a list of parameters of earlier pieces, each with the last time that it holds at, and what fills it.
+
+        The latter is what `run` takes as `follow`.
+        """
+        held, control = list[tuple[float, Array]](), self.state.control
+
+        def follow() -> None:
+            count = int(control[abi.OUTPUTS])
+            if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
+                held.append((float(outputs.times[count - 1]), self.state.p.copy()))
+
+        return held, follow
+
     def _asking(self, outputs: Outputs, until: float, ask: tuple[Callable[[], bool], float] | None) -> int:
         """Go on as `enter` does, and ask whether to stop."""
         if ask is None:
