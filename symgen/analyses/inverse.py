@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from symgen.analyses.balancing import balance, checked_weights
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
 from symgen.errors import InputError
+from symgen.result.derived import OfForces
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Inverse(Tables):
+class Inverse(OfForces, Tables):
     """The efforts of a motion; arrays have one row a time.
 
     Attributes
@@ -86,26 +86,6 @@ class Inverse(Tables):
     def ok(self) -> bool:
         """Whether the motion reaches all times."""
         return not self.ended
-
-    @cached_property
-    def lam(self) -> Labelled:
-        """Multipliers of the joints; those of minimum norm where constraints are redundant."""
-        return self.forces.multipliers()
-
-    @cached_property
-    def reactions(self) -> Labelled:
-        """Reaction of each joint on its first body, as a run has it."""
-        return self.forces.reactions(self.lam)
-
-    @cached_property
-    def magnitudes(self) -> Labelled:
-        """Magnitudes of the reactions."""
-        return self.forces.magnitudes(self.reactions)
-
-    @cached_property
-    def non_unique_reactions(self) -> tuple[str, ...]:
-        """Joints whose reactions the motion does not determine, because constraints are redundant."""
-        return self.forces.non_unique
 
     def summary(self) -> dict[str, dict[str, Any]]:
         """Return for each effort what sizes a motor: unit, largest size and its time, root mean square, power, energy.
