@@ -22,6 +22,7 @@ from symgen.cli._options import (
 )
 from symgen.cli._report import command_again, report_file, sketches_of
 from symgen.errors import InputError
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -103,6 +104,7 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Lines
+    from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
     from symgen.study.journal import Journal
     from symgen.study.machine import cores
@@ -119,19 +121,9 @@ def command(
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
             lines.say(f"{name}{what}", share, left)
 
-        studies = compare_all(
-            loaded,
-            method_list,
-            integrator_list,
-            step_list,
-            rtol_list,
-            progress=progress,
-            jobs=jobs or cores(),
-            journal=journal,
-            reference_by=reference_by,
-            coordinates=words("--coordinates", states),
-            **asked,
-        )
+        runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
+        settings = Settings(**asked)
+        studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or cores(), journal)
     if as_json:
         found = [study.to_json() for study in studies]
         write_json(found[0] if len(models) == 1 else {"studies": found})
@@ -158,7 +150,7 @@ def command(
 def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Study]) -> list[tuple[str, str]]:
     """Return what was asked for in words, by label; of steps and tolerances those that some run had."""
     from symgen.report.words import exact
-    from symgen.study.comparison.compare import ATOL_SHARE, RTOLS, STEP_FACTORS
+    from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
 
     own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
     constant = ", ".join(f"{exact(x)} s" for x in steps) or own
