@@ -2,70 +2,31 @@
 
 from __future__ import annotations
 
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 from numba import types
 
-from symgen.runtime.records import STATE
+from symgen.runtime.records import STATE, Run, State, System
 
 
-class HuntingState(NamedTuple):
-    """A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`)."""
-
-    y: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
-    hunt: Any
+def _more(name: str, of: Any, *fields: str) -> Any:
+    """Return a record with the fields of another one and further ones, flat, so that loops read both alike."""
+    return namedtuple(name, (*of._fields, *fields), module=__name__)  # type: ignore[misc]  # fields are known here
 
 
-class HuntingRun(NamedTuple):
-    """A `Run` with what is kept of events."""
-
-    y: Any
-    trial: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
-    hunt: Any
+#: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
+HuntingState = _more("HuntingState", State, "hunt")
+#: A `Run` with what is kept of events.
+HuntingRun = _more("HuntingRun", Run, "hunt")
+#: A `System` with the functions of events.
+HuntingSystem = _more("HuntingSystem", System, "happens", "decide")
 
 
 class HuntingScheme(NamedTuple):
     """A scheme's record with the functions of events: switching functions with their rates, and what decides."""
 
     scheme: Any
-    happens: Any
-    decide: Any
-
-
-class HuntingSystem(NamedTuple):
-    """A `System` with the functions of events."""
-
-    sizes: Any
-    rhs: Any
-    confirm: Any
-    accept: Any
-    turn: Any
-    residual: Any
-    tangent: Any
     happens: Any
     decide: Any
 
