@@ -134,9 +134,10 @@ class Analysed:
         AnalysisError
             If no equilibrium is found.
         """
-        from symgen.analyses.asked import asked_modes
+        from symgen.analyses.asked import Asked, asked_modes
 
-        return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return asked_modes(asked, states, count)
 
     def view_mode(
         self,
@@ -206,10 +207,10 @@ class Analysed:
         AnalysisError
             If no equilibrium is found.
         """
-        from symgen.analyses.asked import asked_system
+        from symgen.analyses.asked import Asked, asked_system
 
-        asked = changed(settings, changes)
-        return asked_system(self.mechanism, asked, at, self.simulate, states, cyclic, instantaneous, by)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return asked_system(asked, states, instantaneous, by)
 
     def locus(
         self,
@@ -230,9 +231,11 @@ class Analysed:
         settings, at, states, cyclic, **changes
             As for `modes`.
         """
+        from symgen.analyses.asked import Asked
         from symgen.analyses.locus import locus
 
-        return locus(self.mechanism, changed(settings, changes), over, at, self.simulate, states, cyclic)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return locus(asked, over, states)
 
     def kinematics(
         self,
