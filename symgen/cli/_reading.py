@@ -55,15 +55,7 @@ class Started:
         shape: str,
         coordinates: str,
     ) -> Started:
-        """Return a model at its start.
-
-        Raises
-        ------
-        InputError
-            If a setting is wrong.
-        AssemblyError
-            If the mechanism cannot be closed.
-        """
+        """Return a model at its start; raises as `symgen.api.Model.start` does."""
         from symgen.compiling.pipeline import choose_method, compile_model
         from symgen.plan import make_plan
         from symgen.settings import Settings

@@ -12,7 +12,7 @@ from symgen.runtime.records import STATE, Run, State, System
 
 def _more(name: str, of: Any, *fields: str) -> Any:
     """Return a record with the fields of another one and further ones, flat, so that loops read both alike."""
-    return namedtuple(name, (*of._fields, *fields), module=__name__)  # type: ignore[misc]  # fields are known here
+    return namedtuple(name, (*of._fields, *fields), module=__name__)
 
 
 #: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).

@@ -222,7 +222,7 @@ def compare_all(
         times = _times(chosen, end, asked.output_step)
         small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
         shape = "straight" if asked.shape == "auto" and small else asked.shape
-        base = replace(asked, output_step=None, shape=shape, until=end, times=times)
+        base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         refuse_events("compare", chosen.mechanism, asked)
