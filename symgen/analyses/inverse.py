@@ -139,30 +139,7 @@ def inverse(
     actuators: Sequence[str] = (),
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
-    """Return the efforts that a motion needs.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The description.
-    settings : Settings
-        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
-    motion : optional
-        A result of a run or of kinematics, or the path of a file that a result was saved to; what the drivers
-        prescribe by default.
-    times : array, optional
-        Of a motion that drivers prescribe, see `symgen.analyses.kinematics.kinematics`.
-    actuators : sequence of str
-        See `symgen.analyses.actuators.actuated`; the drivers by default.
-    weights : mapping of str to float, optional
-        Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the length
-        of the mechanism, by default.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong; without a motion, if freedom is left that no driver drives.
-    """
+    """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     names = arguments.words(WHERE, actuators)
     drivers = drivers_of(mechanism)
     if motion is None:

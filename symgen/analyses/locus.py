@@ -10,14 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.asked import Asked, asked_modes, range_of
+from symgen.analyses.asked import Array, Asked, asked_modes, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
 from symgen.files import write_whole
 from symgen.result.export import PLOTTED, check_path
 from symgen.result.plots import COLOURS
 
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Real parts below this fraction of the largest eigenvalue count as zero: they are where nothing decays or grows.

@@ -291,7 +291,8 @@ class Analysed:
         actuators : sequence of str
             What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
         weights : mapping of str to float, optional
-            Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
+            Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
+            length of the mechanism, by default.
         **changes
             Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
 

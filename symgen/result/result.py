@@ -291,13 +291,7 @@ class Result(Derived):
         return to_dataframe(self)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return all tables as a dataset over time, with units and what was run as attributes.
-
-        Raises
-        ------
-        InputError
-            If xarray is not installed; says how to install it.
-        """
+        """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
         from symgen.result.export import to_xarray
 
         return to_xarray(self)
