@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-from collections import namedtuple
 from typing import Any, NamedTuple
 
 from numba import types
 
-from symgen.runtime.records import STATE, Run, State, System
-
-
-def _more(name: str, of: Any, *fields: str) -> Any:
-    """Return a record with the fields of another one and further ones, flat, so that loops read both alike."""
-    return namedtuple(name, (*of._fields, *fields), module=__name__)
-
+from symgen.runtime.records import STATE, Run, State, System, record
 
 #: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
-HuntingState = _more("HuntingState", State, "hunt")
+HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
 #: A `Run` with what is kept of events.
-HuntingRun = _more("HuntingRun", Run, "hunt")
+HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
 #: A `System` with the functions of events.
-HuntingSystem = _more("HuntingSystem", System, "happens", "decide")
+HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", module=__name__)
 
 
 class HuntingScheme(NamedTuple):
