@@ -238,7 +238,10 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
     )
     forces = Forces(motion, seats(found.mechanism, {**found.parameters, **_numbers(found)}))
     velocities = labelled(traced.states[:, info.nq : info.nq + info.nv], info.velocities)
-    result = Kinematics(
+    said = [p.words for p in traced.passages if p.kind == "passed"]
+    if (start.redundant_rows or info.dropped_rows) and forces.non_unique:
+        said.append("reactions are not unique at " + ", ".join(forces.non_unique))
+    return Kinematics(
         mechanism=found.mechanism.name,
         t=traced.times,
         q=labelled(traced.states[:, : info.nq], info.coordinates),
@@ -249,19 +252,13 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
         ended=traced.ended,
         parameters=found.parameters,
         inputs=found.told,
-        notes=found.notes,
+        notes=(*found.notes, *said),
         steps=traced.steps,
         drivers=drivers_of(found.mechanism),
         motion=motion,
         forces=forces,
         measured=Measured(found.mechanism, motion, lambda: forces.multipliers().values),
     )
-    said = [p.words for p in traced.passages if p.kind == "passed"]
-    if found.start.redundant_rows or info.dropped_rows:
-        unique = result.non_unique_reactions
-        said += ["reactions are not unique at " + ", ".join(unique)] if unique else []
-    object.__setattr__(result, "notes", (*found.notes, *said))
-    return result
 
 
 def _numbers(found: Prescribed) -> dict[str, float]:

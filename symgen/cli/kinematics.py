@@ -33,10 +33,7 @@ from symgen.settings import Settings
     help="A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
 )
 @motion_options(start="Value of a coordinate: of several ways to close MODEL the nearest is taken.")
-@table_options(
-    shown="What to show, save and plot: a column, a body, a joint or a table, such as points.",
-    drawn="quantities",
-)
+@table_options("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities")
 @click.option("--curves", metavar="FILE", help="Draw the paths of points into FILE: .png, .svg or .pdf.")
 @json_option
 def command(

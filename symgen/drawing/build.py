@@ -73,11 +73,11 @@ def build_scene(
     return Scene(
         name=mechanism.name,
         title=mechanism.title,
-        frames=numbers.frames,
         items=(*bodies, *forces, *joints, *faults),
         spatial=spatial,
         up=up,
         unit=unit,
+        frames=numbers.frames,
     )
 
 

@@ -174,8 +174,6 @@ class Scene:
     ----------
     name, title : str
         Of the mechanism.
-    frames : tuple of Frame
-        Of the bodies.
     items : tuple of Item
         Ground, bodies, joints, forces.
     spatial : bool
@@ -184,15 +182,17 @@ class Scene:
         The direction against gravity, the y axis in the plane and the z axis in space where there is none.
     unit : float
         Size of a joint's symbol [m].
+    frames : tuple of Frame
+        Of the bodies.
     """
 
     name: str
     title: str
-    frames: tuple[Frame, ...]
     items: tuple[Item, ...]
     spatial: bool
     up: Point
     unit: float
+    frames: tuple[Frame, ...]
 
     def __repr__(self) -> str:
         return f"<Scene of {self.name}: {len(self.items)} items>"

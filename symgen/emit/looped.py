@@ -27,32 +27,27 @@ def emit_machine(generator: str) -> str:
     return render("looped/machine.py.j2", {"format": FORMAT, "generator": generator, **values})
 
 
-#: Calls of generic code: name, arguments, which code with which arguments, and what it does.
+#: Calls of generic code: name, arguments behind T, p and w, which code with which arguments, and what it does.
 _GENERIC = (
-    ("rows_times", "T, p, w, x, result", ("rows_times", "x", "result", "0", "0.0"), "Section `result` = D times `x`."),
-    ("columns_times", "T, p, w, x, result", ("columns_times", "x", "result", "0", "0.0"), "`result` = D^T times `x`."),
-    ("mass_times", "T, p, w, x, result", ("blocks_times", "0", "x", "result", "0.0"), "`result` = M times `x`."),
-    ("inverse_mass_times", "T, p, w, x, result", ("blocks_times", "1", "x", "result", "0.0"), "`result` = M^-1 `x`."),
-    ("weigh", "T, p, w", ("weigh", "0", "0", "0", "0.0"), "Section `left` = D M^-1."),
-    ("gauge", "T, p, w", ("gauge", "0", "0", "0", "0.0"), "Section `left` = D G."),
-    ("gram", "T, p, w, weight, result", ("gram", "weight", "result", "0", "0.0"), "`result` = D W D^T."),
-    (
-        "augment",
-        "T, p, w, penalties, result",
-        ("augment", "penalties", "result", "0", "0.0"),
-        "`result` = M + D^T a D.",
-    ),
-    ("factorise", "T, p, w, table, lower, mode", ("factorise", "table", "lower", "mode", "0.0"), "L D L^T in place."),
-    ("solve", "T, p, w, table, lower, x", ("solve", "table", "lower", "x", "0.0"), "Solve in place in section `x`."),
+    ("rows_times", "x, result", ("rows_times", "x", "result", "0", "0.0"), "Section `result` = D times `x`."),
+    ("columns_times", "x, result", ("columns_times", "x", "result", "0", "0.0"), "`result` = D^T times `x`."),
+    ("mass_times", "x, result", ("blocks_times", "0", "x", "result", "0.0"), "`result` = M times `x`."),
+    ("inverse_mass_times", "x, result", ("blocks_times", "1", "x", "result", "0.0"), "`result` = M^-1 `x`."),
+    ("weigh", "", ("weigh", "0", "0", "0", "0.0"), "Section `left` = D M^-1."),
+    ("gauge", "", ("gauge", "0", "0", "0", "0.0"), "Section `left` = D G."),
+    ("gram", "weight, result", ("gram", "weight", "result", "0", "0.0"), "`result` = D W D^T."),
+    ("augment", "penalties, result", ("augment", "penalties", "result", "0", "0.0"), "`result` = M + D^T a D."),
+    ("factorise", "table, lower, mode", ("factorise", "table", "lower", "mode", "0.0"), "L D L^T in place."),
+    ("solve", "table, lower, x", ("solve", "table", "lower", "x", "0.0"), "Solve in place in section `x`."),
     (
         "factorise_forward",
-        "T, p, w, table, lower, mode, x",
+        "table, lower, mode, x",
         ("factorise", "table", "lower", "mode", "float(x)"),
         "L D L^T in place, and the first half of `solve` for section `x`.",
     ),
     (
         "solve_rest",
-        "T, p, w, table, lower, x",
+        "table, lower, x",
         ("solve", "table", "lower", "x", "1.0"),
         "The second half of `solve` in section `x`.",
     ),

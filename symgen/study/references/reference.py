@@ -44,10 +44,8 @@ class Reference:
 
     Attributes
     ----------
-    how : str
-        Where it comes from, one sentence.
-    estimated_error : float
-        How far its points may be off [m].
+    how, estimated_error : str, float
+        Where it comes from, in one sentence, and how far its points may be off [m].
     times, q : Array, shapes (k,), (k, nq)
         Times [s] and coordinates.
     note : str
