@@ -26,7 +26,7 @@ from rich.table import Table
 import symgen
 from benchmarks.peers.analyses import CATENARY, CHAINS, FOUR_BAR, GRAVITY, SLOPE, places
 from benchmarks.show import show
-from symgen.analyses.asked import subject_at
+from symgen.analyses.asked import Asked, subject_at
 from symgen.analyses.modes import modes
 from symgen.settings import Settings
 
@@ -105,9 +105,8 @@ def own() -> list[dict[str, Any]]:
         ("four-bar", rods("four-bar"), np.array([FOUR_BAR[1]])),
     ):
         for coordinates in ("absolute", "joint"):
-            subject, y = subject_at(
-                model.mechanism, Settings(coordinates=coordinates), "equilibrium", model.simulate, ()
-            )
+            settings = Settings(coordinates=coordinates)
+            subject, y = subject_at(Asked(model.mechanism, settings, "equilibrium", model.simulate))
             seconds, found = fastest(partial(modes, subject, y))
             call, _ = fastest(partial(model.modes, coordinates=coordinates))
             error = float(np.abs(found.omega_squared / truth - 1.0).max())

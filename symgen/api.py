@@ -299,7 +299,7 @@ class Model(Analysed):
         from symgen.result.agreement import settle
         from symgen.result.build import build_result
         from symgen.runtime.hunting import with_events
-        from symgen.runtime.timing import repeated
+        from symgen.runtime.timing import timed
         from symgen.store import ahead
         from symgen.store.stats import seconds_in_cache
 
@@ -320,7 +320,8 @@ class Model(Analysed):
             compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
         plan = watching(mechanism if tree is None else tree.mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
-        outcome, spread = repeated(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
+        runs = timed(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
+        outcome, spread = runs.outcome, runs.spread
         second = None
         if reasons or asked.verify:  # something was chosen automatically, or the error is asked for
             free = bool(reasons) and asked.rtol is None and asked.atol is None

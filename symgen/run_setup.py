@@ -277,10 +277,8 @@ def taken_up(
 
     Parameters
     ----------
-    compiled : CompiledModel
-        Model and method.
-    plan : Plan
-        How it is run.
+    compiled, plan : CompiledModel, Plan
+        Model and method, and how it is run.
     last : LastState
         Of the other run.
     values : mapping

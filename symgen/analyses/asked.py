@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -55,17 +55,11 @@ def is_large(mechanism: Mechanism, settings: Settings) -> bool:
     return settings.shape == "looped" or (settings.shape == "auto" and size > LARGE)
 
 
-def subject_at(
-    mechanism: Mechanism,
-    settings: Settings,
-    at: str | float,
-    run: Callable[[Settings], Result],
-    cyclic: Sequence[str],
-    by: Sequence[str] = (),
-) -> tuple[Subject, Array]:
-    """Return what is analysed, and the state that it is analysed about.
+@dataclass(frozen=True)
+class Asked:
+    """What is analysed, and where.
 
-    Parameters
+    Attributes
     ----------
     mechanism : Mechanism
         The description.
@@ -78,6 +72,31 @@ def subject_at(
         Settings -> result of a run.
     cyclic : sequence of str
         Coordinates that turn on in a steady motion; found by default.
+
+    Raises
+    ------
+    InputError
+        If there is no such place.
+    """
+
+    mechanism: Mechanism
+    settings: Settings
+    at: str | float
+    run: Callable[[Settings], Result]
+    cyclic: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "at", place_of(self.at))
+        object.__setattr__(self, "cyclic", arguments.words("cyclic", self.cyclic))
+
+
+def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
+    """Return what is analysed, and the state that it is analysed about.
+
+    Parameters
+    ----------
+    asked : Asked
+        What is asked for.
     by : sequence of str
         Parameters that derivatives are wanted by.
 
@@ -88,13 +107,14 @@ def subject_at(
     AnalysisError
         If no equilibrium or steady motion is found, or the run fails.
     """
+    mechanism, settings, at = asked.mechanism, asked.settings, asked.at
     if at == "steady":
         subject = subject_of(mechanism, replace(settings, coordinates="joint"), by)
-        return subject, steady_motion(subject, cyclic)[0]
-    if cyclic:
-        raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(cyclic))
+        return subject, steady_motion(subject, asked.cyclic)[0]
+    if asked.cyclic:
+        raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(asked.cyclic))
     if isinstance(at, float):
-        result = run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
+        result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
         if result.status == "failed":
             raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
         settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
@@ -237,44 +257,29 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     return given[0], np.array(arguments.numbers(f"{where} {given[0]}", list(given[1])), dtype=np.float64)
 
 
-def asked_modes(
-    mechanism: Mechanism,
-    settings: Settings,
-    at: object,
-    run: Callable[[Settings], Result],
-    states: Sequence[str] = (),
-    cyclic: Sequence[str] = (),
-    count: int | None = None,
-) -> Modes:
+def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = None) -> Modes:
     """Return the modes at a place; see `symgen.api.Model.modes`."""
-    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
+    states = arguments.words("states", states)
     if count is not None:
         from symgen.analyses.large import lowest_modes
 
-        if states or cyclic or place_of(at) != "equilibrium":
+        if states or asked.cyclic or asked.at != "equilibrium":
             raise InputError(
                 "count", "modes about an equilibrium, without states of their own", "another place, or states"
             )
-        return lowest_modes(mechanism, settings, arguments.whole("count", count, 1, 10_000))
-    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic)
+        return lowest_modes(asked.mechanism, asked.settings, arguments.whole("count", count, 1, 10_000))
+    subject, y = subject_at(asked)
 
     def bodies() -> Subject:
-        return subject_of(mechanism, replace(settings, coordinates="absolute"))
+        return subject_of(asked.mechanism, replace(asked.settings, coordinates="absolute"))
 
     return modes(subject, y, None, states, bodies=bodies)
 
 
 def asked_system(
-    mechanism: Mechanism,
-    settings: Settings,
-    at: object,
-    run: Callable[[Settings], Result],
-    states: Sequence[str] = (),
-    cyclic: Sequence[str] = (),
-    instantaneous: bool = False,
-    by: Sequence[str] = (),
+    asked: Asked, states: Sequence[str] = (), instantaneous: bool = False, by: Sequence[str] = ()
 ) -> LinearSystem:
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
-    states, cyclic = arguments.words("states", states), arguments.words("cyclic", cyclic)
-    subject, y = subject_at(mechanism, settings, place_of(at), run, cyclic, arguments.words("by", by))
+    states = arguments.words("states", states)
+    subject, y = subject_at(asked, arguments.words("by", by))
     return linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +16,7 @@ from symgen.analyses.balancing import balance, checked_weights
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
 from symgen.errors import InputError
+from symgen.result.derived import OfForces
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Inverse(Tables):
+class Inverse(OfForces, Tables):
     """The efforts of a motion; arrays have one row a time.
 
     Attributes
@@ -87,26 +87,6 @@ class Inverse(Tables):
         """Whether the motion reaches all times."""
         return not self.ended
 
-    @cached_property
-    def lam(self) -> Labelled:
-        """Multipliers of the joints; those of minimum norm where constraints are redundant."""
-        return self.forces.multipliers()
-
-    @cached_property
-    def reactions(self) -> Labelled:
-        """Reaction of each joint on its first body, as a run has it."""
-        return self.forces.reactions(self.lam)
-
-    @cached_property
-    def magnitudes(self) -> Labelled:
-        """Magnitudes of the reactions."""
-        return self.forces.magnitudes(self.reactions)
-
-    @cached_property
-    def non_unique_reactions(self) -> tuple[str, ...]:
-        """Joints whose reactions the motion does not determine, because constraints are redundant."""
-        return self.forces.non_unique
-
     def summary(self) -> dict[str, dict[str, Any]]:
         """Return for each effort what sizes a motor: unit, largest size and its time, root mean square, power, energy.
 
@@ -159,30 +139,7 @@ def inverse(
     actuators: Sequence[str] = (),
     weights: Mapping[str, float] | None = None,
 ) -> Inverse:
-    """Return the efforts that a motion needs.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The description.
-    settings : Settings
-        Of which ``parameters``, ``inputs``, ``shape`` and ``strict`` count.
-    motion : optional
-        A result of a run or of kinematics, or the path of a file that a result was saved to; what the drivers
-        prescribe by default.
-    times : array, optional
-        Of a motion that drivers prescribe, see `symgen.analyses.kinematics.kinematics`.
-    actuators : sequence of str
-        See `symgen.analyses.actuators.actuated`; the drivers by default.
-    weights : mapping of str to float, optional
-        Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the length
-        of the mechanism, by default.
-
-    Raises
-    ------
-    InputError
-        If an argument is wrong; without a motion, if freedom is left that no driver drives.
-    """
+    """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     names = arguments.words(WHERE, actuators)
     drivers = drivers_of(mechanism)
     if motion is None:

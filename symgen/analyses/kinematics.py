@@ -19,6 +19,7 @@ from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
+from symgen.result.derived import Derived
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.measured import Measured
 from symgen.result.reactions import Forces, seats
@@ -42,7 +43,7 @@ MOST_TIMES = 100_000_000
 
 
 @dataclass(frozen=True, repr=False)
-class Kinematics(Tables):
+class Kinematics(Derived, Tables):
     """A prescribed motion; arrays have one row a time.
 
     Attributes
@@ -105,49 +106,11 @@ class Kinematics(Tables):
         return not self.ended
 
     @cached_property
-    def joint_coordinates(self) -> Labelled:
-        """What joints report, each followed by its rate."""
-        quantities = self.motion.compiled.info.joint_coordinates
-        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
-        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
-        return Labelled(self.motion.joint_coordinates, names, units)
-
-    @cached_property
-    def lam(self) -> Labelled:
-        """Multipliers; those of minimum norm where constraints are redundant."""
-        return self.forces.multipliers()
-
-    @cached_property
-    def reactions(self) -> Labelled:
-        """Reaction of each joint on its first body, as a run has it."""
-        return self.forces.reactions(self.lam)
-
-    @cached_property
-    def magnitudes(self) -> Labelled:
-        """Magnitudes of the reactions."""
-        return self.forces.magnitudes(self.reactions)
-
-    @cached_property
     def efforts(self) -> Labelled:
         """What each driver exerts along its coordinate [N m or N]: on the second body of its joint, forward."""
         rows = {row.joint: i for i, row in enumerate(self.motion.compiled.info.rows)}
         places = [rows[name] for name in self.drivers]
         return Labelled(-self.lam.values[:, places], self.drivers, tuple(self.lam.units[i] for i in places))
-
-    @cached_property
-    def points(self) -> Labelled:
-        """Named points of bodies, coupler curves among them: ``leg.foot.x``, ``.vx``, ``.ax``, ..."""
-        return self.measured.table("points")
-
-    @cached_property
-    def elements(self) -> Labelled:
-        """Force elements and drivers: ``spring.force``, ``motor.effort``, ``motor.power``, ..."""
-        return self.measured.table("elements")
-
-    @cached_property
-    def outputs(self) -> Labelled:
-        """The formulas of the file's ``[outputs]``, integrals left out."""
-        return self.measured.table("outputs")
 
     @property
     def energy(self) -> Labelled:
@@ -160,11 +123,6 @@ class Kinematics(Tables):
         """Norms of Phi and ``D v - nu``: ``position``, ``velocity``."""
         status = self.motion.status_columns
         return Labelled(status[:, [abi.PHI, abi.DRIFT]], ("position", "velocity"), ("m", "m/s"))
-
-    @cached_property
-    def non_unique_reactions(self) -> tuple[str, ...]:
-        """Joints whose reactions the motion does not determine, because constraints are redundant."""
-        return self.forces.non_unique
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen kinematics --json``; numbers that are not finite become None."""
@@ -280,7 +238,10 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
     )
     forces = Forces(motion, seats(found.mechanism, {**found.parameters, **_numbers(found)}))
     velocities = labelled(traced.states[:, info.nq : info.nq + info.nv], info.velocities)
-    result = Kinematics(
+    said = [p.words for p in traced.passages if p.kind == "passed"]
+    if (start.redundant_rows or info.dropped_rows) and forces.non_unique:
+        said.append("reactions are not unique at " + ", ".join(forces.non_unique))
+    return Kinematics(
         mechanism=found.mechanism.name,
         t=traced.times,
         q=labelled(traced.states[:, : info.nq], info.coordinates),
@@ -291,19 +252,13 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
         ended=traced.ended,
         parameters=found.parameters,
         inputs=found.told,
-        notes=found.notes,
+        notes=(*found.notes, *said),
         steps=traced.steps,
         drivers=drivers_of(found.mechanism),
         motion=motion,
         forces=forces,
         measured=Measured(found.mechanism, motion, lambda: forces.multipliers().values),
     )
-    said = [p.words for p in traced.passages if p.kind == "passed"]
-    if found.start.redundant_rows or info.dropped_rows:
-        unique = result.non_unique_reactions
-        said += ["reactions are not unique at " + ", ".join(unique)] if unique else []
-    object.__setattr__(result, "notes", (*found.notes, *said))
-    return result
 
 
 def _numbers(found: Prescribed) -> dict[str, float]:

@@ -37,10 +37,8 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The description.
-    settings : Settings
-        ``parameters``, ``inputs`` and ``start`` are looked at; coordinates are those of bodies.
+    mechanism, settings
+        As for `symgen.analyses.sparse.sparse_of`.
     count : int
         How many.
 

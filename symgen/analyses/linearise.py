@@ -102,12 +102,8 @@ def linear_system(
 
     Parameters
     ----------
-    subject : Subject
-        The mechanism.
-    y : Array
-        The state: q and v.
-    t : float, optional
-        Time [s]; that of the start by default.
+    subject, y, t
+        As for `symgen.analyses.reduced.tangent`.
     states : sequence of str
         Quantities that are the states; rates of coordinates among them are added. Unless given, independent ones that
         determine all others at rest, and in a motion those that stay as they are.

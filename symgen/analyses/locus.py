@@ -5,24 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.asked import asked_modes, range_of
+from symgen.analyses.asked import Array, Asked, asked_modes, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
 from symgen.files import write_whole
 from symgen.result.export import PLOTTED, check_path
 from symgen.result.plots import COLOURS
 
-if TYPE_CHECKING:
-    from symgen.describe.mechanism import Mechanism
-    from symgen.result.result import Result
-    from symgen.settings import Settings
-
-Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 #: Real parts below this fraction of the largest eigenvalue count as zero: they are where nothing decays or grows.
@@ -122,15 +116,7 @@ class Locus:
         return figure
 
 
-def locus(
-    mechanism: Mechanism,
-    settings: Settings,
-    over: tuple[str, Sequence[float] | Array],
-    at: object,
-    run: Callable[[Settings], Result],
-    states: Sequence[str] = (),
-    cyclic: Sequence[str] = (),
-) -> Locus:
+def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Sequence[str] = ()) -> Locus:
     """Return how the eigenvalues move with a parameter; see `symgen.api.Model.locus`.
 
     Raises
@@ -141,11 +127,12 @@ def locus(
     name, values = range_of("over", over)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
         raise InputError(f"over {name}", "two values or more in increasing order", f"{len(values)}")
-    parameter_values(mechanism, {name: float(values[0])})
+    settings = asked.settings
+    parameter_values(asked.mechanism, {name: float(values[0])})
 
     def eigenvalues(value: float) -> Complex:
         changed = replace(settings, parameters={**settings.parameters, name: value})
-        return asked_modes(mechanism, changed, at, run, states, cyclic).eigenvalues
+        return asked_modes(replace(asked, settings=changed), states).eigenvalues
 
     found = [eigenvalues(float(values[0]))]
     for value in values[1:]:

@@ -134,9 +134,10 @@ class Analysed:
         AnalysisError
             If no equilibrium is found.
         """
-        from symgen.analyses.asked import asked_modes
+        from symgen.analyses.asked import Asked, asked_modes
 
-        return asked_modes(self.mechanism, changed(settings, changes), at, self.simulate, states, cyclic, count)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return asked_modes(asked, states, count)
 
     def view_mode(
         self,
@@ -206,10 +207,10 @@ class Analysed:
         AnalysisError
             If no equilibrium is found.
         """
-        from symgen.analyses.asked import asked_system
+        from symgen.analyses.asked import Asked, asked_system
 
-        asked = changed(settings, changes)
-        return asked_system(self.mechanism, asked, at, self.simulate, states, cyclic, instantaneous, by)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return asked_system(asked, states, instantaneous, by)
 
     def locus(
         self,
@@ -230,9 +231,11 @@ class Analysed:
         settings, at, states, cyclic, **changes
             As for `modes`.
         """
+        from symgen.analyses.asked import Asked
         from symgen.analyses.locus import locus
 
-        return locus(self.mechanism, changed(settings, changes), over, at, self.simulate, states, cyclic)
+        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        return locus(asked, over, states)
 
     def kinematics(
         self,
@@ -288,7 +291,8 @@ class Analysed:
         actuators : sequence of str
             What exerts the motion: drivers, joints, forces and inputs; all drivers by default.
         weights : mapping of str to float, optional
-            Of efforts that are not unique: the sum of (weight effort)^2 is smallest.
+            Of efforts that are not unique: the sum of (weight effort)^2 is smallest. 1 / N, or 1 / (N m) times the
+            length of the mechanism, by default.
         **changes
             Single settings that mean something here: ``parameters``, ``inputs``, ``strict``, ``shape``.
 

@@ -113,7 +113,7 @@ def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> 
     coordinates : {"absolute", "joint"}
         Whose coordinates the state has.
     """
-    from symgen.cli._reading import Started
+    from symgen.cli._reading import Asked, Started
     from symgen.errors import AssemblyError
 
     explicit = [choice for choice in choices if not choice.implicit]
@@ -121,7 +121,7 @@ def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> 
     why, files = "no method here is for explicit integrators", dict[str, str]()
     if usual is not None:
         try:
-            started = Started.of(model, usual.method.name, usual.options, {}, "straight", coordinates)
+            started = Started.of(model, Asked(usual.method.name, usual.options, {}, "straight", coordinates))
             settled = _start(model, started, usual)
             files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
         except AssemblyError as error:

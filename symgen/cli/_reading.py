@@ -21,6 +21,40 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
+class Asked:
+    """By which method a mechanism is looked at, and how.
+
+    Attributes
+    ----------
+    method : str or None
+        None: the usual one.
+    options : mapping
+        Of the method.
+    parameters : dict
+        Values of parameters that differ from the described ones.
+    shape, coordinates : str
+        As for runs.
+    """
+
+    method: str | None
+    options: Mapping[str, str]
+    parameters: dict[str, float]
+    shape: str
+    coordinates: str
+
+    @property
+    def named(self) -> str:
+        """Name of the method."""
+        return self.method or "direct-correction"
+
+    def chosen(self) -> MethodChoice:
+        """Return the method as it is compiled."""
+        from symgen.compiling.pipeline import choose_method
+
+        return choose_method(self.named, self.options)
+
+
+@dataclass(frozen=True)
 class Started:
     """A model at its start, as a run of a method would have it.
 
@@ -46,37 +80,26 @@ class Started:
     bodies: tuple[float, ...]
 
     @classmethod
-    def of(
-        cls,
-        model: Model,
-        method: str | None,
-        options: Mapping[str, str],
-        parameters: dict[str, float],
-        shape: str,
-        coordinates: str,
-    ) -> Started:
-        """Return a model at its start.
-
-        Raises
-        ------
-        InputError
-            If a setting is wrong.
-        AssemblyError
-            If the mechanism cannot be closed.
-        """
-        from symgen.compiling.pipeline import choose_method, compile_model
+    def of(cls, model: Model, asked: Asked) -> Started:
+        """Return a model at its start; raises as `symgen.api.Model.start` does."""
+        from symgen.compiling.pipeline import compile_model
         from symgen.plan import make_plan
         from symgen.settings import Settings
         from symgen.tree_run import tree_run
 
-        choice = choose_method(method or "direct-correction", options)
-        given = {f"method.{k}": v for k, v in options.items()}
-        asked = Settings(choice.method.name, options=given, shape=shape, coordinates=coordinates, parameters=parameters)
-        plan = make_plan(model.mechanism, asked)
+        choice, parameters = asked.chosen(), asked.parameters
+        settings = Settings(
+            choice.method.name,
+            options={f"method.{k}": v for k, v in asked.options.items()},
+            shape=asked.shape,
+            coordinates=asked.coordinates,
+            parameters=parameters,
+        )
+        plan = make_plan(model.mechanism, settings)
         choice = replace(choice, shape=plan.choice.shape)
         if plan.coordinates == "joint":
             choice = replace(choice, options=plan.choice.options)
-            run = tree_run(model.mechanism, plan, asked.parameters)
+            run = tree_run(model.mechanism, plan, settings.parameters)
             bodies = run.body_start.y[: run.bodies.info.nq]
             return cls(plan, choice, run.mechanism, run.compiled, run.start, tuple(map(float, bodies)))
         compiled = compile_model(model.mechanism, choice)
@@ -94,15 +117,7 @@ def refuse(wanted: bool, shape: str) -> None:
         raise InputError("--shape", "straight code, as a document shows the equations of one mechanism", "looped")
 
 
-def write_document(
-    name: str,
-    method: str | None,
-    options: dict[str, str],
-    parameters: dict[str, float],
-    coordinates: str,
-    select: str | None,
-    symbols: bool,
-) -> str:
+def write_document(name: str, asked: Asked, select: str | None, symbols: bool) -> str:
     """Return the equations as a LaTeX document."""
     from symgen.api import Model
     from symgen.compiling.choose_coordinates import choose_coordinates
@@ -114,25 +129,16 @@ def write_document(
 
     raw, source = read_raw(name)
     model = Model(validate(with_symbols(raw) if symbols else raw, source))
-    values = model.parameters(parameters)
-    found = model.equations_in(choose_coordinates(model.mechanism, coordinates, "straight").coordinates)
+    values = model.parameters(asked.parameters)
+    found = model.equations_in(choose_coordinates(model.mechanism, asked.coordinates, "straight").coordinates)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
-    steps = law(method or "direct-correction", options, found.derived.driving is not None)
+    steps = law(asked.named, asked.options, found.derived.driving is not None)
     return document(found.mechanism, found.derived, steps, values, wanted)
 
 
-def write_page(
-    name: str,
-    method: str | None,
-    options: dict[str, str],
-    parameters: dict[str, float],
-    shape: str,
-    coordinates: str,
-    output: str,
-) -> None:
+def write_page(name: str, asked: Asked, output: str) -> None:
     """Write the page of a mechanism."""
     from symgen.api import load
-    from symgen.compiling.pipeline import choose_method
     from symgen.errors import AssemblyError
     from symgen.files import check_writable, write_whole
     from symgen.formulate.formulate import formulate
@@ -147,12 +153,12 @@ def write_page(
     model = load(name)
     check_size(model.mechanism)
     speeds = sum(len(body.speeds) for body in model.mechanism.bodies)
-    if shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
-        shape = "straight"
-    mechanism, choice, q = model.mechanism, choose_method(method or "direct-correction", options), None
+    if asked.shape == "auto" and speeds <= MOST_STRAIGHT:  # `auto` asks the cache; a page stays what it is
+        asked = replace(asked, shape="straight")
+    mechanism, choice, q = model.mechanism, asked.chosen(), None
     compiled, begins = None, None
     try:
-        started = Started.of(model, method, options, parameters, shape, coordinates)
+        started = Started.of(model, asked)
         mechanism, choice, start, q = started.mechanism, started.choice, started.start, started.bodies
         compiled, begins = started.compiled, start
         free = len(start.y) - 1 - started.compiled.info.nq - start.rank
@@ -160,7 +166,7 @@ def write_page(
         facts = [f"At the start D has rank {start.rank}: {degrees}.", *start.notes]
         if start.redundant_rows:
             facts.append(f"Redundant at the start: {', '.join(start.redundant_rows)}.")
-        if coordinates == "auto":
+        if asked.coordinates == "auto":
             facts.append(f"Coordinates: {started.plan.coordinates_reason}.")
     except AssemblyError as error:
         facts = [f"It does not close, and is drawn as described: {error}"]
@@ -171,7 +177,7 @@ def write_page(
         equations=equations,
         choice=choice,
         law=law(choice.method.name, choice.options, equations.driving is not None),
-        values=model.parameters(parameters),
+        values=model.parameters(asked.parameters),
         q=q,
         facts=facts,
         text=text_of(name),

@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
+from symgen.cli._options import output_file, units_option
+from symgen.errors import InputError
+
 if TYPE_CHECKING:
     from symgen.api import Model
+
+F = TypeVar("F", bound=Callable[..., Any])
 
 #: Larger mechanisms have no sketch in reports.
 MOST_BODIES = 200
@@ -18,8 +25,60 @@ MOST_BODIES = 200
 _WORKING = ("--resume", "--journal", "--jobs")
 
 
-def report_file(text: str | None) -> Path | None:
-    """Return where the report will be written, after making sure that it can be."""
+@dataclass(frozen=True)
+class StudyFiles:
+    """Where a study is kept; None: it is not.
+
+    Attributes
+    ----------
+    report, csv, journal : path or None
+        Of the report, of the rows as CSV, and of the journal by which an interrupted study goes on.
+    units : bool
+        Whether the headings of the CSV file carry units.
+    """
+
+    report: Path | None
+    csv: Path | None
+    journal: Path | None
+    units: bool
+
+
+def study_files(row: str) -> Callable[[F], F]:
+    """Return a decorator that gives a command the options of where a study is kept.
+
+    They arrive as one value, the `StudyFiles` called ``files``, after making sure that all can be written.
+
+    Parameters
+    ----------
+    row : str
+        What the help calls a row of the study.
+    """
+    options = (
+        click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md."),
+        click.option("--csv", metavar="FILE", help=f"Write the {row}s to a CSV file."),
+        units_option,
+        click.option(
+            "--resume", "--journal", metavar="FILE", help=f"Keep every finished {row} there, and skip those it has."
+        ),
+    )
+
+    def decorate(function: F) -> F:
+        @wraps(function)
+        def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: Any) -> Any:
+            rows, report = output_file("--csv", csv), _report_file(output)
+            if units and rows is None:
+                raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
+            journal = None if resume is None else Path(resume)
+            return function(files=StudyFiles(report, rows, journal, units), **further)
+
+        for option in reversed(options):
+            command = option(command)
+        return cast("F", command)
+
+    return decorate
+
+
+def _report_file(text: str | None) -> Path | None:
     if text is None:
         return None
     from symgen.report.write import check_report

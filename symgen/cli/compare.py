@@ -15,13 +15,11 @@ from symgen.cli._options import (
     jobs_option,
     json_option,
     number_list,
-    output_file,
     setting_options,
-    units_option,
     words,
 )
-from symgen.cli._report import command_again, report_file, sketches_of
-from symgen.errors import InputError
+from symgen.cli._report import StudyFiles, command_again, sketches_of, study_files
+from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.study.comparison.compare import Study
@@ -67,10 +65,7 @@ if TYPE_CHECKING:
     show_default=True,
     help="Where the reference comes from: scipy-dop853, scipy-radau, scipy-bdf or scipy-lsoda.",
 )
-@click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
-@click.option("--csv", "csv_file", metavar="FILE", help="Write the rows to a CSV file.")
-@units_option
-@click.option("--resume", "--journal", metavar="FILE", help="Keep every finished row there, and skip those it has.")
+@study_files("row")
 @jobs_option("Processes for what is not timed.")
 @json_option
 def command(
@@ -81,10 +76,7 @@ def command(
     rtols: str | None,
     states: str | None,
     reference_by: str,
-    output: str | None,
-    csv_file: str | None,
-    units: bool,
-    resume: str | None,
+    files: StudyFiles,
     jobs: int | None,
     as_json: bool,
     **asked: Any,
@@ -97,19 +89,17 @@ def command(
     """
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
-    path, report = output_file("--csv", csv_file), report_file(output)
-    if units and path is None:
-        raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
 
     from symgen.api import load
     from symgen.cli._progress import Lines
+    from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
     from symgen.study.journal import Journal
     from symgen.study.machine import cores
 
     loaded = [load(model) for model in models]
     with ExitStack() as stack:
-        journal = stack.enter_context(Journal(Path(resume))) if resume is not None else None
+        journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
         began = time.monotonic()
 
@@ -119,19 +109,9 @@ def command(
             name = "" if len(loaded) > 1 or what.startswith("preparing") else f"{loaded[0].name}: "
             lines.say(f"{name}{what}", share, left)
 
-        studies = compare_all(
-            loaded,
-            method_list,
-            integrator_list,
-            step_list,
-            rtol_list,
-            progress=progress,
-            jobs=jobs or cores(),
-            journal=journal,
-            reference_by=reference_by,
-            coordinates=words("--coordinates", states),
-            **asked,
-        )
+        runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
+        settings = Settings(**asked)
+        studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or cores(), journal)
     if as_json:
         found = [study.to_json() for study in studies]
         write_json(found[0] if len(models) == 1 else {"studies": found})
@@ -140,8 +120,6 @@ def command(
 
         for study in studies:
             show_study(study)
-    if not any(study.rows for study in studies):
-        report = None
 
     def write_report(file: Path) -> None:
         from symgen.report.comparison import comparison
@@ -151,14 +129,15 @@ def command(
         write(comparison(studies, command_again(), _asked(step_list, rtol_list, studies), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
-    files = {path: lambda file: save_csv(studies, file, units), report: write_report}
-    return write_files(_exit_code(studies, resume), files)
+    report = files.report if any(study.rows for study in studies) else None
+    written = {files.csv: lambda file: save_csv(studies, file, files.units), report: write_report}
+    return write_files(_exit_code(studies, files.journal is not None), written)
 
 
 def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Study]) -> list[tuple[str, str]]:
     """Return what was asked for in words, by label; of steps and tolerances those that some run had."""
     from symgen.report.words import exact
-    from symgen.study.comparison.compare import ATOL_SHARE, RTOLS, STEP_FACTORS
+    from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
 
     own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
     constant = ", ".join(f"{exact(x)} s" for x in steps) or own
@@ -170,7 +149,7 @@ def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Stu
     return found
 
 
-def _exit_code(studies: list[Study], kept: str | None) -> int:
+def _exit_code(studies: list[Study], kept: bool) -> int:
     if studies[-1].interrupted:
         how = "the same command goes on behind them" if kept else "--resume FILE would have kept them for another time"
         return complain(f"interrupted; the rows that were done are shown; {how}", INTERRUPTED)

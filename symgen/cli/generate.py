@@ -11,8 +11,9 @@ import click
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
+from symgen.cli._target import target_option
 from symgen.errors import InputError
-from symgen.ir.program import PART, TARGETS
+from symgen.ir.program import PART
 
 
 @click.command(
@@ -30,13 +31,7 @@ from symgen.ir.program import PART, TARGETS
     show_default=True,
     help="Code for this mechanism alone, or loops over tables that all mechanisms share.",
 )
-@click.option(
-    "--target",
-    type=click.Choice(TARGETS),
-    default="cpu",
-    show_default=True,
-    help="What the code is for: processors, or device functions for CUDA.",
-)
+@target_option("What the code is for: processors, or device functions for CUDA.")
 @click.option("-o", "--output", metavar="DIR", help="Folder to write into; the mechanism's name by default.")
 @json_option
 def command(

@@ -12,6 +12,7 @@ from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.cli._reading import Asked
     from symgen.describe.mechanism import Mechanism, Topology
     from symgen.formulate.display import Display
     from symgen.formulate.equations import Equations
@@ -55,21 +56,21 @@ def command(
     Coordinates, constraints, Jacobian with its pattern, quadratic velocity terms, forces, mass matrix, sizes, degrees
     of freedom, redundant rows, operation counts before and after common subexpressions, and what was left out and why.
     """
-    from symgen.cli._reading import refuse, write_document, write_page
+    from symgen.cli._reading import Asked, refuse, write_document, write_page
 
     given = {key.rpartition(".")[2]: value for key, value in options.items()}
+    asked = Asked(method, given, parameters, shape, coordinates)
     form = "json" if as_json else form
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
             raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
-        write_page(model, method, given, parameters, shape, coordinates, output)
+        write_page(model, asked, output)
         return OK
     if document or select is not None or symbols:
         refuse(document and form == "latex", shape)
-        found = write_document(model, method, given, parameters, coordinates, select, symbols)
-        click.echo(found, nl=False)
+        click.echo(write_document(model, asked, select, symbols), nl=False)
         return OK
-    facts = describe(model, method, given, parameters, form == "latex", shape, coordinates)
+    facts = describe(model, asked, form == "latex")
     if form == "json":
         write_json(facts)
     else:
@@ -79,15 +80,7 @@ def command(
     return OK
 
 
-def describe(
-    name: str,
-    method: str | None,
-    options: dict[str, str],
-    parameters: dict[str, float],
-    latex: bool = False,
-    shape: str = "auto",
-    coordinates: str = "absolute",
-) -> dict[str, Any]:
+def describe(name: str, asked: Asked, latex: bool = False) -> dict[str, Any]:
     """Return everything that is shown, expressions as text or LaTeX."""
     from symgen.api import load
     from symgen.cli._reading import Started
@@ -95,7 +88,7 @@ def describe(
     from symgen.formulate.formulate import formulate
 
     model = load(name)
-    started = Started.of(model, method, options, parameters, shape, coordinates)
+    started = Started.of(model, asked)
     plan, choice, start = started.plan, started.choice, started.start
     mechanism, compiled = started.mechanism, started.compiled
     of_tree: dict[str, Any] = {}
@@ -104,7 +97,7 @@ def describe(
     equations = formulate(mechanism)
     display = Display(equations)
     show = display.latex if latex else display.text
-    values = model.parameters(parameters)
+    values = model.parameters(asked.parameters)
     facts: dict[str, Any] = {
         "mechanism": model.name,
         "state": {"coordinates": plan.coordinates, "reason": plan.coordinates_reason},
@@ -161,7 +154,7 @@ def describe(
         "operations": _operations(display),
         "left_out": [{"what": o.what, "why": o.why} for o in equations.omissions],
     }
-    if method is not None:
+    if asked.method is not None:
         facts["method"] = _method(mechanism, equations, choice)
     return facts
 
@@ -218,15 +211,7 @@ def _sizes(equations: Equations) -> dict[str, int]:
 def _operations(display: Display) -> dict[str, dict[str, int]]:
     """Count operations by quantity, each with its own common subexpressions, and of all together."""
     e = display.equations
-    parts = {
-        "phi": [row.phi for row in e.rows if row.phi is not None],
-        "jacobian": [node for row in e.rows for _, node in row.entries],
-        "nu": [row.nu for row in e.rows],
-        "gamma": [row.gamma for row in e.rows],
-        "mass": [node for block in e.mass for line in block.entries for node in line],
-        "forces": list(e.forces),
-        "energies": [e.kinetic, e.potential, e.power],
-    }
+    parts = e.nodes() | {"energies": [e.kinetic, e.potential, e.power]}
     counts = {name: display.operations(nodes) for name, nodes in parts.items()}
     counts["together"] = display.operations([node for nodes in parts.values() for node in nodes])
     return counts

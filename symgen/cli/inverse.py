@@ -7,7 +7,8 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import assignments, examples, json_option, output_file, setting_options, time_list, words
+from symgen.cli._analyses import motion_options, table_options
+from symgen.cli._options import assignments, examples, json_option, output_file, time_list, words
 from symgen.settings import Settings
 
 
@@ -40,18 +41,11 @@ from symgen.settings import Settings
     metavar="NAME=VALUE",
     help="Weight of an actuator where efforts are not unique: the sum of (weight effort)^2 is smallest.",
 )
-@setting_options(
-    *("parameters", "inputs", "start", "strict", "shape"),
-    text={"start": "Of drivers' motion: of several ways to close MODEL that nearest to this coordinate is taken."},
+@motion_options(start="Of drivers' motion: of several ways to close MODEL that nearest to this coordinate is taken.")
+@table_options(
+    shown="What to save and plot beside efforts: a column, a joint or a table, such as power or reactions.",
+    drawn="efforts and power",
 )
-@click.option(
-    *("--quantity", "quantities"),
-    multiple=True,
-    metavar="NAME",
-    help="What to save and plot beside efforts: a column, a joint or a table, such as power or reactions.",
-)
-@click.option("--save", metavar="FILE", help="Write tables to FILE: .csv, with units, or .parquet.")
-@click.option("--plot", metavar="FILE", help="Draw efforts and power over time into FILE: .png, .svg or .pdf.")
 @json_option
 def command(
     model: str,

@@ -7,7 +7,8 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._options import examples, json_option, output_file, setting_options, time_list
+from symgen.cli._analyses import motion_options, table_options
+from symgen.cli._options import examples, json_option, output_file, time_list
 from symgen.settings import Settings
 
 
@@ -31,18 +32,8 @@ from symgen.settings import Settings
     metavar="PIN",
     help="A pin whose transmission angle is wanted; C(B, D) where its bodies have several further joints.",
 )
-@setting_options(
-    *("parameters", "inputs", "start", "strict", "shape"),
-    text={"start": "Value of a coordinate: of several ways to close MODEL the nearest is taken."},
-)
-@click.option(
-    *("--quantity", "quantities"),
-    multiple=True,
-    metavar="NAME",
-    help="What to show, save and plot: a column, a body, a joint or a table, such as points.",
-)
-@click.option("--save", metavar="FILE", help="Write tables to FILE: .csv, with units, or .parquet.")
-@click.option("--plot", metavar="FILE", help="Draw quantities over time into FILE: .png, .svg or .pdf.")
+@motion_options(start="Value of a coordinate: of several ways to close MODEL the nearest is taken.")
+@table_options("What to show, save and plot: a column, a body, a joint or a table, such as points.", "quantities")
 @click.option("--curves", metavar="FILE", help="Draw the paths of points into FILE: .png, .svg or .pdf.")
 @json_option
 def command(

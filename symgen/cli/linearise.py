@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._analyses import names, place_options
-from symgen.cli._options import examples, json_option
+from symgen.cli._analyses import place_options
+from symgen.cli._options import examples, json_option, words
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -27,9 +27,7 @@ if TYPE_CHECKING:
 @json_option
 def command(
     model: str,
-    at: str,
-    states: str | None,
-    cyclic: str | None,
+    place: dict[str, Any],
     instantaneous: bool,
     by: str | None,
     as_json: bool,
@@ -43,14 +41,7 @@ def command(
     from symgen.api import load
 
     loaded = load(model)
-    found = loaded.linearise(
-        Settings(**asked),
-        at=at,
-        states=names("--states", states),
-        cyclic=names("--cyclic", cyclic),
-        instantaneous=instantaneous,
-        by=names("--by", by),
-    )
+    found = loaded.linearise(Settings(**asked), **place, instantaneous=instantaneous, by=words("--by", by))
     if as_json:
         write_json({"mechanism": loaded.name, **found.to_dict()})
     else:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_files, write_json
-from symgen.cli._analyses import names, place_options
+from symgen.cli._analyses import place_options
 from symgen.cli._options import examples, json_option, output_file
 from symgen.errors import InputError
 from symgen.settings import Settings
@@ -32,9 +32,7 @@ if TYPE_CHECKING:
 @json_option
 def command(
     model: str,
-    at: str,
-    states: str | None,
-    cyclic: str | None,
+    place: dict[str, Any],
     count: int | None,
     over: str | None,
     plot: str | None,
@@ -51,16 +49,15 @@ def command(
     if count is not None and over is not None:
         raise InputError("--count", "all modes with --over", "both")
     path = output_file("--plot", plot, "plot")
-    where = {"at": at, "states": names("--states", states), "cyclic": names("--cyclic", cyclic)}
     loaded = load(model)
     if over is None:
-        found = loaded.modes(settings, count=count, **where)  # type: ignore[arg-type]  # of one type each
+        found = loaded.modes(settings, count=count, **place)
         if as_json:
             write_json({"mechanism": loaded.name, **found.to_dict()})
         else:
             _show(found)
         return OK
-    locus = loaded.locus(axis("--over", over), settings, **where)  # type: ignore[arg-type]  # of one type each
+    locus = loaded.locus(axis("--over", over), settings, **place)
     if as_json:
         write_json({"mechanism": loaded.name, **locus.to_dict()})
     else:

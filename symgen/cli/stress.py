@@ -11,9 +11,8 @@ import click
 
 from symgen import arguments
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import examples, jobs_option, json_option, output_file, setting_options, units_option, words
-from symgen.cli._report import command_again, report_file, sketches_of
-from symgen.errors import InputError
+from symgen.cli._options import examples, jobs_option, json_option, setting_options, words
+from symgen.cli._report import StudyFiles, command_again, sketches_of, study_files
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
@@ -31,10 +30,7 @@ if TYPE_CHECKING:
 @click.option("--quick", is_flag=True, help="Fewer cases, each method with its own integrator only.")
 @click.option("--catalogue", is_flag=True, help="Take every studied model of the catalogue.")
 @click.option("--compilation", type=float, metavar="SECONDS", help="Leave out pairs that would take longer to compile.")
-@click.option("-o", "--output", metavar="FILE", help="Write a report with pictures: .html or .md.")
-@click.option("--csv", "csv_file", metavar="FILE", help="Write the cells to a CSV file.")
-@units_option
-@click.option("--resume", "--journal", metavar="FILE", help="Keep every finished cell there, and skip those it has.")
+@study_files("cell")
 @setting_options("max_violation", "max_energy_error", "max_steps", "coordinates")
 @jobs_option("Processes.")
 @json_option
@@ -45,10 +41,7 @@ def command(
     quick: bool,
     catalogue: bool,
     compilation: float | None,
-    output: str | None,
-    csv_file: str | None,
-    units: bool,
-    resume: str | None,
+    files: StudyFiles,
     jobs: int | None,
     as_json: bool,
     **limits: Any,
@@ -62,9 +55,6 @@ def command(
     if compilation is not None:
         arguments.number("--compilation", compilation, positive=True)
     case_list, method_list = words("--cases", cases), words("--methods", methods)
-    path, report = output_file("--csv", csv_file), report_file(output)
-    if units and path is None:
-        raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
 
     from symgen.catalogue import names
     from symgen.cli._progress import Lines
@@ -74,7 +64,7 @@ def command(
     from symgen.study.stress.study import stress
 
     with ExitStack() as stack:
-        journal = stack.enter_context(Journal(Path(resume))) if resume is not None else None
+        journal = None if files.journal is None else stack.enter_context(Journal(files.journal))
         lines = stack.enter_context(Lines())
 
         def progress(what: str, status: Status) -> None:
@@ -90,8 +80,6 @@ def command(
         from symgen.cli._stress_tables import show_stress
 
         show_stress(study)
-    if not study.rows:
-        report = None
 
     def write_report(file: Path) -> None:
         from symgen.api import load
@@ -102,8 +90,9 @@ def command(
         write(stress_report(study, command_again(), sketches_of(known)), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
-    files = {path: lambda file: save_csv(study, file, units), report: write_report}
-    return write_files(_exit_code(study), files)
+    report = files.report if study.rows else None
+    written = {files.csv: lambda file: save_csv(study, file, files.units), report: write_report}
+    return write_files(_exit_code(study), written)
 
 
 def _exit_code(study: Stress) -> int:

@@ -9,8 +9,8 @@ import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, jobs_option, json_option, setting_options
+from symgen.cli._target import target_option
 from symgen.errors import InputError, quoted
-from symgen.ir.program import TARGETS
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -52,13 +52,7 @@ if TYPE_CHECKING:
 @click.option("--resume", is_flag=True, help="Continue what was begun at --output.")
 @jobs_option("Threads.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run on the workers of a Dask scheduler.")
-@click.option(
-    "--target",
-    type=click.Choice(TARGETS),
-    default="cpu",
-    show_default=True,
-    help="What runs them: all cores, eight runs at once on each, or a CUDA device.",
-)
+@target_option("What runs them: all cores, eight runs at once on each, or a CUDA device.")
 @json_option
 def command(
     model: str,

@@ -152,12 +152,7 @@ def compile_linearised(
     by : tuple of str
         Parameters that it is differentiated by.
     entries : Entries, optional
-        The cache; by default the user's.
-
-    Raises
-    ------
-    InputError
-        If numbers that meet in a formula overflow.
+        As for `symgen.compiling.side.compile_side`, whose errors these are.
     """
     found = _compiled(mechanism, compiled, by, (), entries)
     assert found is not None, "the whole form is wanted"

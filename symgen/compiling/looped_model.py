@@ -16,11 +16,12 @@ from symgen.describe.repeats import without_repeats
 from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Tables
-from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Quantity, Row
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
 from symgen.runtime.kernels import GENERIC as GENERIC_CODE
 from symgen.runtime.kernels import address
 from symgen.store.modules import interpreted
 from symgen.vocabulary.measures import Holonomic
+from symgen.vocabulary.quantities import Quantity
 
 _UNITS = {"theta": "rad", "vx": "m/s", "vy": "m/s", "vz": "m/s", "omega": "rad/s", "wx": "rad/s", "wy": "rad/s"}
 _UNITS |= {"wz": "rad/s", "x": "m", "y": "m", "z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1"}

@@ -11,8 +11,9 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime.compiled import Array, CompiledModel, LawInfo, ModelInfo, Quantity, Row
+from symgen.runtime.compiled import Array, CompiledModel, LawInfo, ModelInfo, Row
 from symgen.store.modules import interpreted, load_module
+from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import TypeVar
 
 import msgspec
 
@@ -12,6 +14,8 @@ from symgen.errors import InputError, nearest
 from symgen.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
 from symgen.vocabulary.expressions import SMOOTH, ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
+
+T = TypeVar("T")
 
 #: Velocity -> what its rate is called.
 ACCELERATIONS = {
@@ -375,20 +379,13 @@ class Mechanism(msgspec.Struct, frozen=True):
         InputError
             If there is none; says the nearest name.
         """
-        known = {body.name: body for body in self.bodies}
-        if name not in known:
-            raise InputError("body", f"a body of {self.name}", shown(name), nearest(str(name), known))
-        return known[name]
+        return self._named("body", {body.name: body for body in self.bodies}, name)
 
     def joint_named(self, name: str) -> Joint:
-        """Return the joint called `name`.
+        """Return the joint called `name`; raises as `body` does."""
+        return self._named("joint", {joint.name: joint for joint in self.joints}, name)
 
-        Raises
-        ------
-        InputError
-            If there is none; says the nearest name.
-        """
-        known = {joint.name: joint for joint in self.joints}
+    def _named(self, kind: str, known: Mapping[str, T], name: str) -> T:
         if name not in known:
-            raise InputError("joint", f"a joint of {self.name}", shown(name), nearest(str(name), known))
+            raise InputError(kind, f"a {kind} of {self.name}", shown(name), nearest(str(name), known))
         return known[name]

@@ -21,6 +21,8 @@ from symgen.describe.sections import (
     TableSection,
 )
 
+#: What keys stand under in docstrings.
+_KEYS = "Parameters\n----------\n"
 _NAME = "^[A-Za-z][A-Za-z0-9_]{0,63}$"
 
 
@@ -79,4 +81,18 @@ def _table(struct: type[Any]) -> dict[str, Any]:
         return [inlined(item) for item in part] if isinstance(part, list) else part
 
     table: dict[str, Any] = inlined(found[struct.__name__])
-    return table | {"description": inspect.cleandoc(struct.__doc__ or "")}
+    return table | {"description": described(struct)}
+
+
+def described(struct: type[Any]) -> str:
+    """Return what a table is and what its keys mean; those that kinds share are described by the struct they share."""
+    shared = [base for base in struct.__bases__ if base is not msgspec.Struct]
+    own = inspect.cleandoc(struct.__doc__ or "")
+    if not shared:
+        return own
+    keys = described(shared[0]).partition(_KEYS)[2]
+    before, found, after = own.partition(_KEYS)
+    if found:
+        return f"{before}{_KEYS}{keys}\n{after}"
+    summary, _, notes = own.partition("\n\n")
+    return f"{summary}\n\n{_KEYS}{keys}\n\n{notes}"

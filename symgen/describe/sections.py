@@ -164,47 +164,57 @@ class ShapeSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
     colour: Text = ""
 
 
-class BodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
-    """A planar rigid body or point mass.
+class AnyBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A rigid body or point mass.
 
     Parameters
     ----------
     type : str
-        ``"rigid"`` or ``"point"``; a point mass has no inertia, angle or points.
+        ``"rigid"`` or ``"point"``; a point mass has no inertia and no points, and does not turn.
     mass : scalar
         [kg], above 0.
-    inertia : scalar
-        About the centre of mass [kg m^2], above 0.
     centre_of_mass : vector
         In the body's frame [m]; its origin by default.
     points : table
         Named points in the body's frame [m].
     position : vector
         Where the origin of the body's frame starts [m]; approximately, as assembly closes the mechanism.
-    angle : scalar
-        How far the body's frame is turned at the start [rad].
     velocity : vector
-        Of the centre of mass at the start [m/s]; completed by assembly by default.
-    angular_velocity : scalar
-        At the start [rad/s]; completed by assembly by default.
+        Of the centre of mass at the start, in ground axes [m/s]; completed by assembly by default.
     hold : bool, str or list of str
-        Which of the described ``"position"`` (of the centre of mass), ``"angle"`` and ``"velocity"`` (both of them)
-        assembly keeps while it moves everything else; all that are given where it is true.
+        Which of the described ``"position"`` (of the centre of mass), ``"angle"`` (in space the orientation) and
+        ``"velocity"`` (both of them) assembly keeps while it moves everything else; all that are given where it is
+        true.
     shape : table, or list of tables
         What the body looks like in pictures; bars and plates through its points by default.
     """
 
     type: Literal["rigid", "point"] = "rigid"
     mass: Scalar
-    inertia: Scalar | None = None
     centre_of_mass: Vector | None = None
     points: Points | None = None
     position: Vector | None = None
-    angle: Scalar | None = None
     velocity: Vector | None = None
-    angular_velocity: Scalar | None = None
     hold: Held = False
     shape: ShapeSection | tuple[ShapeSection, ...] | None = None
+
+
+class BodySection(AnyBodySection, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A planar rigid body or point mass.
+
+    Parameters
+    ----------
+    inertia : scalar
+        About the centre of mass [kg m^2], above 0.
+    angle : scalar
+        How far the body's frame is turned at the start [rad].
+    angular_velocity : scalar
+        At the start [rad/s]; completed by assembly by default.
+    """
+
+    inertia: Scalar | None = None
+    angle: Scalar | None = None
+    angular_velocity: Scalar | None = None
 
 
 class OrientationSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -236,15 +246,11 @@ class OrientationSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
     end: Vector | None = None
 
 
-class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class SpatialBodySection(AnyBodySection, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A spatial rigid body or point mass.
 
     Parameters
     ----------
-    type : str
-        ``"rigid"`` or ``"point"``; a point mass has no inertia, orientation or points.
-    mass : scalar
-        [kg], above 0.
     inertia : list of 3 or 6, or three rows
         Tensor [kg m^2] as ``[Ixx, Iyy, Izz]``, with products ``[..., Ixy, Ixz, Iyz]`` or as a matrix; the products are
         entries of the tensor, Ixy = - integral of x y dm.
@@ -252,38 +258,17 @@ class SpatialBodySection(msgspec.Struct, frozen=True, kw_only=True, forbid_unkno
         The point that `inertia` refers to; the centre of mass by default.
     inertia_axes : table
         How the axes of `inertia` are turned against the body's frame, in numbers; not at all by default.
-    centre_of_mass : vector
-        In the body's frame [m]; its origin by default.
-    points : table
-        Named points in the body's frame [m].
-    position : vector
-        Where the origin of the body's frame starts [m]; approximately, as assembly closes the mechanism.
     orientation : table
         How the body's frame is turned at the start; not at all by default.
-    velocity : vector
-        Of the centre of mass at the start, in ground axes [m/s]; completed by assembly by default.
     angular_velocity : vector
         At the start, in body axes [rad/s]; completed by assembly by default.
-    hold : bool, str or list of str
-        Which of the described ``"position"`` (of the centre of mass), ``"angle"`` (the orientation) and ``"velocity"``
-        (both of them) assembly keeps while it moves everything else; all that are given where it is true.
-    shape : table, or list of tables
-        What the body looks like in pictures; bars and plates through its points by default.
     """
 
-    type: Literal["rigid", "point"] = "rigid"
-    mass: Scalar
     inertia: Tensor | None = None
     inertia_at: Point | None = None
     inertia_axes: OrientationSection | None = None
-    centre_of_mass: Vector | None = None
-    points: Points | None = None
-    position: Vector | None = None
     orientation: OrientationSection | None = None
-    velocity: Vector | None = None
     angular_velocity: Vector | None = None
-    hold: Held = False
-    shape: ShapeSection | tuple[ShapeSection, ...] | None = None
 
 
 #: Sections whose entries are named tables -> what one entry is called.

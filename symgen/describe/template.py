@@ -24,7 +24,7 @@ def template(name: str = "my-mechanism", space: str = "planar") -> str:
     joints = _listed([k for k, kind in JOINTS.items() if space in kind.SPACES and k != "revolute"])
     forces = _listed([k for k, kind in FORCES.items() if space in kind.SPACES and k != "torsional-spring-damper"])
     text = {"planar": _PLANAR, "spatial": _SPATIAL}[space]
-    return text.replace("NAME", name, 1).replace("JOINTS", joints).replace("FORCES", forces)
+    return text.replace("GIVEN\n", _GIVEN).replace("NAME", name, 1).replace("JOINTS", joints).replace("FORCES", forces)
 
 
 def _listed(kinds: list[str]) -> str:
@@ -32,17 +32,8 @@ def _listed(kinds: list[str]) -> str:
     return "\n".join(textwrap.wrap(", ".join(kinds), 74, break_on_hyphens=False)).replace("\n", "\n" + " " * 42 + "# ")
 
 
-_PLANAR = """\
-# A mechanism for symgen. SI units throughout: m, kg, s, N, rad. Angles count counter-clockwise.
-# Wherever a number stands, a text may stand: an expression of parameters such as "2*rod_mass" or "pi/3".
-
-[mechanism]
-name = "NAME"
-title = "A rod on a pin, with a damper and a motor"
-space = "planar"
-gravity = [0.0, -9.81]                    # none by default
-# source = "where the data come from"
-
+#: Sections that are the same in the plane and in space.
+_GIVEN = """\
 [run]                                     # what a run uses where nothing else is asked for [s]
 until = 10.0
 step = 1e-3
@@ -63,6 +54,20 @@ damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
 # y = [0.0, 0.5, 0.2, 0.0]
 # interpolation = "linear"                # or cubic, which drivers may use, or pchip
 # periodic = false                        # whether a smooth one repeats itself
+"""
+
+_PLANAR = """\
+# A mechanism for symgen. SI units throughout: m, kg, s, N, rad. Angles count counter-clockwise.
+# Wherever a number stands, a text may stand: an expression of parameters such as "2*rod_mass" or "pi/3".
+
+[mechanism]
+name = "NAME"
+title = "A rod on a pin, with a damper and a motor"
+space = "planar"
+gravity = [0.0, -9.81]                    # none by default
+# source = "where the data come from"
+
+GIVEN
 
 [bodies.rod]
 mass = "rod_mass"
@@ -117,26 +122,7 @@ space = "spatial"
 gravity = [0.0, 0.0, -9.81]               # none by default
 # source = "where the data come from"
 
-[run]                                     # what a run uses where nothing else is asked for [s]
-until = 10.0
-step = 1e-3
-# output_step = 0.01
-# predictable_until = 5.0                 # for a chaotic motion
-
-[parameters]                              # adjustable at run time; plain numbers elsewhere are compiled in
-rod_mass = { value = 1.5, unit = "kg" }
-rod_length = { value = 0.8, unit = "m" }
-damping = { value = 0.02, unit = "N m s/rad", note = "in the pin" }
-# rod_inertia = "rod_mass*rod_length**2/12"   # follows the others
-
-# [inputs]                                # numbers from outside: symgen run FILE --input push="5*sin(t)"
-# push = { default = 0.0, unit = "N" }    # may stand in forces, torques and actuators
-
-# [tables.profile]                        # a function by interpolation, called as profile(t)
-# x = [0.0, 1.0, 2.0, 3.0]
-# y = [0.0, 0.5, 0.2, 0.0]
-# interpolation = "linear"                # or cubic, which drivers may use, or pchip
-# periodic = false                        # whether a smooth one repeats itself
+GIVEN
 
 [bodies.arm]
 mass = 2.0

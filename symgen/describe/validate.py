@@ -43,10 +43,8 @@ def validate(raw: Raw, source: str) -> Mechanism:
 
     Parameters
     ----------
-    raw : mapping
-        Sections as in a mechanism file.
-    source : str
-        File name or other origin, with which every message begins.
+    raw, source : mapping, str
+        Sections as in a mechanism file; its name or other origin, with which every message begins.
 
     Raises
     ------

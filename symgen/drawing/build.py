@@ -71,8 +71,13 @@ def build_scene(
     forces = [force_item(pen, force) for force in mechanism.forces]
     faults = [gap_item(pen, item) for item in joints if item.name in open_joints]
     return Scene(
-        *(mechanism.name, mechanism.title, spatial, up, unit, numbers.frames),
+        name=mechanism.name,
+        title=mechanism.title,
         items=(*bodies, *forces, *joints, *faults),
+        spatial=spatial,
+        up=up,
+        unit=unit,
+        frames=numbers.frames,
     )
 
 

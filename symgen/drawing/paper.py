@@ -20,7 +20,15 @@ class View:
 
 @dataclass(frozen=True)
 class Path:
-    """A line or an area on paper, shape (k, 2) [m]."""
+    """A line or an area on paper.
+
+    Attributes
+    ----------
+    points : Array, shape (k, 2)
+        Corners [m].
+    closed : bool
+        Whether it is an area.
+    """
 
     points: Array
     look: Look

@@ -47,7 +47,17 @@ class Look:
 
 @dataclass(frozen=True)
 class Line:
-    """A polyline or polygon of a body."""
+    """A polyline or polygon of a body.
+
+    Attributes
+    ----------
+    body : int
+        Number of its frame, here and below; negative: the ground's.
+    points : tuple of Point
+        In that frame [m].
+    closed : bool
+        Whether the last point is joined to the first, and what is between filled.
+    """
 
     body: int
     points: tuple[Point, ...]
@@ -57,7 +67,15 @@ class Line:
 
 @dataclass(frozen=True)
 class Dot:
-    """A circle that faces whoever looks: a pin, a ball; `mass` quarters it as centres of mass are drawn."""
+    """A circle that faces whoever looks: a pin, a ball.
+
+    Attributes
+    ----------
+    at, radius : Point, float
+        Centre and size [m].
+    mass : bool
+        Whether it is quartered, as centres of mass are drawn.
+    """
 
     body: int
     at: Point
@@ -68,7 +86,15 @@ class Dot:
 
 @dataclass(frozen=True)
 class Tube:
-    """A round bar of a body from one point to another."""
+    """A round bar of a body.
+
+    Attributes
+    ----------
+    a, b : Point
+        Its ends [m].
+    radius : float
+        Half its width [m].
+    """
 
     body: int
     a: Point
@@ -148,6 +174,8 @@ class Scene:
     ----------
     name, title : str
         Of the mechanism.
+    items : tuple of Item
+        Ground, bodies, joints, forces.
     spatial : bool
         Whether it is seen from aside.
     up : Point
@@ -156,17 +184,15 @@ class Scene:
         Size of a joint's symbol [m].
     frames : tuple of Frame
         Of the bodies.
-    items : tuple of Item
-        Ground, bodies, joints, forces.
     """
 
     name: str
     title: str
+    items: tuple[Item, ...]
     spatial: bool
     up: Point
     unit: float
     frames: tuple[Frame, ...]
-    items: tuple[Item, ...]
 
     def __repr__(self) -> str:
         return f"<Scene of {self.name}: {len(self.items)} items>"

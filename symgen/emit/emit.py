@@ -11,10 +11,11 @@ from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import ElementAccess, print_block
 from symgen.emit.text import table_name
 from symgen.errors import InputError
-from symgen.formulate.equations import Equations, Quantity
+from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
+from symgen.vocabulary.quantities import Quantity
 
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000

@@ -11,23 +11,12 @@ from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
 from symgen.ir.program import FORMAT, STATUS, Block, Target
+from symgen.lower.looped import statements as data
 from symgen.lower.looped.law import LoopedLaw
 from symgen.lower.looped.layout import GENERIC, HEAD
-from symgen.lower.looped.loops import (
-    LOCAL,
-    PARAMETER,
-    RATES,
-    STATE,
-    VELOCITIES,
-    WORK,
-    Call,
-    LoopedFunction,
-    Number,
-    Total,
-)
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
-#: How a factorisation treats pivots; see ``templates/looped/machine.py.j2``.
+#: How a factorisation treats pivots; see ``templates/looped/factorisation.j2``.
 _MODES = ("RANK_FACTOR", "MASKED_FACTOR", "KEPT_FACTOR", "PLAIN_FACTOR")
 
 
@@ -38,32 +27,27 @@ def emit_machine(generator: str) -> str:
     return render("looped/machine.py.j2", {"format": FORMAT, "generator": generator, **values})
 
 
-#: Calls of generic code: name, arguments, which code with which arguments, and what it does.
+#: Calls of generic code: name, arguments behind T, p and w, which code with which arguments, and what it does.
 _GENERIC = (
-    ("rows_times", "T, p, w, x, result", ("rows_times", "x", "result", "0", "0.0"), "Section `result` = D times `x`."),
-    ("columns_times", "T, p, w, x, result", ("columns_times", "x", "result", "0", "0.0"), "`result` = D^T times `x`."),
-    ("mass_times", "T, p, w, x, result", ("blocks_times", "0", "x", "result", "0.0"), "`result` = M times `x`."),
-    ("inverse_mass_times", "T, p, w, x, result", ("blocks_times", "1", "x", "result", "0.0"), "`result` = M^-1 `x`."),
-    ("weigh", "T, p, w", ("weigh", "0", "0", "0", "0.0"), "Section `left` = D M^-1."),
-    ("gauge", "T, p, w", ("gauge", "0", "0", "0", "0.0"), "Section `left` = D G."),
-    ("gram", "T, p, w, weight, result", ("gram", "weight", "result", "0", "0.0"), "`result` = D W D^T."),
-    (
-        "augment",
-        "T, p, w, penalties, result",
-        ("augment", "penalties", "result", "0", "0.0"),
-        "`result` = M + D^T a D.",
-    ),
-    ("factorise", "T, p, w, table, lower, mode", ("factorise", "table", "lower", "mode", "0.0"), "L D L^T in place."),
-    ("solve", "T, p, w, table, lower, x", ("solve", "table", "lower", "x", "0.0"), "Solve in place in section `x`."),
+    ("rows_times", "x, result", ("rows_times", "x", "result", "0", "0.0"), "Section `result` = D times `x`."),
+    ("columns_times", "x, result", ("columns_times", "x", "result", "0", "0.0"), "`result` = D^T times `x`."),
+    ("mass_times", "x, result", ("blocks_times", "0", "x", "result", "0.0"), "`result` = M times `x`."),
+    ("inverse_mass_times", "x, result", ("blocks_times", "1", "x", "result", "0.0"), "`result` = M^-1 `x`."),
+    ("weigh", "", ("weigh", "0", "0", "0", "0.0"), "Section `left` = D M^-1."),
+    ("gauge", "", ("gauge", "0", "0", "0", "0.0"), "Section `left` = D G."),
+    ("gram", "weight, result", ("gram", "weight", "result", "0", "0.0"), "`result` = D W D^T."),
+    ("augment", "penalties, result", ("augment", "penalties", "result", "0", "0.0"), "`result` = M + D^T a D."),
+    ("factorise", "table, lower, mode", ("factorise", "table", "lower", "mode", "0.0"), "L D L^T in place."),
+    ("solve", "table, lower, x", ("solve", "table", "lower", "x", "0.0"), "Solve in place in section `x`."),
     (
         "factorise_forward",
-        "T, p, w, table, lower, mode, x",
+        "table, lower, mode, x",
         ("factorise", "table", "lower", "mode", "float(x)"),
         "L D L^T in place, and the first half of `solve` for section `x`.",
     ),
     (
         "solve_rest",
-        "T, p, w, table, lower, x",
+        "table, lower, x",
         ("solve", "table", "lower", "x", "1.0"),
         "The second half of `solve` in section `x`.",
     ),
@@ -182,22 +166,22 @@ class TableLayout:
         return lines, {c for c in calls if c.lower() not in names or c.lower() in HEAD}, names.difference(HEAD)
 
 
-def print_function(f: LoopedFunction) -> Code:
+def print_function(f: data.LoopedFunction) -> Code:
     """Print statements: loops over elements j, sums, numbers and calls."""
     access, lines = LoopAccess(), list[str]()
     called: set[str] = set()
     for statement in f.statements:
-        if isinstance(statement, Call):
+        if isinstance(statement, data.Call):
             result = f"{statement.result} = " if statement.result else ""
             lines.append(f"{result}{statement.function}({', '.join(statement.arguments)})")
             called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}
             for name in statement.arguments:
                 access.bases.base(name)
-        elif isinstance(statement, Number):
+        elif isinstance(statement, data.Number):
             (left,), (right,) = _printed(f.graph, ((*statement.place, statement.node),), access)
             lines += [*right[:-1], f"{left} = {right[-1]}"]
-        elif isinstance(statement, Total):
-            (left,), (right,) = _printed(f.graph, ((LOCAL, statement.local, statement.node),), access)
+        elif isinstance(statement, data.Total):
+            (left,), (right,) = _printed(f.graph, ((data.LOCAL, statement.local, statement.node),), access)
             loop = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in right[:-1])]
             loop.append(f"    {left} += {right[-1]}")
             if statement.driven:
@@ -247,17 +231,17 @@ class LoopAccess:
     def write(self, target: Target) -> str:
         """Return an element or a number."""
         space, index = target.space, target.index
-        if space == LOCAL:
+        if space == data.LOCAL:
             return f"a{index}"
-        if space == PARAMETER:
+        if space == data.PARAMETER:
             return f"p[{self.bases.base('method_parameters')} + {index}]"
-        if space == STATE:
+        if space == data.STATE:
             self.status.add(STATUS[index])
             return f"w[{STATUS[index].upper()}]"
-        if space == WORK:
+        if space == data.WORK:
             return f"ydot[{self.bases.base('nq')} + {self.bases.base('nv')}]"
-        if space in (VELOCITIES, RATES):
-            return f"{'y' if space == VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
+        if space in (data.VELOCITIES, data.RATES):
+            return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
         return f"w[{self.bases.base(space)} + j]"
 
     def note(self, space: str, index: int) -> str:

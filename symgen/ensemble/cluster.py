@@ -72,14 +72,12 @@ def run_chunk(recipe: Recipe, rows: Rows) -> Chunk:
 def run_there(
     ensemble: Ensemble, table: Table, client: Client, progress: Callable[[float], None] | None = None
 ) -> bool:
-    """Run all chunks that the table does not hold yet on a cluster; as `symgen.ensemble.local.run_here`.
+    """Run all chunks that the table does not hold yet on a cluster.
 
     Parameters
     ----------
-    ensemble : Ensemble
-        What to run.
-    table : Table
-        Gets each chunk as soon as it is there.
+    ensemble, table : Ensemble, Table
+        As for `symgen.ensemble.local.run_here`.
     client : Client
         Of the cluster; stays open.
     progress : callable, optional

@@ -109,10 +109,8 @@ def run_here(
 
     Parameters
     ----------
-    ensemble : Ensemble
-        What to run.
-    table : Table
-        Gets each chunk as soon as it is there.
+    ensemble, table : Ensemble, Table
+        What to run, and what gets each chunk as soon as it is there.
     jobs : int or None
         Threads; None: one for every core.
     progress : callable, optional

@@ -97,7 +97,7 @@ class Measures:
     reads : tuple of Quantity
         What loops leave for it.
     places : tuple of int
-        Where each of these goes, see `symgen.runtime.measured_rows.measure_rows`.
+        Where each of these goes, see `symgen.runtime.measured_rows.Left`.
     joints : mapping of str to Place
         Where reactions act; empty where none are kept.
     """
@@ -160,22 +160,22 @@ class Measures:
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
-        from symgen.runtime.measured_rows import gradient_rows, measure_rows
+        from symgen.runtime.measured_rows import Left, gradient_rows, measure_rows
 
         info, runs, n_times = compiled.info, len(ps), len(times)
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = seen.shape[1] - len(self.reads)
-        given = times, selected, seen, first, places, ps, ws, y, rates
+        left = Left(times, selected, seen, first, places, ps, ws, y, rates)
         numbers = np.zeros((runs, n_times, self.length))
         if self.length:
-            measure_rows(self.function, *given, numbers)
+            measure_rows(self.function, left, numbers)
         sides = [q for q in asked if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}
         tables: dict[int, Array] = {}
         if self.joints:
             at, size = info.sections["jacobian"]
             entries = np.zeros((runs, n_times, size))
-            gradient_rows(compiled.model.geometry, *given, at, entries)
+            gradient_rows(compiled.model.geometry, left, at, entries)
             tables = self._reactions(info, selected, seen[:, first:], numbers, entries)
         found = np.empty((len(selected), len(asked), n_times))
         for i, q in enumerate(asked):

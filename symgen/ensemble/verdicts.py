@@ -31,7 +31,21 @@ NOT_RUN = "not run"
 
 @dataclass(frozen=True)
 class Row:
-    """What the loop of one run of an ensemble saw, for `symgen.result.judge.judge_alone`."""
+    """What the loop of one run of an ensemble saw, for `symgen.result.judge.judge_alone`.
+
+    Attributes
+    ----------
+    code, reason : int, str
+        How it ended, see `symgen.runtime.abi`, and why in words.
+    smallest_pivot : float
+        Of D D^T with scaled rows, over the run.
+    rank_events, rank_event_count : tuple of RankEvent, int
+        Passages near singular positions that were noted, and how many there were.
+    energy_jump, energy_scale : float
+        Largest jump of the energy, and what it is compared with [J].
+    counters : mapping
+        As a result has them.
+    """
 
     code: int
     reason: str

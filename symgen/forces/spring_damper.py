@@ -9,8 +9,8 @@ import msgspec
 from symgen.describe.fields import BodyPair, PointPair, Potential, Scalar, StateFunction
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
-from symgen.forces._parts import damped, spring_energy
-from symgen.vocabulary.measures import Distance, Effort
+from symgen.forces._parts import sprung
+from symgen.vocabulary.measures import Distance
 
 
 class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -52,16 +52,7 @@ class SpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fie
         """Resolve to an effort along the distance of the points."""
         a, b = scope.pair("between", self.between)
         ends = Distance(scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))
-        stiffness, free = scope.constant("stiffness", self.stiffness), scope.constant("free_length", self.free_length)
-        effort = Effort(
-            "force",
-            ends,
-            magnitude=damped(
-                scope.constant("damping", self.damping),
-                scope.of_state("actuator", self.actuator, {"length": "s", "rate": "rate"}),
-            ),
-            potential=spring_energy(stiffness, free, scope.potential("potential", self.potential, {"length": "s"})),
-        )
+        effort = sprung(scope, self, "force", ends, "length", self.free_length)
         return Force(name=scope.name, kind=scope.kind, bodies=(a, b), efforts=(effort,))
 
 

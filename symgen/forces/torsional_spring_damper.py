@@ -9,8 +9,8 @@ import msgspec
 from symgen.describe.fields import BodyPair, Potential, Scalar, StateFunction, Text
 from symgen.describe.mechanism import Force
 from symgen.describe.scope import Scope
-from symgen.forces._parts import damped, spring_energy
-from symgen.vocabulary.measures import Angle, Effort, Measure
+from symgen.forces._parts import sprung
+from symgen.vocabulary.measures import Angle, Measure
 
 
 class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -54,16 +54,7 @@ class TorsionalSpringDamper(msgspec.Struct, frozen=True, kw_only=True, forbid_un
     def build(self, scope: Scope) -> Force:
         """Resolve to an effort along the angle between the bodies."""
         bodies, angle = self._angle(scope)
-        stiffness, free = scope.constant("stiffness", self.stiffness), scope.constant("free_angle", self.free_angle)
-        effort = Effort(
-            "torque",
-            angle,
-            magnitude=damped(
-                scope.constant("damping", self.damping),
-                scope.of_state("actuator", self.actuator, {"angle": "s", "rate": "rate"}),
-            ),
-            potential=spring_energy(stiffness, free, scope.potential("potential", self.potential, {"angle": "s"})),
-        )
+        effort = sprung(scope, self, "torque", angle, "angle", self.free_angle)
         return Force(name=scope.name, kind=scope.kind, bodies=bodies, efforts=(effort,))
 
     def _angle(self, scope: Scope) -> tuple[tuple[str, ...], Measure]:

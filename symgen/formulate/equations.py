@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A named scalar with its unit."""
-
-    name: str
-    unit: str
+from symgen.vocabulary.quantities import Counted, Quantity
 
 
 @dataclass(frozen=True)
@@ -41,6 +35,20 @@ class MassBlock:
 
     columns: tuple[int, ...]
     entries: tuple[tuple[int, ...], ...]
+
+
+def mass_blocks(entries: Mapping[tuple[int, int], int], size: int, zero: int) -> tuple[MassBlock, ...]:
+    """Return a symmetric matrix as blocks of velocities that depend on each other."""
+    label = list(range(size))
+    for (i, j), node in entries.items():
+        if node != zero and label[i] != label[j]:
+            old, new = max(label[i], label[j]), min(label[i], label[j])
+            label = [new if x == old else x for x in label]
+    found = list[MassBlock]()
+    for root in sorted(set(label)):
+        columns = tuple(i for i in range(size) if label[i] == root)
+        found.append(MassBlock(columns, tuple(tuple(entries.get((i, j), zero) for j in columns) for i in columns)))
+    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -81,7 +89,7 @@ class Driving:
 
 
 @dataclass(frozen=True)
-class Equations:
+class Equations(Counted):
     """Equations of motion ``M v' + D^T lambda = f``, ``D v' = gamma``, ``q' = N v`` as nodes of one graph.
 
     Parameters
@@ -147,17 +155,14 @@ class Equations:
     driving: Driving | None = None
     metric: tuple[MassBlock, ...] = ()
 
-    @property
-    def nq(self) -> int:
-        """Number of coordinates."""
-        return len(self.coordinates)
-
-    @property
-    def nv(self) -> int:
-        """Number of velocities."""
-        return len(self.velocities)
-
-    @property
-    def m(self) -> int:
-        """Number of constraint rows."""
-        return len(self.rows)
+    def nodes(self, rows: Iterable[ConstraintRow] | None = None) -> dict[str, list[int]]:
+        """Return the nodes that quantities are made of, by their names; of all rows, unless some are given."""
+        rows = self.rows if rows is None else tuple(rows)
+        return {
+            "phi": [row.phi for row in rows if row.phi is not None],
+            "jacobian": [node for row in rows for _, node in row.entries],
+            "nu": [row.nu for row in rows],
+            "gamma": [row.gamma for row in rows],
+            "mass": [node for block in self.mass for line in block.entries for node in line],
+            "forces": list(self.forces),
+        }

@@ -15,11 +15,12 @@ from symgen.describe.topology import state_names
 from symgen.errors import InputError
 from symgen.formulate.carried import carried_energies
 from symgen.formulate.efforts import exertion
-from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission, Quantity
+from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
 from symgen.formulate.measures import Model
 from symgen.formulate.of_time import time_function
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
+from symgen.vocabulary.quantities import Quantity
 
 _UNITS = {
     **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},

@@ -19,14 +19,13 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Body, Link, Vec
 from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import Driving, MassBlock
+from symgen.formulate.equations import Driving, MassBlock, mass_blocks
 from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
+from symgen.formulate.vectors import Pair, PlaneVectors
 from symgen.vocabulary.measures import GROUND
 
 if TYPE_CHECKING:
     from symgen.formulate.measures import Model
-
-Pair = tuple[int, int]
 
 
 @dataclass
@@ -92,7 +91,7 @@ class PlanarTree:
         self.model, self.graph = model, model.graph
         topology = model.mechanism.topology
         assert topology is not None, "a tree belongs to it"
-        g = self.graph
+        g, self.v = self.graph, PlaneVectors(self.graph)
         nothing, still = (g.zero, g.zero), (g.one, g.zero)
         ground = Link(GROUND)
         self.placed = {
@@ -179,28 +178,28 @@ class PlanarTree:
             own_angle = self._coordinate(link.body, "theta")
             turners, turned, spin, gain = (own_angle.number,), *own_angle[1:]
             axes = (g.call("cos", turned), g.call("sin", turned))
-        local = self._pair(model.local(carrier))
-        arm = self._rotated(parent.axes, local)
+        local = self.v.pair(model.local(carrier))
+        arm = self.v.rotate(parent.axes, local)
         sliding = pulled = (g.zero, g.zero)
         slides = dict[int, Pair]()
         for x, direction in zip(slid, found.slides, strict=True):
             holder = parent.axes if direction.body == link.parent else axes
-            along = self._pair(model.direction(direction))
-            e = self._scaled(sign, self._rotated(holder, along))
+            along = self.v.pair(model.direction(direction))
+            e = self.v.scale(sign, self.v.rotate(holder, along))
             slides[x.number] = e
-            arm = self._sum(arm, self._scaled(x.value, e))
-            sliding = self._sum(sliding, self._scaled(x.rate, e))
-            pulled = self._sum(pulled, self._scaled(x.acceleration, e))
+            arm = self.v.add(arm, self.v.scale(x.value, e))
+            sliding = self.v.add(sliding, self.v.scale(x.rate, e))
+            pulled = self.v.add(pulled, self.v.scale(x.acceleration, e))
         w = parent.spin
-        at = self._sum(parent.at, arm)
-        velocity = self._sum(self._sum(parent.velocity, self._scaled(w, self._perp(arm))), sliding)
-        bias = self._less(parent.bias, self._scaled(g.mul(w, w), arm))
-        bias = self._sum(bias, self._scaled(g.mul(g.constant(2.0), w), self._perp(sliding)))
-        bias = self._sum(self._sum(bias, pulled), self._scaled(parent.gain, self._perp(arm)))
+        at = self.v.add(parent.at, arm)
+        velocity = self.v.add(self.v.add(parent.velocity, self.v.scale(w, self.v.perp(arm))), sliding)
+        bias = self.v.sub(parent.bias, self.v.scale(g.mul(w, w), arm))
+        bias = self.v.add(bias, self.v.scale(g.mul(g.constant(2.0), w), self.v.perp(sliding)))
+        bias = self.v.add(self.v.add(bias, pulled), self.v.scale(parent.gain, self.v.perp(arm)))
         columns = dict(parent.columns)
         for turner in parent.turners:
             before = columns.get(turner, (g.zero, g.zero))
-            columns[turner] = self._sum(before, self._perp(arm))
+            columns[turner] = self.v.add(before, self.v.perp(arm))
         columns |= slides
         self.placed[link.body] = _Placed(
             link,
@@ -250,9 +249,9 @@ class PlanarTree:
 
     def _name(self, body: Body, p: _Placed) -> None:
         """Note the coordinates and velocities of a body by their names."""
-        rho = self._rotated(p.axes, p.centre)
-        place = self._sum(p.at, rho)
-        speed = self._sum(p.velocity, self._scaled(p.spin, self._perp(rho)))
+        rho = self.v.rotate(p.axes, p.centre)
+        place = self.v.add(p.at, rho)
+        speed = self.v.add(p.velocity, self.v.scale(p.spin, self.v.perp(rho)))
         self.names |= {f"{body.name}.{n}": x for n, x in zip(("x", "y", "vx", "vy"), (*place, *speed), strict=True)}
         if not body.is_point:
             self.names |= {f"{body.name}.theta": p.angle, f"{body.name}.omega": p.spin}
@@ -271,13 +270,13 @@ class PlanarTree:
         g, found = self.graph, dict[str, int]()
         for body in self.model.mechanism.bodies:
             p = self.placed[body.name]
-            rho, w = self._rotated(p.axes, p.centre), p.spin
+            rho, w = self.v.rotate(p.axes, p.centre), p.spin
             turning = g.add(rates[p.group], p.gain) if p.group >= 0 else p.gain
-            total = self._less(p.bias, self._scaled(g.mul(w, w), rho))
-            total = self._sum(total, self._scaled(turning, self._perp(rho)))
+            total = self.v.sub(p.bias, self.v.scale(g.mul(w, w), rho))
+            total = self.v.add(total, self.v.scale(turning, self.v.perp(rho)))
             for i, c in sorted(p.columns.items()):
                 if i >= 0:
-                    total = self._sum(total, self._scaled(rates[i], c))
+                    total = self.v.add(total, self.v.scale(rates[i], c))
             found |= {f"{body.name}.vx": total[0], f"{body.name}.vy": total[1]}
             if not body.is_point:
                 found[f"{body.name}.omega"] = turning
@@ -292,7 +291,7 @@ class PlanarTree:
         p, first = self.placed[body], self.model.first[body]
         found = {first: force[0], first + 1: force[1]}
         if not self.model.mechanism.body(body).is_point:
-            found[first + 2] = self._cross(self._rotated(p.axes, p.centre), self._pair(force))
+            found[first + 2] = self.v.cross(self.v.rotate(p.axes, p.centre), self.v.pair(force))
         return found
 
     # -- M and f -------------------------------------------------------------------------------------------------------
@@ -314,7 +313,7 @@ class PlanarTree:
             body, p = model.mechanism.body(name), self.placed[name]
             assert isinstance(body, Body), "bodies of the plane"
             m = g.one if alike else model.expression(body.mass)
-            fixed = self._scaled(m, p.centre)  # of the first moment, what is constant in the body's frame
+            fixed = self.v.scale(m, p.centre)  # of the first moment, what is constant in the body's frame
             second = g.mul(m, g.dot(p.centre, p.centre))
             if not body.is_point:
                 second = g.add(g.one if alike or body.inertia is None else model.expression(body.inertia), second)
@@ -326,97 +325,57 @@ class PlanarTree:
                 c, heavy = self.placed[child], masses[child]
                 total = g.add(total, heavy)
                 if c.local is not None:
-                    fixed = self._sum(fixed, self._scaled(heavy, c.local))
+                    fixed = self.v.add(fixed, self.v.scale(heavy, c.local))
                     second = g.add(second, g.mul(heavy, g.dot(c.local, c.local)))
                 else:
-                    moving = self._sum(moving, self._scaled(heavy, c.arm))
+                    moving = self.v.add(moving, self.v.scale(heavy, c.arm))
                     second = g.add(second, g.mul(heavy, g.dot(c.arm, c.arm)))
-                push = self._sum(push, pushes[child])
-                turn = g.add(turn, self._cross(c.arm, pushes[child]))
+                push = self.v.add(push, pushes[child])
+                turn = g.add(turn, self.v.cross(c.arm, pushes[child]))
                 turning = g.mul(g.constant(2.0), g.mul(w, heavy))
-                lag = self._sum(self._scaled(turning, self._perp(c.sliding)), self._scaled(heavy, c.pulled))
-                push = self._less(push, lag)
-                turn = g.sub(turn, self._cross(c.arm, lag))
+                lag = self.v.add(self.v.scale(turning, self.v.perp(c.sliding)), self.v.scale(heavy, c.pulled))
+                push = self.v.sub(push, lag)
+                turn = g.sub(turn, self.v.cross(c.arm, lag))
                 if c.follows:
-                    shared = self._sum(shared, moments[child])
+                    shared = self.v.add(shared, moments[child])
                     both = g.mul(g.constant(2.0), g.dot(c.arm, moments[child]))
                     following = g.add(following, g.add(seconds[child], both))
-                    swing = self._less(self._scaled(g.mul(w, w), c.arm), self._scaled(p.gain, self._perp(c.arm)))
-                    swing = self._less(swing, self._scaled(g.mul(g.constant(2.0), w), self._perp(c.sliding)))
-                    swing = self._less(swing, c.pulled)
-                    turn = g.add(turn, g.add(turns[child], self._cross(moments[child], swing)))
-            turned = self._sum(self._rotated(p.axes, fixed), moving)
+                    swing = self.v.sub(self.v.scale(g.mul(w, w), c.arm), self.v.scale(p.gain, self.v.perp(c.arm)))
+                    swing = self.v.sub(swing, self.v.scale(g.mul(g.constant(2.0), w), self.v.perp(c.sliding)))
+                    swing = self.v.sub(swing, c.pulled)
+                    turn = g.add(turn, g.add(turns[child], self.v.cross(moments[child], swing)))
+            turned = self.v.add(self.v.rotate(p.axes, fixed), moving)
             masses[name], seconds[name] = total, g.add(second, following)
-            moments[name] = self._sum(turned, shared)
-            push = self._less(push, self._scaled(p.gain, self._perp(turned)))
-            pushes[name] = self._sum(push, self._scaled(g.mul(w, w), turned))
+            moments[name] = self.v.add(turned, shared)
+            push = self.v.sub(push, self.v.scale(p.gain, self.v.perp(turned)))
+            pushes[name] = self.v.add(push, self.v.scale(g.mul(w, w), turned))
             turns[name] = g.sub(turn, g.mul(p.gain, second))
         for name in pushes:  # the accelerations of the points themselves
             p = self.placed[name]
-            turns[name] = g.sub(turns[name], self._cross(moments[name], p.bias))
-            pushes[name] = self._less(pushes[name], self._scaled(masses[name], p.bias))
+            turns[name] = g.sub(turns[name], self.v.cross(moments[name], p.bias))
+            pushes[name] = self.v.sub(pushes[name], self.v.scale(masses[name], p.bias))
         entries: dict[tuple[int, int], int] = {}
         own = forces[model.size :]
         f = dict.fromkeys(range(self.size), g.zero)
         for name, p in self.placed.items():
             mu = moments.get(name, (g.zero, g.zero))
             for i, e in p.slides.items():
-                momentum = self._scaled(masses[name], e)
+                momentum = self.v.scale(masses[name], e)
                 for j, column in p.columns.items():
                     entry = g.dot(momentum, column)
                     if j in p.turners:
-                        entry = g.add(entry, self._cross(mu, e))
+                        entry = g.add(entry, self.v.cross(mu, e))
                     entries[i, j] = entries[j, i] = entry
                 entries[i, i] = masses[name]  # directions have length 1
                 f[i] = g.dot(e, pushes[name])
             for k in p.turners[len(self.placed[p.link.parent].turners) if p.follows else 0 :]:
                 for j, column in p.columns.items():
-                    entry = g.dot(self._perp(mu), column)
+                    entry = g.dot(self.v.perp(mu), column)
                     if j in p.turners:  # the body turns with it, about its point
                         entry = g.add(entry, seconds[name])
                     entries[k, j] = entries[j, k] = entry
                 entries[k, k] = seconds[name]
                 f[k] = turns[name]
-        blocks = blocks_of({(i, j): n for (i, j), n in entries.items() if min(i, j) >= 0}, self.size, g.zero)
+        blocks = mass_blocks({(i, j): n for (i, j), n in entries.items() if min(i, j) >= 0}, self.size, g.zero)
         driving = driving_of(g, self.coordinates, entries, f)
         return blocks, [g.add(f[i], own[i]) for i in range(self.size)], driving
-
-    # -- vectors -------------------------------------------------------------------------------------------------------
-
-    @staticmethod
-    def _pair(vector: list[int]) -> Pair:
-        x, y = vector
-        return x, y
-
-    def _rotated(self, axes: Pair, vector: Pair) -> Pair:
-        g, (c, s), (x, y) = self.graph, axes, vector
-        return g.sub(g.mul(c, x), g.mul(s, y)), g.add(g.mul(s, x), g.mul(c, y))
-
-    def _scaled(self, factor: int, vector: Pair) -> Pair:
-        return self.graph.mul(factor, vector[0]), self.graph.mul(factor, vector[1])
-
-    def _sum(self, a: Pair, b: Pair) -> Pair:
-        return self.graph.add(a[0], b[0]), self.graph.add(a[1], b[1])
-
-    def _less(self, a: Pair, b: Pair) -> Pair:
-        return self.graph.sub(a[0], b[0]), self.graph.sub(a[1], b[1])
-
-    def _perp(self, a: Pair) -> Pair:
-        return self.graph.neg(a[1]), a[0]
-
-    def _cross(self, a: Pair, b: Pair) -> int:
-        return self.graph.sub(self.graph.mul(a[0], b[1]), self.graph.mul(a[1], b[0]))
-
-
-def blocks_of(entries: Mapping[tuple[int, int], int], size: int, zero: int) -> tuple[MassBlock, ...]:
-    """Return a symmetric matrix as blocks of velocities that depend on each other."""
-    label = list(range(size))
-    for (i, j), node in entries.items():
-        if node != zero and label[i] != label[j]:
-            old, new = max(label[i], label[j]), min(label[i], label[j])
-            label = [new if x == old else x for x in label]
-    found = list[MassBlock]()
-    for root in sorted(set(label)):
-        columns = tuple(i for i in range(size) if label[i] == root)
-        found.append(MassBlock(columns, tuple(tuple(entries.get((i, j), zero) for j in columns) for i in columns)))
-    return tuple(found)

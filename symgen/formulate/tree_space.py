@@ -15,11 +15,10 @@ from typing import TYPE_CHECKING
 
 from symgen.describe.mechanism import Articulation, Link, SpatialBody
 from symgen.describe.topology import known_coordinates, labels_of
-from symgen.formulate.equations import Driving, MassBlock
+from symgen.formulate.equations import Driving, MassBlock, mass_blocks
 from symgen.formulate.euler import composed, half_turn, inverse, matrix_of, parameters_of, turning
 from symgen.formulate.of_time import Coordinate, driving_of, prescribed_coordinates
 from symgen.formulate.tree_inertia import Composite, Motion
-from symgen.formulate.tree_plane import blocks_of
 from symgen.formulate.vectors import Matrix, Triple, Vectors
 from symgen.vocabulary.measures import GROUND, Direction
 
@@ -377,14 +376,14 @@ class SpatialTree:
         """Return M and f of the state, from forces on the velocities of bodies, inertia apart; the power of drivers."""
         found, size = Composite(self.model, self.placed, forces), self.size
         mass, f = found.mass(), found.force()
-        blocks = blocks_of({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, size, self.graph.zero)
+        blocks = mass_blocks({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, size, self.graph.zero)
         return blocks, [f[i] for i in range(size)], driving_of(self.graph, self.coordinates, mass, f)
 
     def metric(self) -> tuple[MassBlock, ...]:
         """Return the metric of the velocities of bodies, pulled back."""
         nothing = [self.graph.zero] * len(self.velocities)
         mass = Composite(self.model, self.placed, nothing, alike=True).mass()
-        return blocks_of({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, self.size, self.graph.zero)
+        return mass_blocks({(i, j): n for (i, j), n in mass.items() if min(i, j) >= 0}, self.size, self.graph.zero)
 
 
 def _rows(v: Vectors, nodes: Sequence[int]) -> Matrix:

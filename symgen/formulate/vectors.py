@@ -1,4 +1,4 @@
-"""Vectors and matrices of nodes: what the recursions over bodies in space are written in."""
+"""Vectors and matrices of nodes: what the recursions over bodies of a tree are written in."""
 
 from __future__ import annotations
 
@@ -6,9 +6,47 @@ from collections.abc import Sequence
 
 from symgen.ir.graph import Graph
 
+Pair = tuple[int, int]
 Triple = tuple[int, int, int]
 #: Three rows of a matrix.
 Matrix = tuple[Triple, Triple, Triple]
+
+
+class PlaneVectors:
+    """Operations on pairs of nodes of one graph."""
+
+    def __init__(self, graph: Graph) -> None:
+        self.graph = graph
+
+    def pair(self, nodes: Sequence[int]) -> Pair:
+        """Return two nodes as a vector."""
+        x, y = nodes
+        return x, y
+
+    def add(self, a: Pair, b: Pair) -> Pair:
+        """Return a + b."""
+        return self.graph.add(a[0], b[0]), self.graph.add(a[1], b[1])
+
+    def sub(self, a: Pair, b: Pair) -> Pair:
+        """Return a - b."""
+        return self.graph.sub(a[0], b[0]), self.graph.sub(a[1], b[1])
+
+    def scale(self, factor: int, a: Pair) -> Pair:
+        """Return a times a number."""
+        return self.graph.mul(factor, a[0]), self.graph.mul(factor, a[1])
+
+    def perp(self, a: Pair) -> Pair:
+        """Return a turned left by 90 degrees."""
+        return self.graph.neg(a[1]), a[0]
+
+    def cross(self, a: Pair, b: Pair) -> int:
+        """Return what a x b has across the plane."""
+        return self.graph.sub(self.graph.mul(a[0], b[1]), self.graph.mul(a[1], b[0]))
+
+    def rotate(self, axes: Pair, a: Pair) -> Pair:
+        """Return a vector turned by the angle whose cosine and sine `axes` are."""
+        g, (c, s), (x, y) = self.graph, axes, a
+        return g.sub(g.mul(c, x), g.mul(s, y)), g.add(g.mul(s, x), g.mul(c, y))
 
 
 class Vectors:

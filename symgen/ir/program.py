@@ -9,10 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Generic, TypeVar
 
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
 from symgen.vocabulary.expressions import SMOOTH
+
+Info = TypeVar("Info")
 
 #: Format of the emitted modules: changes when their functions, signatures or sections do.
 FORMAT = 3
@@ -208,6 +211,17 @@ class ModelProgram:
     order: tuple[int, ...]  # elimination order of the rows
     fill: int  # entries of L that are zero in D D^T
     tables: tuple[Interpolation, ...] = ()
+
+
+@dataclass(frozen=True)
+class ElementProgram(Generic[Info]):
+    """What elements of one kind share in looped code: the module `stem`, and what tables need to know of it."""
+
+    stem: str
+    label: str
+    info: Info
+    blocks: tuple[Block, ...]
+    tables: tuple[Interpolation, ...]
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Rows and coordinates that joints in space are put together from."""
+"""Rows and coordinates that joints are put together from, most of them in space."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ _MINUS = number(-1.0)
 
 
 def coincident(a: Marker, b: Marker) -> tuple[Holonomic, ...]:
-    """Rows that hold two points together, ``x``, ``y``, ``z``: forces on the first body in ground axes."""
-    return tuple(Holonomic(label, Component(a, b, axis)) for label, axis in zip("xyz", axes(GROUND, 3), strict=True))
+    """Rows that hold two points together, ``x``, ``y``, in space ``z``: forces on the first body in ground axes."""
+    along = zip("xyz", axes(GROUND, len(a.point)), strict=False)
+    return tuple(Holonomic(label, Component(a, b, axis)) for label, axis in along)
 
 
 def parallel(a: Triad, b: Triad) -> tuple[Holonomic, ...]:

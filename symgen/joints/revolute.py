@@ -10,7 +10,7 @@ from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.joints._space import angle, coincident, frames, markers, parallel
-from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
+from symgen.vocabulary.measures import Angle
 
 
 class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -49,15 +49,12 @@ class Revolute(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=
             return self._spatial(scope)
         scope.only(axis=self.axis, reference=self.reference)
         a, b = scope.pair("between", self.between)
-        pin_a, pin_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        pins = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
         return Joint(
             name=scope.name,
             kind=scope.kind,
             bodies=(a, b),
-            rows=(
-                Holonomic("x", Component(pin_a, pin_b, X_AXIS)),
-                Holonomic("y", Component(pin_a, pin_b, Y_AXIS)),
-            ),
+            rows=coincident(*pins),
             coordinates=(("angle", Angle(a, b)),) if scope.turns(a) and scope.turns(b) else (),
         )
 

@@ -10,7 +10,7 @@ from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair,
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
 from symgen.joints._space import coincident, frames, markers, not_turned, parallel
-from symgen.vocabulary.measures import X_AXIS, Y_AXIS, Angle, Component, Holonomic
+from symgen.vocabulary.measures import Angle, Holonomic
 
 
 class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
@@ -55,16 +55,8 @@ class Rigid(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=Tru
             rows = (*coincident(weld_a, weld_b), *parallel(*triads), not_turned(*triads))
             return Joint(scope.name, scope.kind, (a, b), rows)
         scope.only(axis=self.axis, reference=self.reference)
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(
-                Holonomic("x", Component(weld_a, weld_b, X_AXIS)),
-                Holonomic("y", Component(weld_a, weld_b, Y_AXIS)),
-                Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad"),
-            ),
-        )
+        held = Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad")
+        return Joint(scope.name, scope.kind, (a, b), (*coincident(weld_a, weld_b), held))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

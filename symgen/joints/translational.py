@@ -4,31 +4,21 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import msgspec
-
-from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair, Scalar
+from symgen.describe.fields import Scalar
 from symgen.describe.mechanism import Articulation, Joint
 from symgen.describe.scope import Scope
+from symgen.joints._axial import Axial
 from symgen.joints._space import frames, markers, not_turned, on_axis, parallel
 from symgen.vocabulary.measures import Angle, Component, Holonomic
 
 
-class Translational(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+class Translational(Axial, frozen=True, kw_only=True, forbid_unknown_fields=True):
     """A slide: the second body moves along an axis fixed in the first one and does not turn against it.
 
     Parameters
     ----------
-    between : pair of body names
-        The two bodies.
-    at : pair of points
-        A point of each body; both lie on the axis.
-    axis : direction, or in space pair of directions
-        Direction of the slide in the frame of the first body, in space also one in the frame of each body; lengths do
-        not matter.
     angle : scalar
         In the plane: angle of the second body less that of the first [rad]; 0 by default.
-    reference : pair of directions
-        In space: directions across the axis that coincide; as the bodies start by default.
 
     Notes
     -----
@@ -42,42 +32,23 @@ class Translational(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fi
 
     SPACES: ClassVar[tuple[str, ...]] = ("planar", "spatial")
 
-    between: BodyPair
-    at: PointPair
-    axis: AxisPair
     angle: Scalar | None = None
-    reference: DirectionPair | None = None
 
     def build(self, scope: Scope) -> Joint:
         """Resolve to the distance from the axis and the angle, in space to two distances and three angles."""
-        a, b = scope.pair("between", self.between, turns=(True, True))
-        point_a, point_b = scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1])
+        bodies, points = self.resolved(scope)
+        rows: tuple[Holonomic, ...]
         if scope.spatial:
             scope.only(angle=self.angle)
-            triad_a, triad_b = scope.triads((a, b), self.axis, self.reference, fixed=True)
-            return Joint(
-                name=scope.name,
-                kind=scope.kind,
-                bodies=(a, b),
-                rows=(
-                    *on_axis(point_a, point_b, triad_a),
-                    *parallel(triad_a, triad_b),
-                    not_turned(triad_a, triad_b),
-                ),
-                coordinates=(("displacement", Component(point_a, point_b, triad_a.axis)),),
-            )
-        scope.only(reference=self.reference)
-        along, normal = scope.axis("axis", a, self.axis)
-        return Joint(
-            name=scope.name,
-            kind=scope.kind,
-            bodies=(a, b),
-            rows=(
-                Holonomic("normal", Component(point_a, point_b, normal)),
-                Holonomic("angle", Angle(a, b), scope.constant("angle", self.angle or 0.0), "rad"),
-            ),
-            coordinates=(("displacement", Component(point_a, point_b, along)),),
-        )
+            triads = scope.triads(bodies, self.axis, self.reference, fixed=True)
+            along = triads[0].axis
+            rows = (*on_axis(*points, triads[0]), *parallel(*triads), not_turned(*triads))
+        else:
+            scope.only(reference=self.reference)
+            along, normal = scope.axis("axis", bodies[0], self.axis)
+            held = Holonomic("angle", Angle(*bodies), scope.constant("angle", self.angle or 0.0), "rad")
+            rows = (Holonomic("normal", Component(*points, normal)), held)
+        return Joint(scope.name, scope.kind, bodies, rows, (("displacement", Component(*points, along)),))
 
     @staticmethod
     def articulate(joint: Joint) -> Articulation:

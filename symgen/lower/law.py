@@ -11,7 +11,8 @@ from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.record import EQUATIONS, Part, Record, record_form, record_law
-from symgen.lower.scalar import Outputs, Scalars, to_status
+from symgen.lower.scalar import Scalars
+from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.

@@ -8,7 +8,8 @@ from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
 from symgen.lower.record import record_model
-from symgen.lower.scalar import Outputs, Scalars, to_status
+from symgen.lower.scalar import Scalars
+from symgen.lower.scalar_values import Outputs, to_status
 
 
 def lower_model(equations: Equations, digest: str) -> ModelProgram:

@@ -13,7 +13,6 @@ from symgen.describe.mechanism import ACCELERATIONS, Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.formulate.efforts import exertion
-from symgen.formulate.equations import Quantity
 from symgen.formulate.formulate import quantities
 from symgen.formulate.measures import Model
 from symgen.ir.derivative import Key, jacobian
@@ -22,6 +21,7 @@ from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Layout, Target
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
+from symgen.vocabulary.quantities import Quantity
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,15 @@ class MethodParameter:
 
 @dataclass(frozen=True)
 class MethodOption:
-    """A choice that changes the emitted code; the first value is the default."""
+    """A choice that changes the emitted code.
+
+    Parameters
+    ----------
+    name, note : str
+        Note says what it decides.
+    values : tuple of str
+        The first one is the default.
+    """
 
     name: str
     values: tuple[str, ...]
@@ -54,7 +62,15 @@ class MethodOption:
 
 @dataclass(frozen=True)
 class Acceleration:
-    """A law that is a formula: v' and the multipliers."""
+    """A law that is a formula.
+
+    Parameters
+    ----------
+    acceleration : Vector
+        v'.
+    multipliers : Vector
+        lambda.
+    """
 
     acceleration: Vector
     multipliers: Vector
@@ -81,7 +97,17 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Rates:
-    """Rates of what is integrated in place of q and v, the velocities at which forces do work, and the multipliers."""
+    """Rates of what is integrated in place of q and v.
+
+    Parameters
+    ----------
+    position, velocity : Vector
+        q' and v'.
+    velocities : Vector
+        Those at which forces do work.
+    multipliers : Vector
+        lambda.
+    """
 
     position: Vector
     velocity: Vector
@@ -91,7 +117,15 @@ class Rates:
 
 @dataclass(frozen=True)
 class IterationState:
-    """A vector that an iteration changes: the section of ``w`` it is kept in, its start and its next value."""
+    """A vector that an iteration changes.
+
+    Parameters
+    ----------
+    section : str
+        Of ``w``, where it is kept.
+    start, following : Vector
+        What it begins with, and its next value.
+    """
 
     section: str
     start: Vector

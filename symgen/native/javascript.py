@@ -9,26 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 
-from symgen.native.language import (
-    Assign,
-    Call,
-    Choice,
-    Constant,
-    Element,
-    Evaluate,
-    Expression,
-    For,
-    Function,
-    If,
-    Leave,
-    Logic,
-    Operation,
-    Return,
-    Statement,
-    Store,
-    Variable,
-    While,
-)
+from symgen.native import language as lang
 
 #: What printed functions call beside ``Math``. Sines and cosines of browsers are rounded wrongly once in thirty times,
 #: those of C libraries once in a thousand: here the first terms of their series have twice the digits.
@@ -97,7 +78,7 @@ _CALLED |= {"math.sin": "sine", "math.cos": "cosine"}
 _CALLED |= {"math.fabs": "Math.abs", "math.copysign": "copysign", "math.pow": "Math.pow"}
 
 
-def javascript(functions: Mapping[str, Function]) -> str:
+def javascript(functions: Mapping[str, lang.Function]) -> str:
     """Return the text of functions and of all that they call, each once, callees first.
 
     Parameters
@@ -108,7 +89,7 @@ def javascript(functions: Mapping[str, Function]) -> str:
     names: dict[object, str] = {_key(function): name for name, function in functions.items()}
     texts: list[str] = []
 
-    def define(function: Function) -> None:
+    def define(function: lang.Function) -> None:
         for called in function.called:
             if _key(called) not in names:
                 names[_key(called)] = _free(_word(called.name), names.values())
@@ -120,7 +101,7 @@ def javascript(functions: Mapping[str, Function]) -> str:
     return "\n".join(texts)
 
 
-def _key(function: Function) -> object:
+def _key(function: lang.Function) -> object:
     return function.source, function.parameters
 
 
@@ -149,7 +130,7 @@ def _literal(value: float | int | bool) -> tuple[str, int]:
 class _Printer:
     """Prints one function."""
 
-    def __init__(self, function: Function, names: dict[object, str]) -> None:
+    def __init__(self, function: lang.Function, names: dict[object, str]) -> None:
         self.function, self.names = function, names
         self.counters = 0
 
@@ -167,60 +148,60 @@ class _Printer:
         head = f"function {self.names[_key(f)]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
         return "\n".join([*tables, head, *lines, "}"])
 
-    def lines(self, statements: tuple[Statement, ...]) -> list[str]:
+    def lines(self, statements: tuple[lang.Statement, ...]) -> list[str]:
         """Return statements as lines."""
         return [line for statement in statements for line in self.statement(statement)]
 
-    def statement(self, s: Statement) -> list[str]:
+    def statement(self, s: lang.Statement) -> list[str]:
         """Return one statement."""
-        if isinstance(s, Assign):
+        if isinstance(s, lang.Assign):
             once = "const " if s.name in self.function.fixed else ""
             return [f"{once}{_word(s.name)} = {self.value(s.value)};"]
-        if isinstance(s, Store):
+        if isinstance(s, lang.Store):
             return [f"{_word(s.array)}[{self.value(s.index)}] = {self.value(s.value)};"]
-        if isinstance(s, Evaluate):
+        if isinstance(s, lang.Evaluate):
             return [f"{self.value(s.call)};"]
-        if isinstance(s, Return):
+        if isinstance(s, lang.Return):
             return [f"return {self.value(s.value)};"]
-        if isinstance(s, Leave):
+        if isinstance(s, lang.Leave):
             return [f"{s.how};"]
-        if isinstance(s, If):
+        if isinstance(s, lang.If):
             found = [f"if ({self.value(s.test)}) {{", *self.lines(s.then)]
             return [*found, *(["} else {", *self.lines(s.otherwise)] if s.otherwise else []), "}"]
-        if isinstance(s, While):
+        if isinstance(s, lang.While):
             return [f"while ({self.value(s.test)}) {{", *self.lines(s.body), "}"]
-        assert isinstance(s, For), "all kinds of statements are known"
+        assert isinstance(s, lang.For), "all kinds of statements are known"
         self.counters += 1
         i, sign = f"counter{self.counters}", "<" if s.step > 0 else ">"
         head = f"for (let {i} = {self.value(s.start)}, end = {self.value(s.stop)}; {i} {sign} end; {i} += {s.step}) {{"
         return [head, f"{_word(s.name)} = {i};", *self.lines(s.body), "}"]
 
-    def value(self, e: Expression, level: int = 0) -> str:
+    def value(self, e: lang.Expression, level: int = 0) -> str:
         """Return an expression, in parentheses where it binds weaker than `level`."""
         text, own = self.expression(e)
         return text if own >= level else f"({text})"
 
-    def expression(self, e: Expression) -> tuple[str, int]:
+    def expression(self, e: lang.Expression) -> tuple[str, int]:
         """Return an expression and how strongly it binds."""
-        if isinstance(e, Constant):
+        if isinstance(e, lang.Constant):
             return _literal(e.value)
-        if isinstance(e, Variable):
+        if isinstance(e, lang.Variable):
             return _word(e.name), 20
-        if isinstance(e, Element):
+        if isinstance(e, lang.Element):
             constant = e.array in self.function.tables
             array = f"{self.names[_key(self.function)]}_{_word(e.array)}" if constant else _word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
-        if isinstance(e, Call):
+        if isinstance(e, lang.Call):
             given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
             return f"{self.names[_key(e.function)]}({', '.join(given)})", 20
-        if isinstance(e, Logic):
+        if isinstance(e, lang.Logic):
             sign, own = _SIGNS[e.name]
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
-        if isinstance(e, Choice):
+        if isinstance(e, lang.Choice):
             return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
         return self.operation(e)
 
-    def operation(self, e: Operation) -> tuple[str, int]:
+    def operation(self, e: lang.Operation) -> tuple[str, int]:
         """Return an operation."""
         name, first = e.name, e.arguments[0]
         if name in ("and", "or") and e.type != "bool":
@@ -237,14 +218,14 @@ class _Printer:
             return self.converted(name, first)
         if name == "pow" and e.arguments[1].type == "int":
             exponent = e.arguments[1]
-            assert isinstance(exponent, Constant), "a power with a literal exponent"
+            assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
             if exponent.value == 2:
                 return f"square({self.value(first)})", 20
             return f"power({self.value(first)}, {int(exponent.value)})", 20
         called = _CALLED.get(name, "Math.pow" if name == "pow" else f"Math.{name.removeprefix('math.')}")
         return f"{called}({', '.join(self.value(a) for a in e.arguments)})", 20
 
-    def converted(self, kind: str, value: Expression) -> tuple[str, int]:
+    def converted(self, kind: str, value: lang.Expression) -> tuple[str, int]:
         """Return a value in another type."""
         if kind == "bool":
             return f"{self.value(value, 10)} !== 0", 9

@@ -7,66 +7,21 @@ address of the elements is used.
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Callable, Iterable
 
+from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.language import (
-    Assign,
-    Call,
-    Choice,
-    Constant,
-    Element,
-    Evaluate,
-    Expression,
-    For,
-    Function,
-    If,
-    Leave,
-    Logic,
-    Operation,
-    Parameter,
-    Return,
-    Scalar,
-    Statement,
-    Store,
-    Variable,
-    While,
-)
+from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, TYPE, Values, handed, literal, slot
 
-_TYPE = {"float": "double", "int": "i64", "bool": "i1"}
-_ARRAY = (
-    "ptr",
-    "ptr",
-    "i64",
-    "i64",
-    "ptr",
-    "i64",
-    "i64",
-)  # owner, parent, size, size of an element, data, shape, stride
-_DATA = 4
 #: The same as one value, as functions in C's convention get it.
 _STRUCT = "{ptr, ptr, i64, i64, ptr, [1 x i64], [1 x i64]}"
-_FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
-_INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
-_COMPARED = {
-    "float": {"lt": "olt", "le": "ole", "gt": "ogt", "ge": "oge", "eq": "oeq", "ne": "une"},
-    "int": {"lt": "slt", "le": "sle", "gt": "sgt", "ge": "sge", "eq": "eq", "ne": "ne"},
-    "bool": {"lt": "ult", "le": "ule", "gt": "ugt", "ge": "uge", "eq": "eq", "ne": "ne"},
-}
-_INTRINSICS = {
-    "sin": "sin",
-    "cos": "cos",
-    "exp": "exp",
-    "log": "log",
-    "fabs": "fabs",
-    "copysign": "copysign",
-    "pow": "pow",
-}
 
 
 def module(
-    function: Function, symbol: Callable[[Function], str], inlined: Callable[[Function], bool], together: bool = True
+    function: lang.Function,
+    symbol: Callable[[lang.Function], str],
+    inlined: Callable[[lang.Function], bool],
+    together: bool = True,
 ) -> str:
     """Return the text of a module that defines a function.
 
@@ -91,9 +46,11 @@ def module(
     return "\n".join([*texts, *_declarations(texts), ""])
 
 
-def _reached(function: Function, inlined: Callable[[Function], bool]) -> tuple[list[Function], list[Function]]:
+def _reached(
+    function: lang.Function, inlined: Callable[[lang.Function], bool]
+) -> tuple[list[lang.Function], list[lang.Function]]:
     """Return functions whose bodies belong into a module, and those of which it has to know the symbol alone."""
-    functions, declared, waiting = {_key(function): function}, dict[object, Function](), list(function.called)
+    functions, declared, waiting = {_key(function): function}, dict[object, lang.Function](), list(function.called)
     while waiting:
         each = waiting.pop(0)
         if _key(each) not in functions and inlined(each):
@@ -104,7 +61,7 @@ def _reached(function: Function, inlined: Callable[[Function], bool]) -> tuple[l
     return list(functions.values()), list(declared.values())
 
 
-def _key(function: Function) -> object:
+def _key(function: lang.Function) -> object:
     """Return what tells one function from another without comparing their bodies."""
     return function.source, function.parameters
 
@@ -113,7 +70,7 @@ def _declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
     found = []
-    for name in _INTRINSICS.values():
+    for name in INTRINSICS:
         if f"@llvm.{name}.f64(" in text:
             found.append(
                 f"declare double @llvm.{name}.f64({'double, double' if name in ('copysign', 'pow') else 'double'})"
@@ -126,26 +83,26 @@ def _declarations(texts: Iterable[str]) -> list[str]:
     return found
 
 
-def _head(function: Function, name: str, named: bool = True) -> str:
+def _head(function: lang.Function, name: str, named: bool = True) -> str:
     """Return result, name and parameters in Numba's convention."""
     parts = ["ptr noalias" + " %.result" * named, "ptr noalias" + " %.exception" * named]
     for p in function.parameters:
         if p.array:
-            parts += [f"{kind} %{p.name}.{i}" if named else kind for i, kind in enumerate(_ARRAY)]
+            parts += [f"{kind} %{p.name}.{i}" if named else kind for i, kind in enumerate(ARRAY)]
         else:
-            parts.append(f"{_TYPE[p.type]} %{p.name}" if named else _TYPE[p.type])
+            parts.append(f"{TYPE[p.type]} %{p.name}" if named else TYPE[p.type])
     return f'i32 @"{name}"({", ".join(parts)}) nounwind'
 
 
-def _c_function(function: Function, name: str) -> str:
+def _c_function(function: lang.Function, name: str) -> str:
     """Return the function in C's convention, which calls the other one."""
-    kind = _TYPE[function.returned]
+    kind = TYPE[function.returned]
     lines, arguments = [f"  %.result = alloca {kind}"], ["ptr %.result", "ptr null"]
     for p in function.parameters:
         if p.array:
-            lines.append(f"  %{p.name}.{_DATA} = extractvalue {_STRUCT} %{p.name}, {_DATA}")
-        arguments += _handed(p, f"%{p.name}.{_DATA}" if p.array else f"%{p.name}")
-    parameters = ", ".join(f"{_STRUCT if p.array else _TYPE[p.type]} %{p.name}" for p in function.parameters)
+            lines.append(f"  %{p.name}.{DATA} = extractvalue {_STRUCT} %{p.name}, {DATA}")
+        arguments += handed(p, f"%{p.name}.{DATA}" if p.array else f"%{p.name}")
+    parameters = ", ".join(f"{_STRUCT if p.array else TYPE[p.type]} %{p.name}" for p in function.parameters)
     return "\n".join(
         [
             f'define {kind} @"cfunc.{name}"({parameters}) nounwind {{',
@@ -158,26 +115,16 @@ def _c_function(function: Function, name: str) -> str:
     )
 
 
-def _handed(parameter: Parameter, value: str) -> list[str]:
-    """Return an argument of a call; of an array the address of its elements, the rest being unused."""
-    if not parameter.array:
-        return [f"{_TYPE[parameter.type]} {value}"]
-    return [f"{kind} {value if i == _DATA else 'undef'}" for i, kind in enumerate(_ARRAY)]
-
-
-class _Printer:
+class _Printer(Values):
     """Prints one function."""
 
-    def __init__(self, function: Function, symbol: Callable[[Function], str], linkage: str, together: bool) -> None:
-        self.function, self.symbol, self.linkage = function, symbol, linkage
+    def __init__(
+        self, function: lang.Function, symbol: Callable[[lang.Function], str], linkage: str, together: bool
+    ) -> None:
+        super().__init__(function, symbol)
+        self.linkage = linkage
         groups = sines.groups(function) if together else {}
         self.before = {id(function.body[i]): calls for i, calls in groups.items()}
-        self.found: dict[tuple[str, Expression], str] = {}  # sines and cosines
-        self.lines: list[str] = []
-        self.slots: list[str] = []
-        self.values: dict[str, str] = {}  # of fixed variables
-        self.count = 0
-        self.label = ".entry"
         self.leaving: list[tuple[str, str]] = []  # labels after `continue` and `break`, innermost last
 
     def text(self) -> str:
@@ -185,73 +132,49 @@ class _Printer:
         f = self.function
         for name, kind in f.variables.items():
             if name not in f.fixed:
-                self.slots.append(f"  {_slot(name)} = alloca {_TYPE[kind]}")
+                self.slots.append(f"  {slot(name)} = alloca {TYPE[kind]}")
         for p in f.parameters:
             if not p.array:
                 if p.name in f.variables:
-                    self.lines.append(f"  store {_TYPE[p.type]} %{p.name}, ptr {_slot(p.name)}")
+                    self.lines.append(f"  store {TYPE[p.type]} %{p.name}, ptr {slot(p.name)}")
                 else:
                     self.values[p.name] = f"%{p.name}"
         self.statements(f.body)
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
-            f"[{', '.join('double ' + _float(v) for v in x)}]"
+            f"[{', '.join('double ' + literal(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
         head = f"define {self.linkage}{_head(f, self.symbol(f))} {{"
         return "\n".join([*tables, head, ".entry:", *self.slots, *self.lines, "}"])
 
-    def put(self, text: str) -> str:
-        """Print an instruction and return its value."""
-        self.count += 1
-        self.lines.append(f"  %.{self.count} = {text}")
-        return f"%.{self.count}"
-
-    def labels(self, *names: str) -> list[str]:
-        """Return new labels."""
-        self.count += 1
-        return [f".{name}{self.count}" for name in names]
-
-    def begin(self, label: str) -> None:
-        """Begin a block."""
-        self.lines.append(f"{label}:")
-        self.label = label
-
-    def jump(self, label: str) -> None:
-        """End a block."""
-        self.lines.append(f"  br label %{label}")
-
-    def branch(self, test: str, yes: str, no: str) -> None:
-        """End a block with a choice."""
-        self.lines.append(f"  br i1 {test}, label %{yes}, label %{no}")
-
     # -- statements
 
-    def statements(self, statements: tuple[Statement, ...]) -> bool:
+    def statements(self, statements: tuple[lang.Statement, ...]) -> bool:
         """Print statements; return whether what follows them can be reached."""
         for statement in statements:
             for angles in self.before.get(id(statement), ()):
                 self.take_sines(angles)
-            if isinstance(statement, Assign):
+            if isinstance(statement, lang.Assign):
                 self.assign(statement.name, self.value(statement.value))
-            elif isinstance(statement, Store):
+            elif isinstance(statement, lang.Store):
                 value = self.value(statement.value)
                 place = self.place(statement.array, statement.index)
-                self.lines.append(f"  store {_TYPE[statement.value.type]} {value}, ptr {place}")
-            elif isinstance(statement, Evaluate):
+                self.lines.append(f"  store {TYPE[statement.value.type]} {value}, ptr {place}")
+            elif isinstance(statement, lang.Evaluate):
                 self.value(statement.call)
-            elif isinstance(statement, If):
+            elif isinstance(statement, lang.If):
                 if not self.choose(statement):
                     return False
-            elif isinstance(statement, While):
+            elif isinstance(statement, lang.While):
                 self.repeat(statement)
-            elif isinstance(statement, For):
+            elif isinstance(statement, lang.For):
                 self.count_through(statement)
-            elif isinstance(statement, Leave):
+            elif isinstance(statement, lang.Leave):
                 self.jump(self.leaving[-1][statement.how == "break"])
                 return False
-            elif isinstance(statement, Return):
-                kind = _TYPE[statement.value.type]
+            elif isinstance(statement, lang.Return):
+                kind = TYPE[statement.value.type]
                 self.lines.append(f"  store {kind} {self.value(statement.value)}, ptr %.result")
                 self.lines.append("  ret i32 0")
                 return False
@@ -262,9 +185,9 @@ class _Printer:
         if name in self.function.fixed:
             self.values[name] = value
         else:
-            self.lines.append(f"  store {_TYPE[self.function.variables[name]]} {value}, ptr {_slot(name)}")
+            self.lines.append(f"  store {TYPE[self.function.variables[name]]} {value}, ptr {slot(name)}")
 
-    def choose(self, statement: If) -> bool:
+    def choose(self, statement: lang.If) -> bool:
         """Print a choice between statements."""
         yes, no, end = self.labels("then", "else", "end")
         self.branch(self.value(statement.test), yes, no if statement.otherwise else end)
@@ -279,7 +202,7 @@ class _Printer:
             self.begin(end)
         return reached
 
-    def repeat(self, statement: While) -> None:
+    def repeat(self, statement: lang.While) -> None:
         """Print a loop with a test."""
         test, body, end = self.labels("test", "body", "end")
         self.jump(test)
@@ -292,7 +215,7 @@ class _Printer:
         self.leaving.pop()
         self.begin(end)
 
-    def count_through(self, statement: For) -> None:
+    def count_through(self, statement: lang.For) -> None:
         """Print a loop over a range, whose counter is its own: the body may assign the variable."""
         test, body, step, end = self.labels("test", "body", "step", "end")
         counter = f"%.counter{self.count}"
@@ -314,164 +237,3 @@ class _Printer:
         self.lines.append(f"  store i64 {self.put(f'add nsw i64 {now}, {statement.step}')}, ptr {counter}")
         self.jump(test)
         self.begin(end)
-
-    # -- values
-
-    def value(self, e: Expression) -> str:
-        """Print what an expression needs and return its value."""
-        if isinstance(e, Constant):
-            return _float(e.value) if e.type == "float" else str(int(e.value))
-        if isinstance(e, Variable):
-            known = self.values.get(e.name)
-            return known if known is not None else self.put(f"load {_TYPE[e.type]}, ptr {_slot(e.name)}")
-        if isinstance(e, Element):
-            return self.put(f"load {_TYPE[e.type]}, ptr {self.place(e.array, e.index)}")
-        if isinstance(e, Operation):
-            return self.operation(e.type, e.name, e.arguments)
-        if isinstance(e, Call):
-            return self.call(e)
-        if isinstance(e, Logic):
-            return self.decide(e)
-        return self.select(e)
-
-    def place(self, array: str, index: Expression) -> str:
-        """Return the address of an element."""
-        table = self.function.tables.get(array)
-        base = f"%{array}.{_DATA}" if table is None else f'@"{self.symbol(self.function)}.{array}"'
-        return self.put(f"getelementptr double, ptr {base}, i64 {self.value(index)}")
-
-    def operation(self, kind: Scalar, name: str, arguments: tuple[Expression, ...]) -> str:
-        """Print an operation."""
-        first = arguments[0].type
-        if name in sines.NAMES and sines.is_simple(arguments[0]) and (name, arguments[0]) in self.found:
-            return self.found[name, arguments[0]]
-        if name == "pow" and arguments[1].type == "int":
-            exponent = arguments[1]
-            assert isinstance(exponent, Constant), "a power with a literal exponent"
-            return self.product(self.value(arguments[0]), int(exponent.value))
-        values = [self.value(a) for a in arguments]
-        if name in _COMPARED["float"]:
-            flag = " contract" if first == "float" else ""
-            compare = "fcmp" if first == "float" else "icmp"
-            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {_TYPE[first]} {', '.join(values)}")
-        if name in ("min", "max"):
-            return self.least(kind, name, values)
-        if kind == "float" and name in _FLOATS:
-            return self.put(f"{_FLOATS[name]} contract double {values[0]}, {values[1]}")
-        if name in _INTS:
-            return self.put(f"{_INTS[name]} {_TYPE[kind]} {values[0]}, {values[1]}")
-        if name in ("float", "int", "bool"):
-            return self.converted(first, name, values[0])
-        if name == "not":
-            return self.put(f"xor i1 {values[0]}, true")
-        if name == "neg":
-            return self.put(f"fsub contract double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}")
-        if name in ("floordiv", "mod"):
-            return self.divided(name, *values)
-        if name == "abs" and kind == "int":
-            below = self.put(f"icmp slt i64 {values[0]}, 0")
-            return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 0, {values[0]}')}, i64 {values[0]}")
-        return self.function_of_math({"abs": "fabs"}.get(name, name).removeprefix("math."), values)
-
-    def least(self, kind: Scalar, name: str, values: list[str]) -> str:
-        """Print the least or greatest of two values: as in Python, the first where they do not compare."""
-        sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
-        compare = "fcmp contract" if kind == "float" else "icmp"
-        test = self.put(f"{compare} {sign} {_TYPE[kind]} {values[1]}, {values[0]}")
-        return self.put(f"select i1 {test}, {_TYPE[kind]} {values[1]}, {_TYPE[kind]} {values[0]}")
-
-    def product(self, base: str, exponent: int) -> str:
-        """Print a power as products, by squaring."""
-        result = _float(1.0)
-        while exponent:
-            if exponent & 1:
-                result = self.put(f"fmul contract double {result}, {base}")
-            exponent >>= 1
-            base = self.put(f"fmul contract double {base}, {base}")
-        return result
-
-    def divided(self, name: str, value: str, divisor: str) -> str:
-        """Print quotient or rest of a division by a positive constant, rounded downwards."""
-        rest = self.put(f"srem i64 {value}, {divisor}")
-        below = self.put(f"icmp slt i64 {rest}, 0")
-        if name == "mod":
-            return self.put(f"select i1 {below}, i64 {self.put(f'add i64 {rest}, {divisor}')}, i64 {rest}")
-        quotient = self.put(f"sdiv i64 {value}, {divisor}")
-        return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 {quotient}, 1')}, i64 {quotient}")
-
-    def converted(self, before: Scalar, after: str, value: str) -> str:
-        """Print a conversion."""
-        if after == "bool":
-            test = f"fcmp contract une double {value}, 0.0" if before == "float" else f"icmp ne i64 {value}, 0"
-            return self.put(test)
-        if before == "bool":
-            wide = self.put(f"zext i1 {value} to i32")
-            return self.put(f"sitofp i32 {wide} to double" if after == "float" else f"sext i32 {wide} to i64")
-        return self.put(f"sitofp i64 {value} to double" if after == "float" else f"fptosi double {value} to i64")
-
-    def function_of_math(self, name: str, values: list[str]) -> str:
-        """Print a call of a mathematical function."""
-        called = f"@llvm.{_INTRINSICS[name]}.f64" if name in _INTRINSICS else f"@{name}"
-        value = self.put(f"call contract double {called}({', '.join(f'double {v}' for v in values)})")
-        return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil") else value
-
-    def take_sines(self, angles: tuple[Expression, ...]) -> None:
-        """Print sines and cosines of several angles; the first fills the vector up."""
-        values = [self.value(angle) for angle in angles]
-        n = sines.width(len(values))
-        vector = "undef"
-        for i in range(n):
-            value = values[i] if i < len(values) else values[0]
-            vector = self.put(f"insertelement <{n} x double> {vector}, double {value}, i32 {i}")
-        pair = self.put(f"call {sines.kind(n)} {sines.name(n)}(<{n} x double> {vector}) nounwind memory(none)")
-        for k, name in enumerate(sines.NAMES):
-            found = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
-            for i, angle in enumerate(angles):
-                self.found[name, angle] = self.put(f"extractelement <{n} x double> {found}, i32 {i}")
-
-    def call(self, e: Call) -> str:
-        """Print a call of another function."""
-        f = e.function
-        kind = _TYPE[f.returned]
-        self.count += 1
-        result = f"%.result{self.count}"
-        self.slots.append(f"  {result} = alloca {kind}")
-        parts = [f"ptr {result}", "ptr null"]
-        for p, argument in zip(f.parameters, e.arguments, strict=True):
-            parts += _handed(p, f"%{argument}.{_DATA}" if isinstance(argument, str) else self.value(argument))
-        self.put(f'call i32 @"{self.symbol(f)}"({", ".join(parts)}) nounwind')
-        return self.put(f"load {kind}, ptr {result}")
-
-    def decide(self, e: Logic) -> str:
-        """Print `and` or `or`."""
-        more, end = self.labels("more", "end")
-        first = self.value(e.first)
-        before = self.label
-        self.branch(first, *((more, end) if e.name == "and" else (end, more)))
-        self.begin(more)
-        second = self.value(e.second)
-        after = self.label
-        self.jump(end)
-        self.begin(end)
-        return self.put(f"phi i1 [{'false' if e.name == 'and' else 'true'}, %{before}], [{second}, %{after}]")
-
-    def select(self, e: Choice) -> str:
-        """Print a choice between values."""
-        yes, no, end = self.labels("then", "else", "end")
-        self.branch(self.value(e.test), yes, no)
-        parts = []
-        for label, part in ((yes, e.chosen), (no, e.otherwise)):
-            self.begin(label)
-            value = self.value(part)
-            parts.append(f"[{value}, %{self.label}]")
-            self.jump(end)
-        self.begin(end)
-        return self.put(f"phi {_TYPE[e.type]} {', '.join(parts)}")
-
-
-def _slot(name: str) -> str:
-    return f'%"{name}."'
-
-
-def _float(value: float | int | bool) -> str:
-    return f"0x{struct.pack('>d', float(value)).hex()}"

@@ -12,18 +12,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Iterator
 
-from symgen.native.language import (
-    Assign,
-    Call,
-    Constant,
-    Evaluate,
-    Expression,
-    Function,
-    Operation,
-    Statement,
-    Store,
-    Variable,
-)
+from symgen.native import language as lang
 
 #: Fewer angles take as long one by one: their calls overlap with each other, and with what stands around them.
 FEWEST = 4
@@ -47,7 +36,7 @@ COSINE = (
 )
 
 
-def groups(function: Function) -> dict[int, list[tuple[Expression, ...]]]:
+def groups(function: lang.Function) -> dict[int, list[tuple[lang.Expression, ...]]]:
     """Return which angles are taken together.
 
     Parameters
@@ -62,14 +51,14 @@ def groups(function: Function) -> dict[int, list[tuple[Expression, ...]]]:
     """
     straight = _straight(function)
     known: dict[str, int] = {p.name: 0 for p in function.parameters if not p.array and p.name not in function.variables}
-    wanted: dict[Expression, int] = {}  # by the statement that wants it first
+    wanted: dict[lang.Expression, int] = {}  # by the statement that wants it first
     for i, statement in enumerate(straight):
         for angle in filter(is_simple, _angles(_value(statement))):
             wanted.setdefault(angle, i)
-        if isinstance(statement, Assign) and statement.name in function.fixed:
+        if isinstance(statement, lang.Assign) and statement.name in function.fixed:
             known[statement.name] = i + 1
     ready = {angle: at for angle in wanted if (at := _ready(angle, known)) is not None}
-    found: dict[int, list[tuple[Expression, ...]]] = {}
+    found: dict[int, list[tuple[lang.Expression, ...]]] = {}
     waiting = sorted(ready, key=wanted.__getitem__)
     while waiting:
         here = wanted[waiting[0]]
@@ -81,47 +70,47 @@ def groups(function: Function) -> dict[int, list[tuple[Expression, ...]]]:
     return found
 
 
-def _straight(function: Function) -> list[Statement]:
+def _straight(function: lang.Function) -> list[lang.Statement]:
     """Return the statements before the first that is not straight."""
-    found: list[Statement] = []
+    found: list[lang.Statement] = []
     for statement in function.body:
-        if not isinstance(statement, Assign | Store | Evaluate):
+        if not isinstance(statement, lang.Assign | lang.Store | lang.Evaluate):
             break
         found.append(statement)
     return found
 
 
-def _value(statement: Statement) -> Expression:
+def _value(statement: lang.Statement) -> lang.Expression:
     """Return what a straight statement evaluates."""
-    if isinstance(statement, Assign | Store):
+    if isinstance(statement, lang.Assign | lang.Store):
         return statement.value
-    assert isinstance(statement, Evaluate), "a straight statement"
+    assert isinstance(statement, lang.Evaluate), "a straight statement"
     return statement.call
 
 
-def _angles(e: Expression | str) -> Iterator[Expression]:
+def _angles(e: lang.Expression | str) -> Iterator[lang.Expression]:
     """Give the arguments of sines and cosines in what is always evaluated, innermost first."""
-    if isinstance(e, Operation | Call):
+    if isinstance(e, lang.Operation | lang.Call):
         for argument in e.arguments:
             yield from _angles(argument)
-        if isinstance(e, Operation) and e.name in NAMES:
+        if isinstance(e, lang.Operation) and e.name in NAMES:
             yield e.arguments[0]
 
 
-def is_simple(e: Expression) -> bool:
+def is_simple(e: lang.Expression) -> bool:
     """Whether a value is a sum or product of variables and numbers: other angles are taken one by one."""
-    if isinstance(e, Operation):
+    if isinstance(e, lang.Operation):
         return e.name in ("add", "sub", "mul", "neg") and all(map(is_simple, e.arguments))
-    return isinstance(e, Constant | Variable)
+    return isinstance(e, lang.Constant | lang.Variable)
 
 
-def _ready(e: Expression, known: dict[str, int]) -> int | None:
+def _ready(e: lang.Expression, known: dict[str, int]) -> int | None:
     """Return the index of the statement before which a simple value is known, None if a variable of it changes."""
-    if isinstance(e, Constant):
+    if isinstance(e, lang.Constant):
         return 0
-    if isinstance(e, Variable):
+    if isinstance(e, lang.Variable):
         return known.get(e.name)
-    assert isinstance(e, Operation), "a simple value"
+    assert isinstance(e, lang.Operation), "a simple value"
     parts = [_ready(argument, known) for argument in e.arguments]
     return None if None in parts else max(part for part in parts if part is not None)
 

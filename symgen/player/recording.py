@@ -45,7 +45,15 @@ class Group:
 
 @dataclass(frozen=True)
 class Moment:
-    """Something that happened: from when to when [s], of which kind, and in words."""
+    """Something that happened.
+
+    Attributes
+    ----------
+    begin, end : float
+        From when to when [s].
+    kind, text : str
+        Of which kind, and in words.
+    """
 
     begin: float
     end: float

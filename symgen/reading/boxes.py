@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
@@ -142,13 +142,56 @@ def dot(base: Box) -> Box:
     return Box("dot", (base,), width=base.width)
 
 
-# -- LaTeX ----------------------------------------------------------------------------------------------------
+# -- notations -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Notation:
+    """How boxes are written.
+
+    Parameters
+    ----------
+    forms : mapping
+        Kinds of boxes with a fixed form, which has a place for each part.
+    part : callable
+        Writes a part that stands in such a form.
+    others : mapping
+        Kinds of boxes that are written by a function.
+    """
+
+    forms: Mapping[str, str]
+    part: Callable[[Box], str]
+    others: Mapping[str, Callable[[Box], str]]
+
+    def write(self, box: Box) -> str:
+        form = self.forms.get(box.kind)
+        return self.others[box.kind](box) if form is None else form % tuple(map(self.part, box.parts))
+
+
+def _bare(box: Box) -> bool:
+    """Whether the argument of a function needs no bracket."""
+    return box.text in ("sin", "cos", "tan") and box.parts[0].kind == "name"
+
+
+def _pairs(box: Box) -> list[tuple[Box, Box | None]]:
+    """Return the values of cases with their conditions; None: otherwise."""
+    pairs = zip(box.parts[::2], box.parts[1::2], strict=True)
+    return [(value, None if when.text == "otherwise" else when) for value, when in pairs]
+
+
+# -- LaTeX -----------------------------------------------------------------------------------------------------
 
 _TEX_SIGNS = {
     **{"<=": r"\le", ">=": r"\ge", "!=": r"\ne", "and": r"\wedge", "or": r"\vee", "not": r"\neg", "*": r"\cdot"},
     ",": r",\;",
 }
 _TEX_FUNCTIONS = frozenset("sin cos tan sinh cosh tanh exp log min max".split())
+_TEX_AROUND = {"sqrt": r"\sqrt{%s}", "abs": r"\left| %s \right|"}
+
+
+def latex(box: Box) -> str:
+    """Return a box as LaTeX."""
+    return _LATEX.write(box)
 
 
 def escaped(text: str) -> str:
@@ -156,41 +199,29 @@ def escaped(text: str) -> str:
     return "".join(_SPECIAL.get(c, c if c.isprintable() and ord(c) < 128 else f"[U+{ord(c):04X}]") for c in text)
 
 
-def latex(box: Box) -> str:
-    """Return a box as LaTeX."""
-    parts = box.parts
-    if box.kind == "name":
-        base = GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright(box.text)
-        return base + (rf"_{{{_index(box.index)}}}" if box.index else "")
-    if box.kind == "number":
-        mantissa, exponent, ten = box.text.partition("e")
-        return rf"{mantissa} \cdot 10^{{{int(ten)}}}" if exponent else mantissa
-    if box.kind == "sign":
-        return _TEX_SIGNS.get(box.text, box.text)
-    if box.kind == "row":
-        return r" ".join(latex(p) for p in parts)
-    if box.kind == "bracket":
-        return rf"\left( {latex(parts[0])} \right)"
-    if box.kind == "over":
-        return rf"\frac{{{latex(parts[0])}}}{{{latex(parts[1])}}}"
-    if box.kind == "power":
-        return rf"{{{latex(parts[0])}}}^{{{latex(parts[1])}}}"
-    if box.kind == "dot":
-        return rf"\dot {{{latex(parts[0])}}}"
-    if box.kind == "call":
-        inside = ", ".join(latex(p) for p in parts)
-        if box.text == "sqrt":
-            return rf"\sqrt{{{inside}}}"
-        if box.text == "abs":
-            return rf"\left| {inside} \right|"
-        head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
-        simple = box.text in ("sin", "cos", "tan") and parts[0].kind == "name"
-        return rf"{head} {inside}" if simple else rf"{head}\left( {inside} \right)"
-    assert box.kind == "cases", "the last kind of box"
-    lines = [
-        f"{latex(value)} & " + (r"\text{otherwise}" if when.text == "otherwise" else rf"\text{{if }} {latex(when)}")
-        for value, when in zip(parts[::2], parts[1::2], strict=True)
-    ]
+def _tex_name(box: Box) -> str:
+    base = GREEK[box.text][0] if box.text in GREEK else box.text if len(box.text) == 1 else _upright(box.text)
+    return base + (rf"_{{{_index(box.index)}}}" if box.index else "")
+
+
+def _tex_number(box: Box) -> str:
+    mantissa, exponent, ten = box.text.partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(ten)}}}" if exponent else mantissa
+
+
+def _tex_call(box: Box) -> str:
+    inside = ", ".join(map(latex, box.parts))
+    if box.text in _TEX_AROUND:
+        return _TEX_AROUND[box.text] % inside
+    head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
+    return rf"{head} {inside}" if _bare(box) else rf"{head}\left( {inside} \right)"
+
+
+def _tex_cases(box: Box) -> str:
+    lines = []
+    for value, when in _pairs(box):
+        condition = r"\text{otherwise}" if when is None else rf"\text{{if }} {latex(when)}"
+        lines.append(f"{latex(value)} & {condition}")
     return r"\begin{cases} " + r" \\ ".join(lines) + r" \end{cases}"
 
 
@@ -203,92 +234,121 @@ def _index(text: str) -> str:
     return f"{first},{_upright(body)}" if comma else first if first.isdigit() else _upright(first)
 
 
+_LATEX = _Notation(
+    forms={"over": r"\frac{%s}{%s}", "power": "{%s}^{%s}", "bracket": r"\left( %s \right)", "dot": r"\dot {%s}"},
+    part=latex,
+    others={
+        "name": _tex_name,
+        "number": _tex_number,
+        "sign": lambda box: _TEX_SIGNS.get(box.text, box.text),
+        "row": lambda box: " ".join(map(latex, box.parts)),
+        "call": _tex_call,
+        "cases": _tex_cases,
+    },
+)
+
 # -- MathML ----------------------------------------------------------------------------------------------------
 
 _SIGNS = {"-": "−", "<=": "≤", ">=": "≥", "!=": "≠", "and": "∧", "or": "∨", "not": "¬", "*": "·"}
+_AROUND = {"sqrt": "<msqrt>%s</msqrt>", "abs": "<mrow><mo>|</mo>%s<mo>|</mo></mrow>"}
+_BRACKET = "<mrow><mo>(</mo>%s<mo>)</mo></mrow>"
 
 
 def mathml(box: Box) -> str:
     """Return a box as MathML, for presentation, without the element ``math`` around it."""
-    parts = box.parts
-    if box.kind == "name":
-        letter = GREEK[box.text][1] if box.text in GREEK else box.text
-        base = f"<mi>{escape(letter)}</mi>"
-        return f"<msub>{base}<mtext>{escape(box.index)}</mtext></msub>" if box.index else base
-    if box.kind == "number":
-        mantissa, exponent, ten = box.text.partition("e")
-        if exponent:
-            return f"<mn>{mantissa}</mn><mo>·</mo><msup><mn>10</mn><mn>{int(ten)}</mn></msup>"
-        return f"<mn>{mantissa}</mn>"
-    if box.kind == "sign":
-        return f"<mo>{escape(_SIGNS.get(box.text, box.text))}</mo>"
-    if box.kind == "row":
-        return "".join(_spaced(parts))
-    if box.kind == "bracket":
-        return f"<mrow><mo>(</mo>{mathml(parts[0])}<mo>)</mo></mrow>"
-    if box.kind == "over":
-        return f"<mfrac>{_one(parts[0])}{_one(parts[1])}</mfrac>"
-    if box.kind == "power":
-        return f"<msup>{_one(parts[0])}{_one(parts[1])}</msup>"
-    if box.kind == "dot":
-        return f'<mover accent="true">{_one(parts[0])}<mo>˙</mo></mover>'
-    if box.kind == "call":
-        inside = "<mo>,</mo>".join(mathml(p) for p in parts)
-        if box.text == "sqrt":
-            return f"<msqrt>{inside}</msqrt>"
-        if box.text == "abs":
-            return f"<mrow><mo>|</mo>{inside}<mo>|</mo></mrow>"
-        head = f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>"
-        simple = box.text in ("sin", "cos", "tan") and parts[0].kind == "name"
-        return head + (inside if simple else f"<mrow><mo>(</mo>{inside}<mo>)</mo></mrow>")
-    assert box.kind == "cases", "the last kind of box"
-    lines = [
-        f"<mtr><mtd>{mathml(value)}</mtd><mtd>{'' if when.text == 'otherwise' else '<mtext>if </mtext>'}"
-        f"{mathml(when)}</mtd></mtr>"
-        for value, when in zip(parts[::2], parts[1::2], strict=True)
-    ]
-    return f"<mrow><mo>{{</mo><mtable>{''.join(lines)}</mtable></mrow>"
+    return _MATHML.write(box)
 
 
-def _spaced(parts: Sequence[Box]) -> list[str]:
-    """Return parts with thin space between factors, which browsers do not add."""
+def _mathml_name(box: Box) -> str:
+    base = f"<mi>{escape(GREEK[box.text][1] if box.text in GREEK else box.text)}</mi>"
+    return f"<msub>{base}<mtext>{escape(box.index)}</mtext></msub>" if box.index else base
+
+
+def _mathml_row(box: Box) -> str:
+    """Write parts with thin space between factors, which browsers do not add."""
     found: list[str] = []
-    for before, part in zip((None, *parts), parts, strict=False):
+    for before, part in zip((None, *box.parts), box.parts, strict=False):
         if before is not None and "sign" not in (before.kind, part.kind):
             found.append('<mspace width="0.17em"/>')
         found.append(mathml(part))
-    return found
+    return "".join(found)
+
+
+def _mathml_call(box: Box) -> str:
+    inside = "<mo>,</mo>".join(map(mathml, box.parts))
+    if box.text in _AROUND:
+        return _AROUND[box.text] % inside
+    return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if _bare(box) else _BRACKET % inside)
+
+
+def _mathml_number(box: Box) -> str:
+    mantissa, exponent, ten = box.text.partition("e")
+    text = f"<mn>{mantissa}</mn>"
+    return f"{text}<mo>·</mo><msup><mn>10</mn><mn>{int(ten)}</mn></msup>" if exponent else text
+
+
+def _mathml_cases(box: Box) -> str:
+    lines = []
+    for value, when in _pairs(box):
+        condition = "<mi>otherwise</mi>" if when is None else f"<mtext>if </mtext>{mathml(when)}"
+        lines.append(f"<mtr><mtd>{mathml(value)}</mtd><mtd>{condition}</mtd></mtr>")
+    return f"<mrow><mo>{{</mo><mtable>{''.join(lines)}</mtable></mrow>"
 
 
 def _one(box: Box) -> str:
+    """Write what has to be one element."""
     text = mathml(box)
     return f"<mrow>{text}</mrow>" if box.kind in ("row", "call") or (box.kind == "number" and "e" in box.text) else text
 
 
-def _whole(box: Box) -> Box:
-    return bracket(box) if box.kind in ("row", "over", "power") else box
+_MATHML = _Notation(
+    forms={
+        "over": "<mfrac>%s%s</mfrac>",
+        "power": "<msup>%s%s</msup>",
+        "dot": '<mover accent="true">%s<mo>˙</mo></mover>',
+    },
+    part=_one,
+    others={
+        "name": _mathml_name,
+        "number": _mathml_number,
+        "sign": lambda box: f"<mo>{escape(_SIGNS.get(box.text, box.text))}</mo>",
+        "row": _mathml_row,
+        "bracket": lambda box: _BRACKET % mathml(*box.parts),
+        "call": _mathml_call,
+        "cases": _mathml_cases,
+    },
+)
 
-
-# -- plain text ----------------------------------------------------------------------------------------------------
+# -- plain text ------------------------------------------------------------------------------------------------
 
 
 def plain(box: Box) -> str:
     """Return a box as plain text."""
-    parts = box.parts
-    if box.kind in ("name", "number", "sign"):
-        return f"{box.text}_{box.index}" if box.index else box.text
-    if box.kind == "row":
-        return " ".join(plain(p) for p in parts)
-    if box.kind == "bracket":
-        return f"({plain(parts[0])})"
-    if box.kind == "over":
-        return f"{plain(_whole(parts[0]))}/{plain(_whole(parts[1]))}"
-    if box.kind == "power":
-        return f"{plain(_whole(parts[0]))}^{plain(_whole(parts[1]))}"
-    if box.kind == "dot":
-        return f"{plain(parts[0])}'"
-    if box.kind == "call":
-        return f"{box.text}({', '.join(plain(p) for p in parts)})"
-    assert box.kind == "cases", "the last kind of box"
-    pairs = zip(parts[::2], parts[1::2], strict=True)
-    return "; ".join(f"{plain(value)} if {plain(when)}" for value, when in pairs)
+    return _PLAIN.write(box)
+
+
+def _plain_atom(box: Box) -> str:
+    return f"{box.text}_{box.index}" if box.index else box.text
+
+
+def _plain_cases(box: Box) -> str:
+    return "; ".join(f"{plain(value)} if {'otherwise' if when is None else plain(when)}" for value, when in _pairs(box))
+
+
+def _whole(box: Box) -> str:
+    """Write what stands beside a sign of division or of a power."""
+    return plain(bracket(box) if box.kind in ("row", "over", "power") else box)
+
+
+_PLAIN = _Notation(
+    forms={"over": "%s/%s", "power": "%s^%s"},
+    part=_whole,
+    others={
+        **dict.fromkeys(("name", "number", "sign"), _plain_atom),
+        "row": lambda box: " ".join(map(plain, box.parts)),
+        "bracket": lambda box: f"({plain(*box.parts)})",
+        "dot": lambda box: f"{plain(*box.parts)}'",
+        "call": lambda box: f"{box.text}({', '.join(map(plain, box.parts))})",
+        "cases": _plain_cases,
+    },
+)

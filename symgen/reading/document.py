@@ -43,10 +43,8 @@ def document(
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The description, with its tree where coordinates are those of joints.
-    equations : Equations
-        What was derived.
+    mechanism, equations : Mechanism, Equations
+        As for `symgen.reading.sheet.Sheet`.
     law : Law
         The method's law.
     values : mapping

@@ -15,7 +15,8 @@ from symgen.vocabulary.expressions import call
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.formulate.equations import ConstraintRow, Equations, Quantity
+    from symgen.formulate.equations import ConstraintRow, Equations
+    from symgen.vocabulary.quantities import Quantity
 
 #: Width of a line, in units of the type's size.
 LINE = 43.0
@@ -206,17 +207,9 @@ class Sheet:
     def nodes(self, what: Iterable[str]) -> list[int]:
         """Return the nodes that some quantities are made of, by `QUANTITIES`' names."""
         e = self.equations
-        known = {
-            "Phi": [r.phi for r in self.rows if r.phi is not None],
-            "D": [n for r in self.rows for _, n in r.entries],
-            "nu": [r.nu for r in self.rows],
-            "gamma": [r.gamma for r in self.rows],
-            "N": list(e.q_rates),
-            "M": [n for block in e.mass for line in block.entries for n in line],
-            "f": list(e.forces),
-            "energies": self._energies,
-        }
-        return [n for part in what for n in known.get(part, ())]
+        known = e.nodes(self.rows) | {"N": list(e.q_rates), "energies": self._energies}
+        called = {"Phi": "phi", "D": "jacobian", "M": "mass", "f": "forces"}
+        return [n for part in what for n in known.get(called.get(part, part), ())]
 
     def quantities(self) -> list[tuple[str, tuple[Quantity, ...]]]:
         """Return coordinates, velocities, parameters and inputs under their headings."""

@@ -18,7 +18,7 @@ def methods(study: Study) -> list[str]:
 def line_number(method: str) -> int:
     """Return a number of a method for its line style: the same in every report."""
     from symgen.methods import METHODS
-    from symgen.study.comparison.compare import DEFAULT_METHODS
+    from symgen.study.comparison.combinations import DEFAULT_METHODS
 
     others = [name for name in METHODS.names if name not in DEFAULT_METHODS]
     known = [*DEFAULT_METHODS, *others]

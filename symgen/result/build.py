@@ -141,10 +141,12 @@ def _last_state(
 ) -> LastState:
     """Return where a run ended, with all that it kept; of one that failed, the last state that it accepted."""
     info, start = compiled.info, outcome.start
-    if isinstance(outcome, CarriedOutcome):
-        return _last_of_bodies(mechanism, plan, compiled, outcome, parameters)
-    arrays = _arrays(outcome)
-    y, w = arrays["y"], arrays["w"]
+    if isinstance(outcome, CarriedOutcome):  # in joint coordinates: where bodies are, and all that was kept of joints
+        y, work, w = outcome.end_state, outcome.work, outcome.w
+        made, arrays = outcome.tree.made(plan, parameters), _arrays(outcome.inner) | outcome.tree.kept(outcome)
+    else:
+        made, arrays = made_of(compiled, plan, parameters), _arrays(outcome)
+        y, work, w = arrays["y"], arrays["y"][info.work], arrays["w"]
     whole = outcome.code in (abi.DONE, abi.STOPPED)
     return LastState(
         mechanism=mechanism.name,
@@ -152,11 +154,11 @@ def _last_state(
         t=outcome.end,
         q={q.name: float(x) for q, x in zip(info.coordinates, y, strict=False)},
         v={v.name: float(x) for v, x in zip(info.velocities, y[info.nq :], strict=False)},
-        work=float(y[info.work] + start.work),
+        work=float(work + start.work),
         work_before=start.work,
         windings=tuple(w[abi.WINDING : abi.WINDING + info.windings].tolist()),
         rank=start.rank,
-        made=made_of(compiled, plan, parameters),
+        made=made,
         failed="" if whole else outcome.reason,
         arrays=arrays,
     )
@@ -170,31 +172,6 @@ def _arrays(outcome: Outcome) -> dict[str, NDArray[Any]]:
     if len(outcome.times) and outcome.times[-1] == outcome.end:
         shown = outcome.states[-1].copy(), outcome.status_columns[-1].copy()
     return arrays | dict(zip(SHOWN, shown, strict=True))
-
-
-def _last_of_bodies(
-    mechanism: Mechanism,
-    plan: Plan,
-    compiled: CompiledModel,
-    outcome: CarriedOutcome,
-    parameters: Mapping[str, float],
-) -> LastState:
-    """Return where a run in joint coordinates ended: the coordinates of bodies, and all that it kept of joints."""
-    info, start, last = compiled.info, outcome.start, outcome.end_state
-    return LastState(
-        mechanism=mechanism.name,
-        digest=digest(mechanism),
-        t=outcome.end,
-        q={q.name: float(x) for q, x in zip(info.coordinates, last, strict=False)},
-        v={v.name: float(x) for v, x in zip(info.velocities, last[info.nq :], strict=False)},
-        work=float(outcome.work + start.work),
-        work_before=start.work,
-        windings=tuple(float(x) for x in outcome.w[abi.WINDING : abi.WINDING + info.windings]),
-        rank=start.rank,
-        made=outcome.tree.made(plan, parameters),
-        arrays=_arrays(outcome.inner) | outcome.tree.kept(outcome),
-        failed="" if outcome.code in (abi.DONE, abi.STOPPED) else outcome.reason,
-    )
 
 
 def _redundancy(compiled: CompiledModel, outcome: Outcome, forces: Forces) -> list[str]:

@@ -16,6 +16,7 @@ from symgen.arguments import of_kind, one_of, shown, switch, words
 from symgen.arguments import path as argument_path
 from symgen.describe.mechanism import ACCELERATIONS
 from symgen.errors import InputError, nearest, quoted
+from symgen.result.derived import Derived
 from symgen.result.labelled import Array, Labelled
 
 if TYPE_CHECKING:
@@ -61,7 +62,7 @@ def accelerations_of(velocities: Iterable[str]) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, repr=False)
-class Result:
+class Result(Derived):
     """What a run gave; arrays have one row an output.
 
     Attributes
@@ -179,14 +180,6 @@ class Result:
         return Labelled(self.outcome.accelerations, accelerations_of(self.v.names), units)
 
     @cached_property
-    def joint_coordinates(self) -> Labelled:
-        """What joints report, each followed by its rate: ``JOINT.angle``, ``JOINT.angle.rate``."""
-        quantities = self.outcome.compiled.info.joint_coordinates
-        names = tuple(name for q in quantities for name in (q.name, f"{q.name}.rate"))
-        units = tuple(unit for q in quantities for unit in (q.unit, f"{q.unit}/s"))
-        return Labelled(self.outcome.joint_coordinates, names, units)
-
-    @cached_property
     def violations(self) -> Labelled:
         """Norms of Phi, ``D v - nu`` and ``D v' - gamma``: ``position``, ``velocity``, ``acceleration``."""
         status = self.outcome.status_columns
@@ -194,29 +187,9 @@ class Result:
         return Labelled(values, VIOLATIONS, ("m", "m/s", "m/s^2"))
 
     @cached_property
-    def lam(self) -> Labelled:
-        """Multipliers; where constraints are redundant, those of minimum norm."""
-        return self.forces.multipliers()
-
-    @cached_property
-    def reactions(self) -> Labelled:
-        """Reaction of each joint on its first body: ``JOINT.Fx``, ``JOINT.Fy`` [N], ``JOINT.M`` [N m].
-
-        In space ``JOINT.Fx`` ... ``.Fz`` and ``JOINT.Mx`` ... ``.Mz``, all in ground axes. ``-D^T lambda`` of the
-        joint's rows; moments are about the joint's own point on that body, and where a kind of joint has none about
-        the body's centre of mass, on the ground about the origin.
-        """
-        return self.forces.reactions(self.lam)
-
-    @cached_property
     def body_reactions(self) -> Labelled:
         """The reactions in the axes of the bodies that they act on, under the same names."""
         return self.forces.in_body_axes(self.reactions)
-
-    @cached_property
-    def magnitudes(self) -> Labelled:
-        """Magnitudes of the reactions: ``JOINT.F`` [N] and, in space, ``JOINT.T`` [N m] of their moments."""
-        return self.forces.magnitudes(self.reactions)
 
     def reaction(self, joint: str) -> Array:
         """Return the reaction of one joint, shape (k, 3), in space (k, 6): force [N] and moment [N m]."""
@@ -224,26 +197,6 @@ class Result:
         if joint not in known:
             raise InputError("joint", "the name of a joint", shown(joint), nearest(str(joint), known))
         return self.reactions[joint]
-
-    @cached_property
-    def points(self) -> Labelled:
-        """Named points of bodies in the ground frame: ``arm.tip.x``, ``.vx``, ``.ax``, ..."""
-        return self.measured.table("points")
-
-    @cached_property
-    def elements(self) -> Labelled:
-        """Force elements and drivers: ``spring.length``, ``.rate``, ``.force``, ``.power``; ``motor.effort``, ..."""
-        return self.measured.table("elements")
-
-    @cached_property
-    def outputs(self) -> Labelled:
-        """The formulas of the file's ``[outputs]``."""
-        return self.measured.table("outputs")
-
-    @cached_property
-    def non_unique_reactions(self) -> tuple[str, ...]:
-        """Joints whose reactions the equations of motion do not determine, because constraints are redundant."""
-        return self.forces.non_unique
 
     @cached_property
     def _final_multipliers(self) -> dict[str, float]:
@@ -338,13 +291,7 @@ class Result:
         return to_dataframe(self)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return all tables as a dataset over time, with units and what was run as attributes.
-
-        Raises
-        ------
-        InputError
-            If xarray is not installed; says how to install it.
-        """
+        """Return all tables as a dataset over time, with units and what was run; raises as `to_dataframe` does."""
         from symgen.result.export import to_xarray
 
         return to_xarray(self)

@@ -28,11 +28,9 @@ def select(result: Result, names: Sequence[str]) -> Labelled:
 
     Parameters
     ----------
-    result : Result
-        Of a run.
-    names : sequence of str
-        Of columns of a data frame, such as ``crank.theta``, ``lam.A.x``, ``spring.force`` or ``reach``; of a group,
-        such as ``crank``, ``spring`` or ``energy``; or of a table, such as ``q`` or ``outputs``.
+    result, names : Result, sequence of str
+        Of a run; of columns of a data frame, such as ``crank.theta``, ``lam.A.x``, ``spring.force`` or ``reach``, of a
+        group, such as ``crank``, ``spring`` or ``energy``, or of a table, such as ``q`` or ``outputs``.
 
     Raises
     ------

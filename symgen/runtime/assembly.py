@@ -87,10 +87,8 @@ def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
 
     Parameters
     ----------
-    compiled : CompiledModel
-        Model and method.
-    w : Array
-        Scratch that a start has left.
+    compiled, w : CompiledModel, Array
+        Model and method, and the scratch that a start has left.
     until : float
         End of the run [s].
 

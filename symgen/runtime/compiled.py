@@ -13,15 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.program import SCALES, STATUS
+from symgen.vocabulary.quantities import Counted, Quantity
 
 Array = NDArray[np.float64]
-
-
-class Quantity(msgspec.Struct, frozen=True):
-    """A named scalar with its unit."""
-
-    name: str
-    unit: str
 
 
 class Row(msgspec.Struct, frozen=True):
@@ -33,7 +27,7 @@ class Row(msgspec.Struct, frozen=True):
     holonomic: bool
 
 
-class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
+class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
@@ -67,21 +61,6 @@ class ModelInfo(msgspec.Struct, frozen=True, omit_defaults=True):
         """Return what JSON can express."""
         result: dict[str, Any] = msgspec.to_builtins(self)
         return result
-
-    @property
-    def nq(self) -> int:
-        """Number of coordinates."""
-        return len(self.coordinates)
-
-    @property
-    def nv(self) -> int:
-        """Number of velocities."""
-        return len(self.velocities)
-
-    @property
-    def m(self) -> int:
-        """Number of constraint rows."""
-        return len(self.rows)
 
     @property
     def work(self) -> int:

@@ -6,66 +6,20 @@ from typing import Any, NamedTuple
 
 from numba import types
 
-from symgen.runtime.records import STATE
+from symgen.runtime.records import STATE, Run, State, System, record
 
-
-class HuntingState(NamedTuple):
-    """A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`)."""
-
-    y: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
-    hunt: Any
-
-
-class HuntingRun(NamedTuple):
-    """A `Run` with what is kept of events."""
-
-    y: Any
-    trial: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
-    hunt: Any
+#: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
+HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
+#: A `Run` with what is kept of events.
+HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
+#: A `System` with the functions of events.
+HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", module=__name__)
 
 
 class HuntingScheme(NamedTuple):
     """A scheme's record with the functions of events: switching functions with their rates, and what decides."""
 
     scheme: Any
-    happens: Any
-    decide: Any
-
-
-class HuntingSystem(NamedTuple):
-    """A `System` with the functions of events."""
-
-    sizes: Any
-    rhs: Any
-    confirm: Any
-    accept: Any
-    turn: Any
-    residual: Any
-    tangent: Any
     happens: Any
     decide: Any
 

@@ -17,7 +17,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class IntegratorParameter:
-    """A number that an integrator takes; values outside [minimum, maximum] are refused."""
+    """A number that an integrator takes.
+
+    Parameters
+    ----------
+    name, note : str
+        Note says what it does.
+    default, minimum, maximum : float
+        Values outside [minimum, maximum] are refused.
+    """
 
     name: str
     default: float

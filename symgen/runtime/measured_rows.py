@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from numba import types
 
@@ -14,6 +14,41 @@ from symgen.store.jit import jit
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
 _OF_Y, _OF_RATES = e.OF_Y, e.OF_RATES
+
+
+class Left(NamedTuple):
+    """What runs of an ensemble left, and working memory.
+
+    Attributes
+    ----------
+    times : Array
+        Output times [s].
+    selected : Array of int64
+        Runs.
+    seen : Array, shape (runs, columns, times)
+        What they left; nan where they did not get there.
+    first : int
+        The first column that is brought.
+    places : Array of int64
+        Where each column from there on goes: (array, index), flat.
+    ps, ws : Array, shapes (runs, np), (runs, nw)
+        Parameters and scratch, which is overwritten.
+    y, rates : Array, shape (ny,)
+        Working memory.
+    """
+
+    times: Any
+    selected: Any
+    seen: Any
+    first: int
+    places: Any
+    ps: Any
+    ws: Any
+    y: Any
+    rates: Any
+
+
+LEFT = types.NamedTuple((_A, _K, _C, _I8, _K, _M, _M, _A, _A), Left)
 
 
 @jit()
@@ -33,43 +68,20 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@jit(_I8(abi.OBSERVE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _C))
-def measure_rows(
-    observe: Any,
-    times: Any,
-    selected: Any,
-    seen: Any,
-    first: int,
-    places: Any,
-    ps: Any,
-    ws: Any,
-    y: Any,
-    rates: Any,
-    found: Any,
-) -> int:
+@jit(_I8(abi.OBSERVE, LEFT, _C))
+def measure_rows(observe: Any, left: Any, found: Any) -> int:
     """Evaluate formulas of a run at all outputs of runs, each with its own parameters.
 
     Parameters
     ----------
     observe : emitted function
         See `symgen.runtime.abi`.
-    times : Array
-        Output times [s].
-    selected : Array of int64
-        Runs.
-    seen : Array, shape (runs, columns, times)
-        What they left; nan where they did not get there.
-    first : int
-        The first column that is brought.
-    places : Array of int64
-        Where each column from there on goes: (array, index), flat.
-    ps, ws : Array, shapes (runs, np), (runs, nw)
-        Parameters and scratch, which is overwritten.
-    y, rates : Array, shape (ny,)
-        Working memory.
+    left : Left
+        Of the runs.
     found : Array, shape (runs, times, numbers)
         Written; nan where a run did not get there.
     """
+    times, selected, seen, first, places, ps, ws, y, rates = left
     for s in range(selected.shape[0]):
         r = selected[s]
         for k in range(times.shape[0]):
@@ -81,34 +93,20 @@ def measure_rows(
     return 0
 
 
-@jit(_I8(abi.MEASURE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _I8, _C))
-def gradient_rows(
-    geometry: Any,
-    times: Any,
-    selected: Any,
-    seen: Any,
-    first: int,
-    places: Any,
-    ps: Any,
-    ws: Any,
-    y: Any,
-    rates: Any,
-    at: int,
-    found: Any,
-) -> int:
+@jit(_I8(abi.MEASURE, LEFT, _I8, _C))
+def gradient_rows(geometry: Any, left: Any, at: int, found: Any) -> int:
     """Evaluate the entries of D that vary at all outputs of runs.
 
     Parameters
     ----------
     geometry : emitted function
         See `symgen.runtime.abi`.
-    times, selected, seen, first, places, ps, ws, y, rates
-        As for `measure_rows`.
+    left, found
+        As for `measure_rows`, with as many numbers as entries.
     at : int
         Where the entries begin in ``w``.
-    found : Array, shape (runs, times, entries)
-        Written; nan where a run did not get there.
     """
+    times, selected, seen, first, places, ps, ws, y, rates = left
     for s in range(selected.shape[0]):
         r = selected[s]
         for k in range(times.shape[0]):

@@ -24,7 +24,17 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class RankEvent:
-    """A passage near a singular position, or a change of rank."""
+    """A passage near a singular position, or a change of rank.
+
+    Attributes
+    ----------
+    t_in, t_out : float
+        From when to when [s].
+    rank : int
+        The least of D on the way.
+    smallest_pivot : float
+        Of D D^T with scaled rows, on the way.
+    """
 
     t_in: float
     t_out: float

@@ -6,12 +6,18 @@ record that owns its arrays costs a count of references wherever it is read.
 
 from __future__ import annotations
 
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 from numba import types
 
 _F, _I = types.float64, types.int64
 _A, _K, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
+
+
+def record(name: str, *fields: str, module: str = __name__) -> Any:
+    """Return a named tuple whose fields come from another one; records are flat, so that loops read them alike."""
+    return namedtuple(name, fields, module=module)
 
 
 class Sizes(NamedTuple):
@@ -121,23 +127,8 @@ class State(NamedTuple):
     room: Any
 
 
-class Run(NamedTuple):
-    """A `State` opened by a loop: bare arrays, `trial` being the state that is tried and `room` what stands behind."""
-
-    y: Any
-    trial: Any
-    p: Any
-    w: Any
-    iw: Any
-    clock: Any
-    gauges: Any
-    control: Any
-    events: Any
-    memory: Any
-    share: Any
-    metric: Any
-    scales: Any
-    room: Any
+#: A `State` opened by a loop: bare arrays, `trial` being the state that is tried and `room` what stands behind it.
+Run = record("Run", "y", "trial", *State._fields[1:])
 
 
 class Outputs(NamedTuple):

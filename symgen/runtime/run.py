@@ -113,14 +113,8 @@ def integrate(
 
     Parameters
     ----------
-    compiled : CompiledModel
-        Model and method.
-    integrator : Integrator
-        The scheme and its loop.
-    start : Start
-        From `symgen.runtime.assembly.assemble`; not changed.
-    spec : RunSpec
-        What to do.
+    compiled, integrator, start, spec
+        As for `symgen.runtime.simulation.Simulation`.
     progress : callable, optional
         Called about ten times a second with the time reached.
 

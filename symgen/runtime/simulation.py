@@ -50,7 +50,7 @@ class Simulation:
     integrator : Integrator
         The scheme and its loop.
     start : Start
-        A consistent start; not changed.
+        A consistent start, from `symgen.runtime.assembly.assemble`; not changed.
     spec : RunSpec
         Steps, tolerances and limits.
 

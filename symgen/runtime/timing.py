@@ -80,16 +80,3 @@ def timed(
         seconds.append(last.run_seconds)
     best = replace(outcome, run_seconds=min(seconds), compile_seconds=first.compile_seconds)
     return Timed(best, tuple(seconds))
-
-
-def repeated(
-    compiled: CompiledModel,
-    tableau: Integrator,
-    start: Start,
-    spec: RunSpec,
-    repeat: int,
-    progress: Callable[[float], None] | None = None,
-) -> tuple[Outcome, float]:
-    """Return outcome and spread of `timed`, whose arguments these are."""
-    found = timed(compiled, tableau, start, spec, repeat, progress)
-    return found.outcome, found.spread

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
     from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel, Quantity
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.vocabulary.quantities import Quantity
 
 # looked up at every step
 _TIME, _STEPS, _DONE = abi.TIME, abi.STEPS, abi.DONE
@@ -188,10 +189,8 @@ class SteppedRun:
         ------
         InputError
             If that time has passed, or velocities that an event asks for cannot be.
-        StepError
-            If a step fails; the run stays at the last accepted state.
-        KeyboardInterrupt
-            After Ctrl-C; the run stays at an accepted state and can go on.
+        StepError, KeyboardInterrupt
+            If a step fails, or after Ctrl-C; the run stays at the last accepted state and can go on.
         """
         until = arguments.number("until", until)
         self._ready("run")

@@ -29,10 +29,6 @@ class Direction(msgspec.Struct, frozen=True):
     vector: tuple[Expr, ...]
 
 
-X_AXIS = Direction(GROUND, (ONE, ZERO))
-Y_AXIS = Direction(GROUND, (ZERO, ONE))
-
-
 def axes(body: str, dimension: int) -> tuple[Direction, ...]:
     """Return the axes of a body's frame, two in the plane, three in space."""
     return tuple(Direction(body, tuple(ONE if i == j else ZERO for j in range(dimension))) for i in range(dimension))

@@ -14,7 +14,7 @@ import pytest
 from symgen import catalogue
 from symgen.api import load
 from symgen.cli import main
-from symgen.cli._reading import Started
+from symgen.cli._reading import Asked, Started
 from tests.browser.chromium import Chromium
 
 pytestmark = pytest.mark.browser
@@ -73,7 +73,7 @@ def plainly_python(function: Any) -> Any:
 
 def rates_are_those_of_the_compiled_code(name: str, coordinates: str, chromium: Chromium) -> None:
     """At the start and near it, to 1e-12 of the largest, or four times what fusing multiplication and addition does."""
-    started = Started.of(load(name), "direct-correction", {}, {}, "straight", coordinates)
+    started = Started.of(load(name), Asked("direct-correction", {}, {}, "straight", coordinates))
     law, start, info = started.compiled.law_module, started.start, started.compiled.info
     plain, random = plainly_python(law.rhs), np.random.default_rng(3)
     states, expected, plainly = [], [], []

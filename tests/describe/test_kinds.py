@@ -8,6 +8,7 @@ from measured import Posed
 
 from symgen.describe import MechanismBuilder
 from symgen.describe.printer import to_text
+from symgen.describe.schema import described
 from symgen.errors import InputError
 from symgen.forces import FORCES
 from symgen.joints import JOINTS
@@ -289,7 +290,7 @@ def test_the_centre_of_a_point_mass():
 def test_every_kind_documents_its_keys(registry):
     for name, kind in registry.items():
         for key in kind.__struct_fields__:
-            assert key in (kind.__doc__ or ""), f"{name} says nothing about {key}"
+            assert key in described(kind), f"{name} says nothing about {key}"
 
 
 def test_all_kinds_are_there():

@@ -7,7 +7,7 @@ from support.spatial_runs import columns, run, start_of
 import symgen
 from symgen.result.points import Points
 from symgen.study.references.closed_space import flyball_governor
-from symgen.study.references.reference import integrated
+from symgen.study.references.reference import reference
 
 #: Largest stable step of RK4 [s]: 2.785 over the rate of the dampers.
 LIMIT = 2.785 / 8117.0
@@ -32,7 +32,7 @@ def test_the_general_route_leads_the_same_way():
     """Derived once more, in Euler parameters and their rates; for a moment only, as it is stiff and slow."""
     times = np.linspace(0.0, 0.02, 5)
     model = symgen.load("flyball-governor")
-    found = integrated(model.mechanism, model.parameters(), *start_of(model), times)
+    found = reference(model.mechanism, model.parameters(), *start_of(model), times, solver="scipy-dop853")
     _, _, q = flyball_governor(model.mechanism, model.parameters(), None, times)
     assert Points.of(model.mechanism, model.parameters()).distance(found.q, q) < 1e-11
 

@@ -7,7 +7,7 @@ from support.spatial_runs import columns, point, run, start_of
 from symgen.describe import load
 from symgen.describe.evaluate import evaluate
 from symgen.result.points import Points
-from symgen.study.references.reference import integrated
+from symgen.study.references.reference import reference
 
 
 def place(mechanism, result, body, name):
@@ -59,5 +59,5 @@ def test_independent_equations_lead_the_same_way():
     times = np.linspace(0.0, 1.0, 21)
     model, result = run("front-suspension", until=1.0, times=times)
     assert result.energy_drift_max < 1e-8
-    found = integrated(model.mechanism, model.parameters(), *start_of(model), times)
+    found = reference(model.mechanism, model.parameters(), *start_of(model), times, solver="scipy-dop853")
     assert Points.of(model.mechanism, model.parameters()).distance(columns(result, model.mechanism), found.q) < 1e-11

@@ -7,7 +7,9 @@ import pytest
 import symgen
 import symgen.methods
 from symgen.errors import InputError
+from symgen.study.comparison import combinations
 from symgen.study.comparison import compare as module
+from symgen.study.comparison.combinations import Combinations
 
 ROW_KEYS = {
     *("method", "integrator", "step", "rtol", "status", "reason", "error", "run_seconds", "run_seconds_spread"),
@@ -164,8 +166,10 @@ def test_a_method_gets_its_own_integrator_where_the_usual_ones_do_not_suit():
 
 
 def test_without_methods_the_six_of_the_source_are_compared():
-    assert module._named((), module.DEFAULT_METHODS, ()) == module.DEFAULT_METHODS
-    assert len(module._named(("all",), (), symgen.methods.METHODS.names)) == len(symgen.methods.METHODS.names) > 15
+    assert combinations._named((), combinations.DEFAULT_METHODS, ()) == combinations.DEFAULT_METHODS
+    assert (
+        len(combinations._named(("all",), (), symgen.methods.METHODS.names)) == len(symgen.methods.METHODS.names) > 15
+    )
 
 
 def test_violations_at_three_levels_are_those_of_the_run(study):
@@ -281,7 +285,7 @@ def test_without_a_reference_rows_stay_and_the_study_says_why(monkeypatch):
 def test_several_models_are_checked_before_anything_runs(monkeypatch):
     monkeypatch.setattr(module, "timed", None)
     with pytest.raises(InputError, match="did you mean 'four-bar'"):
-        module.compare_all(["pendulum", "four-bra"], until=0.1)
+        module.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
 
 
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):

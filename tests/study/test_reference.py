@@ -10,7 +10,7 @@ import symgen
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
 from symgen.study.references.independent import IndependentEquations
-from symgen.study.references.reference import CLOSED, integrated, reference
+from symgen.study.references.reference import CLOSED, reference
 from symgen.study.references.solvers import SOLVERS
 
 DATA = Path(__file__).parents[1] / "data"
@@ -28,7 +28,7 @@ def both(name, times, parameters=None):
     model = symgen.load(name)
     values = model.parameters(parameters)
     arguments = model.mechanism, values, *start_of(model, parameters), times
-    return reference(*arguments), integrated(*arguments), Points.of(model.mechanism, values)
+    return reference(*arguments), reference(*arguments, solver="scipy-dop853"), Points.of(model.mechanism, values)
 
 
 @pytest.mark.parametrize(
@@ -63,7 +63,9 @@ def test_andrews_meets_the_published_values():
     published = json.loads((DATA / "andrews_ivp.json").read_text())
     end = dict(zip(published["coordinates"], published["end"], strict=False))
     model = symgen.load("andrews")
-    found = integrated(model.mechanism, model.parameters(), *start_of(model), np.array([0.0, 0.03]))
+    found = reference(
+        model.mechanism, model.parameters(), *start_of(model), np.array([0.0, 0.03]), solver="scipy-dop853"
+    )
     theta = {b.name: found.q[-1, 3 * i + 2] for i, b in enumerate(model.mechanism.bodies)}
     assert theta["K1"] == pytest.approx(end["beta"], rel=1e-9)
     assert theta["K2"] - theta["K1"] == pytest.approx(end["theta"], rel=1e-9)
@@ -105,7 +107,7 @@ def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypat
     )
     model = symgen.load("n-four-bar:3")
     times = np.linspace(0.0, 10.0, 11)
-    found = module.integrated(model.mechanism, {}, *start_of(model), times)
+    found = reference(model.mechanism, {}, *start_of(model), times, solver="scipy-dop853")
     exact = reference(model.mechanism, {}, *start_of(model), times)
     points = Points.of(model.mechanism, {})
     assert "part by more than 0.0001 of the mechanism's size" in found.note and "not known which branch" in found.note
@@ -118,7 +120,9 @@ def test_runs_that_part_at_a_singular_position_are_not_passed_silently(monkeypat
 def test_a_regular_mechanism_with_short_links_is_not_taken_for_a_singular_one():
     """Links of centimetres make the singular values of D small everywhere."""
     model = symgen.load("andrews")
-    found = integrated(model.mechanism, model.parameters(), *start_of(model), np.linspace(0.0, 0.01, 6))
+    found = reference(
+        model.mechanism, model.parameters(), *start_of(model), np.linspace(0.0, 0.01, 6), solver="scipy-dop853"
+    )
     assert "singular" not in found.how
 
 

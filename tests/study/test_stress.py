@@ -18,7 +18,7 @@ from symgen.errors import InputError, SimulationError
 from symgen.result.points import Points
 from symgen.study.journal import Journal
 from symgen.study.references.motion import CompiledEquations, motion
-from symgen.study.references.reference import integrated
+from symgen.study.references.reference import reference
 from symgen.study.references.stiff import decay
 from symgen.study.stress.bench import Base
 from symgen.study.stress.cases import CASES
@@ -53,7 +53,7 @@ def test_compiled_equations_are_the_interpreted_ones():
     times = np.linspace(0.0, 0.5, 6)
     equations.set_parameters(changed)
     found = motion(equations, q, v, times)
-    other = integrated(mechanism, changed, q, v, times)
+    other = reference(mechanism, changed, q, v, times, solver="scipy-dop853")
     apart = Points.of(mechanism, changed).distance(found.q, other.q)
     assert apart < 1e-9
     assert apart < 10.0 * (found.estimated_error + other.estimated_error)

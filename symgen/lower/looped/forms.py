@@ -10,15 +10,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from symgen.ir.derivative import jacobian
 from symgen.ir.graph import Graph
-from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import Block, Target
+from symgen.ir.program import Block, ElementProgram, Target
 from symgen.lower.record import EQUATIONS, record_form
 from symgen.lower.scalar import Scalars
 from symgen.methods._formula import needed
@@ -48,15 +46,8 @@ class FormInfo(msgspec.Struct, frozen=True):
     functions: dict[str, int]
 
 
-@dataclass(frozen=True)
-class FormProgram:
-    """The kernel of an element's part: what the emitter needs."""
-
-    stem: str
-    label: str
-    info: FormInfo
-    blocks: tuple[Block, ...]
-    tables: tuple[Interpolation, ...]
+#: The kernel of an element's part.
+FormProgram = ElementProgram[FormInfo]
 
 
 def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") -> str:
@@ -91,10 +82,8 @@ def lower_form(
 
     Parameters
     ----------
-    element : Element
-        The derived element.
-    instance : Instance
-        Any instance of it.
+    element, instance
+        As for `symgen.lower.looped.kernels.lower_kernel`.
     method, options : Method, mapping
         The method with its structural options, complete.
     stem : str

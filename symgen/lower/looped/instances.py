@@ -40,14 +40,14 @@ class Instance:
         What the element is.
     name, label : str
         The element's name, and the name of its kind for people.
-    abstract : Mechanism
-        The abstract mechanism with this element only.
-    key : bytes
-        Its canonical text: equal where the kernel is the same.
     frames : tuple of str
         Bodies in the places of ``f0``, ``f1``, ....
     constants : tuple of Expr
         Formulas of parameters in the places of ``k0``, ``k1``, ....
+    abstract : Mechanism
+        The abstract mechanism with this element only.
+    key : bytes
+        Its canonical text: equal where the kernel is the same.
     angles : tuple of Measure
         Measures whose turns are counted, in the order in which they are derived; equal ones are one angle.
     """
@@ -55,10 +55,10 @@ class Instance:
     kind: str
     name: str
     label: str
-    abstract: Mechanism
-    key: bytes
     frames: tuple[str, ...]
     constants: tuple[Expr, ...]
+    abstract: Mechanism
+    key: bytes
     angles: tuple[Measure, ...] = ()
 
 
@@ -154,7 +154,7 @@ class _Rewriting:
         )
         said = {name: getattr(abstract, name) for name in abstract.__struct_fields__ if name not in _BESIDE}
         key = kind.encode() + msgspec.json.encode(said)
-        return Instance(kind, name, label, abstract, key, tuple(self.frames), tuple(self.constants))
+        return Instance(kind, name, label, tuple(self.frames), tuple(self.constants), abstract, key)
 
     def frame(self, body: Any, alias: str) -> Any:
         """Return a body of which only the frame matters; its markers are relative to the centre of mass already."""

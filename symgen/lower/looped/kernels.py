@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from symgen.ir.graph import Graph
-from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import Block, Target
+from symgen.ir.program import Block, ElementProgram, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.manifold import manifold_blocks
 from symgen.lower.scalar import Scalars
@@ -91,15 +89,8 @@ class KernelInfo(msgspec.Struct, frozen=True):
         return tuple(sorted({f for f, _ in self.rows[row].entries}))
 
 
-@dataclass(frozen=True)
-class KernelProgram:
-    """A kernel: what the emitter needs."""
-
-    stem: str
-    label: str
-    info: KernelInfo
-    blocks: tuple[Block, ...]
-    tables: tuple[Interpolation, ...]
+#: A kernel.
+KernelProgram = ElementProgram[KernelInfo]
 
 
 def kernel_stem(instance: Instance) -> str:

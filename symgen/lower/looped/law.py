@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from symgen.errors import InputError
 from symgen.ir.program import Correction
 from symgen.lower.looped.layout import HEAD
-from symgen.lower.looped.loops import KINDS, LoopedFunction, Loops
+from symgen.lower.looped.loops import KINDS, Loops
+from symgen.lower.looped.statements import LoopedFunction
 from symgen.lower.record import Record, record_form, record_law
 from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,14 +13,13 @@ from symgen import arguments
 from symgen.api import Model, load
 from symgen.describe.digest import digest
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError, SimulationError
-from symgen.integrators import INTEGRATORS
-from symgen.methods import METHODS
+from symgen.errors import SimulationError
 from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events
 from symgen.result.points import Points
 from symgen.runtime import abi
 from symgen.runtime.timing import timed
-from symgen.settings import COORDINATES, SHAPES, Settings, default
+from symgen.settings import Settings, default
+from symgen.study.comparison.combinations import Combinations
 from symgen.study.comparison.kept import Kept
 from symgen.study.comparison.measured import measured
 from symgen.study.comparison.prepare import Task, prepare, ready_for
@@ -36,11 +35,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Progress", "Row", "Study", "Trace", "compare", "compare_all", "save_csv"]
 
-#: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
-STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
-#: Relative tolerances of adaptive runs, by default; absolute ones are this fraction of them.
-RTOLS = (1e-6, 1e-8, 1e-10)
-ATOL_SHARE = 1e-2
 #: Output times of a study where the mechanism does not say more coarsely.
 OUTPUTS = 200
 #: Timed runs a row, unless told; and the seconds that they take together at least.
@@ -51,17 +45,8 @@ PREPARATION = 10.0
 #: Called with what is being done, how far it is, and how much there is in all.
 Progress = Callable[[str, float, float], None]
 
-#: What `compare` runs unless methods are named: the six of Marques, Souto and Flores (2017).
-DEFAULT_METHODS = (
-    *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
-    *("coordinate-partitioning", "direct-correction"),
-)
-#: And with which integrators; a method that none of them suits gets its own.
-DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
 #: Largest number of coordinates for which a study compiles straight code unless told.
 LARGEST_STRAIGHT = 120
-#: Stands for every method or integrator.
-ALL = "all"
 #: Processes at most.
 MOST_JOBS = 4096
 #: A run, the reference with the runs that it is made of, distances, and the times of every row take so much of a run.
@@ -97,7 +82,7 @@ def compare(
     model : str, path, Mechanism or Model
         What to run.
     methods, integrators : sequence of str
-        Names, or ``all``. Unless given, the six methods of the source with `DEFAULT_INTEGRATORS`. Pairs that do not
+        Names, or ``all``. Unless given, the six methods of the source with rk4, dopri5 and dop853. Pairs that do not
         suit each other are left out.
     steps : sequence of float
         Constant steps [s] of integrators without error estimate; multiples of the mechanism's own by default.
@@ -139,9 +124,20 @@ def compare(
     InputError
         If a name or number is wrong; nothing has been run then.
     """
-    asked = (methods, integrators, steps, rtols, until, repeat, output_step, parameters, options)
-    further = (progress, jobs, journal, reference_by, shape, max_violation, max_energy_error, max_steps, start)
-    return compare_all([model], *asked, *further, coordinates)[0]
+    asked = Settings(
+        until=until,
+        output_step=output_step,
+        parameters=parameters or {},
+        start=arguments.mapping("start", start, "values by the names of coordinates and velocities"),
+        options=options or {},
+        max_violation=max_violation,
+        max_energy_error=max_energy_error,
+        max_steps=max_steps,
+        repeat=repeat,
+        shape=shape,
+    )
+    runs = Combinations(methods, integrators, steps, rtols, coordinates)
+    return compare_all([model], asked, runs, reference_by, progress, jobs, journal)[0]
 
 
 @dataclass
@@ -184,52 +180,37 @@ class _Work:
 
 def compare_all(
     models: Sequence[str | Path | Mechanism | Model],
-    methods: Sequence[str] = (),
-    integrators: Sequence[str] = (),
-    steps: Sequence[float] = (),
-    rtols: Sequence[float] = (),
-    until: float | None = None,
-    repeat: int = REPEAT,
-    output_step: float | None = None,
-    parameters: Mapping[str, float] | None = None,
-    options: Mapping[str, str | float] | None = None,
+    asked: Settings,
+    runs: Combinations,
+    reference_by: str = AUTO,
     progress: Progress | None = None,
     jobs: int = 1,
     journal: Journal | None = None,
-    reference_by: str = AUTO,
-    shape: str = "auto",
-    max_violation: float = default("max_violation"),
-    max_energy_error: float = default("max_energy_error"),
-    max_steps: float | None = None,
-    start: Mapping[str, float] | None = None,
-    coordinates: Sequence[str] = (),
 ) -> list[Study]:
-    """Compare on several models; arguments and errors as for `compare`.
+    """Compare on several models.
+
+    Parameters
+    ----------
+    models : sequence of str, path, Mechanism or Model
+        What to run; all of it is checked before anything is run.
+    asked : Settings
+        What all runs have in common.
+    runs : Combinations
+        What differs.
+    reference_by, progress, jobs, journal
+        As for `compare`.
 
     Returns
     -------
     list of Study
         One a model, in order; after an interruption those up to the interrupted one, which comes last.
+
+    Raises
+    ------
+    InputError
+        As for `compare`.
     """
-    asked = Settings(
-        until=until,
-        output_step=output_step,
-        parameters=parameters or {},
-        start=arguments.mapping("start", start, "values by the names of coordinates and velocities"),
-        options=options or {},
-        max_violation=max_violation,
-        max_energy_error=max_energy_error,
-        max_steps=max_steps,
-        repeat=repeat,
-    )
     check_solver(reference_by)
-    arguments.one_of("shape", shape, SHAPES)
-    states = tuple(dict.fromkeys(arguments.words("coordinates", coordinates))) or COORDINATES[:1]
-    for state in states:
-        arguments.one_of("coordinates", state, COORDINATES)
-    methods, integrators = arguments.words("methods", methods), arguments.words("integrators", integrators)
-    steps = arguments.numbers("step", steps, positive=True)
-    rtols = arguments.numbers("rtol", rtols, positive=True)
     jobs = arguments.whole("jobs", jobs, 1, MOST_JOBS)
     arguments.function("progress", progress)
     if journal is not None:
@@ -240,14 +221,9 @@ def compare_all(
         end = _end(chosen, asked.until)
         times = _times(chosen, end, asked.output_step)
         small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
-        base = replace(asked, output_step=None, shape="straight" if shape == "auto" and small else shape)
-        settings = [
-            s
-            for state in states
-            for s in _combinations(
-                chosen, replace(base, coordinates=state), methods, integrators, steps, rtols, end, times
-            )
-        ]
+        shape = "straight" if asked.shape == "auto" and small else asked.shape
+        base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
+        settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         refuse_events("compare", chosen.mechanism, asked)
         works.append(
@@ -377,57 +353,3 @@ def _times(model: Model, end: float, output_step: float | None) -> Array:
     if own is None:
         return np.asarray(np.linspace(0.0, end, OUTPUTS + 1), dtype=np.float64)
     return multiples(own * max(1, round(end / own / OUTPUTS)), end, size)
-
-
-def _combinations(
-    model: Model,
-    base: Settings,
-    methods: Sequence[str],
-    integrators: Sequence[str],
-    steps: Sequence[float],
-    rtols: Sequence[float],
-    end: float,
-    times: Any,
-) -> Iterator[Settings]:
-    own = model.mechanism.defaults.step
-    for method in _named(methods, DEFAULT_METHODS, METHODS.names):
-        for integrator in _suitable(method, integrators):
-            common = replace(base, method=method, integrator=integrator, until=end, times=times)
-            common = replace(common, options=_options_for(base.options, method, methods, integrator, integrators))
-            if INTEGRATORS.get(integrator, "--integrators").adaptive:
-                for rtol in rtols or RTOLS:
-                    yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
-            else:
-                for step in steps or [h for h in (own * f for f in STEP_FACTORS) if h <= end] or [end]:
-                    yield replace(common, step=step)
-
-
-def _named(given: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
-    """Return the names asked for, each once; ``all`` stands for everything there is."""
-    wanted = [name for g in given or default for name in (everything if g == ALL else (g,))]
-    return tuple(dict.fromkeys(wanted))
-
-
-def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
-    """Return those of the integrators that solve a form of the method.
-
-    Raises
-    ------
-    InputError
-        If integrators were named and none of them does.
-    """
-    chosen = METHODS.get(method, "--methods")
-    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
-    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
-    if fit or not integrators:
-        return fit or (chosen.default_integrator,)
-    forms = ", ".join(chosen.forms)
-    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
-
-
-def _options_for(
-    options: Mapping[str, str | float], method: str, methods: Sequence[str], integrator: str, integrators: Sequence[str]
-) -> dict[str, str | float]:
-    """Return the options that are meant for this method and integrator: those of others in the study are left out."""
-    others = {*(methods or METHODS.names), *(integrators or INTEGRATORS.names)} - {method, integrator}
-    return {key: value for key, value in options.items() if key.partition(".")[0] not in others}

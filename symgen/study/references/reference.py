@@ -44,10 +44,8 @@ class Reference:
 
     Attributes
     ----------
-    how : str
-        Where it comes from, one sentence.
-    estimated_error : float
-        How far its points may be off [m].
+    how, estimated_error : str, float
+        Where it comes from, in one sentence, and how far its points may be off [m].
     times, q : Array, shapes (k,), (k, nq)
         Times [s] and coordinates.
     note : str
@@ -100,12 +98,12 @@ def reference(
         If the motion cannot be integrated, e.g. into a singularity.
     """
     if check_solver(solver) != AUTO:
-        return integrated(mechanism, parameters, q, v, times, progress, solver)
+        return _integrated(mechanism, parameters, (q, v), times, solver, progress)
     closed = closed_form(mechanism)
     if closed is not None:
         how, estimated, motion = closed(mechanism, parameters, q, times)
         return Reference(how, estimated, times, motion)
-    return integrated(mechanism, parameters, q, v, times, progress)
+    return _integrated(mechanism, parameters, (q, v), times, "scipy-dop853", progress)
 
 
 def closed_form(mechanism: Mechanism) -> Callable[[Mechanism, Mapping[str, float], Array, Array], Closed] | None:
@@ -214,21 +212,20 @@ CLOSED: Mapping[str, Callable[[Mechanism, Mapping[str, float], Array, Array], Cl
 # -- any mechanism -----------------------------------------------------------------------------------------------------
 
 
-def integrated(
+def _integrated(
     mechanism: Mechanism,
     parameters: Mapping[str, float],
-    q: Array,
-    v: Array,
+    start: tuple[Array, Array],
     times: Array,
-    progress: Progress | None = None,
-    solver: str = "scipy-dop853",
+    solver: str,
+    progress: Progress | None,
 ) -> Reference:
-    """Integrate independently derived equations twice; arguments as for `reference`."""
+    """Integrate independently derived equations twice."""
     from symgen.study.references.independent_space import independent_equations
 
     name, fine_tolerance, coarse_tolerance, goes_on = SOLVERS[solver]
     equations = independent_equations(mechanism, parameters)
-    y = equations.project(0.0, equations.state(q, v))
+    y = equations.project(0.0, equations.state(*start))
 
     def part(first: float, share: float) -> Progress:
         return lambda done: None if progress is None else progress(first + share * done)

@@ -1,0 +1,36 @@
+"""What joints share whose two bodies have an axis in common."""
+
+from __future__ import annotations
+
+import msgspec
+
+from symgen.describe.fields import AxisPair, BodyPair, DirectionPair, PointPair
+from symgen.describe.scope import Scope
+from symgen.vocabulary.measures import Marker
+
+
+class Axial(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """Two bodies with an axis in common.
+
+    Parameters
+    ----------
+    between : pair of body names
+        The two bodies.
+    at : pair of points
+        A point of each body; both lie on the axis.
+    axis : direction, or in space pair of directions
+        The axis in the first body's frame, in space also one in the frame of each body; lengths do not matter.
+    reference : pair of directions
+        In space: directions across the axis that coincide, where the joint turns at angle 0; as the bodies start by
+        default.
+    """
+
+    between: BodyPair
+    at: PointPair
+    axis: AxisPair
+    reference: DirectionPair | None = None
+
+    def resolved(self, scope: Scope) -> tuple[tuple[str, str], tuple[Marker, Marker]]:
+        """Return the bodies, and a point of each."""
+        a, b = scope.pair("between", self.between, turns=(True, True))
+        return (a, b), (scope.marker("at", a, self.at[0]), scope.marker("at", b, self.at[1]))

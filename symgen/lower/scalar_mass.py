@@ -1,0 +1,263 @@
+"""The mass matrix M of one mechanism: block diagonal, or, where joints of a tree carry the bodies, changing with q."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from copy import copy
+from dataclasses import replace
+from functools import cached_property
+from typing import Self
+
+from symgen.formulate.equations import MassBlock
+from symgen.ir.derivative import jacobian
+from symgen.ir.graph import PARAMETER, Graph
+from symgen.lower.factor import Factor, factorise, minimum_degree
+from symgen.lower.replay import Nodes
+from symgen.lower.scalar_rows import OfRows
+from symgen.lower.scalar_values import Rows
+from symgen.methods._formula import Operation
+
+
+class OfMass(OfRows):
+    """Operations with M, its inverse and its root, and the diagonal matrix that rank is decided with."""
+
+    @cached_property
+    def mass_entries(self) -> tuple[int, ...]:
+        """Entries of M that change with the position, each once; none where bodies have coordinates of their own."""
+        g = self.graph
+        nodes = (n for block in self.equations.mass for row in block.entries for n in row)
+        return tuple(dict.fromkeys(n for n in nodes if g.depends[n] & ~PARAMETER))
+
+    @cached_property
+    def with_stored_mass(self) -> Self:
+        """The same tape with M as the section ``mass_entry`` holds it, for functions that are not given the state.
+
+        M is replaced before anything is made of it: products with it do not keep its entries together.
+        """
+        other = self._with_mass(_replaced(self.equations.mass, self.mass_entries, self.graph, "mass_entry"))
+        other.values, other.kept, other.flags = {}, {}, []
+        other.run(range(len(other.operations)))
+        return other
+
+    @cached_property
+    def body(self) -> Self:
+        """The same tape with the metric of carried bodies in the place of M."""
+        return self._with_mass(self.equations.metric)
+
+    def _with_mass(self, mass: tuple[MassBlock, ...]) -> Self:
+        """Return the same tape with another matrix in the place of M, nothing evaluated yet."""
+        other = copy(self)
+        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
+            other.__dict__.pop(name, None)
+        other.equations = replace(self.equations, mass=mass)
+        return other
+
+    def _on_body_entries(self, operation: Operation) -> Nodes:
+        return self.body.mass_entries
+
+    def _on_body_inverse(self, operation: Operation, x: Nodes) -> Nodes:
+        body = self.body
+        stored = body._with_mass(_replaced(body.equations.mass, body.mass_entries, self.graph, "body_entry"))
+        return stored._back(stored._forward(x))
+
+    @cached_property
+    def mass_matrix(self) -> dict[tuple[int, int], int]:
+        """The entries of M that are not structurally zero."""
+        return {
+            (i, j): node
+            for block in self.equations.mass
+            for i, row in zip(block.columns, block.entries, strict=True)
+            for j, node in zip(block.columns, row, strict=True)
+            if node != self.graph.zero or i == j
+        }
+
+    @cached_property
+    def mass_factor(self) -> Factor:
+        """The factor of an M that changes, from the leaves of the tree inwards: nothing is filled in."""
+        return self.factorised(self.mass_matrix)
+
+    def factorised(self, matrix: Mapping[tuple[int, int], int]) -> Factor:
+        """Return the factor of a matrix of the velocities, eliminated so that little is filled in."""
+        near: list[set[int]] = [set() for _ in range(self.equations.nv)]
+        for i, j in matrix:
+            if i != j:
+                near[i].add(j)
+        order, _ = minimum_degree([frozenset(n) for n in near])
+        return factorise(self.graph, matrix, order, self._reciprocal)
+
+    @cached_property
+    def coupled(self) -> Sequence[Mapping[int, int]]:
+        """For each velocity those that M^-1 couples it with."""
+        if not self.mass_entries:
+            return self.inverse_mass
+        found: list[Mapping[int, int]] = [{} for _ in range(self.equations.nv)]
+        for block in self.equations.mass:
+            for j in block.columns:
+                found[j] = dict.fromkeys(block.columns, 0)
+        return found
+
+    def _forward(self, x: Sequence[int]) -> list[int]:
+        """Return L^-1 x of M = L d L^T."""
+        g, found = self.graph, list(x)
+        for k in self.mass_factor.order:
+            for i, entry in self.mass_factor.lower[k]:
+                found[i] = g.sub(found[i], g.mul(entry, found[k]))
+        return found
+
+    def _back(self, half: Sequence[int]) -> Nodes:
+        """Return L^-T d^-1 x."""
+        g, x, factor = self.graph, list(half), self.mass_factor
+        for k in reversed(factor.order):
+            x[k] = g.mul(x[k], factor.reciprocal[k])
+            for i, entry in factor.lower[k]:
+                x[k] = g.sub(x[k], g.mul(entry, x[i]))
+        return tuple(x)
+
+    def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
+        """Return L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
+        g, found = self.graph, list[list[int]]()
+        for row in matrix:
+            x = [g.zero] * self.equations.nv
+            for j, node in row:
+                x[j] = node
+            found.append(self._forward(x))
+        reciprocal = self.mass_factor.reciprocal
+        return found, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in found]
+
+    def _half(self, index: int) -> list[int]:
+        """Return L^-1 of a value of the tape; of sums and of D^T y from what is known of their parts."""
+        g, operation = self.graph, self.operations[index]
+        parts = operation.operands
+        if operation.kind in ("add", "sub") and operation.size == "nv":
+            return [getattr(g, operation.kind)(a, b) for a, b in zip(*map(self._half, parts), strict=True)]
+        if operation.kind == "transposed" and self.values[parts[0]] is self.rows:
+            y, (halves, _) = self.values[parts[1]], self._halves(self.rows)
+            return [g.dot([half[k] for half in halves], y) for k in range(self.equations.nv)]
+        return self._forward(self.values[index])
+
+    def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
+        """Return D M^-1 D^T as nodes."""
+        if not self.mass_entries:
+            return self.gram(matrix, self.inverse_mass)
+        g, (halves, scaled) = self.graph, self._halves(matrix)
+        result: dict[tuple[int, int], int] = {}
+        for i, near in enumerate(self.neighbours(matrix, self.coupled)):
+            for j in (i, *(n for n in sorted(near) if n > i)):
+                node = g.dot(scaled[i], halves[j])
+                if node != g.zero or i == j:
+                    result[i, j] = result[j, i] = node
+        return result
+
+    @cached_property
+    def inverse_mass(self) -> list[dict[int, int]]:
+        """Rows of M^-1 as column -> node; blocks are inverted by elimination, single entries by their reciprocal."""
+        g = self.graph
+        result: list[dict[int, int]] = [{} for _ in range(self.equations.nv)]
+        for block in self.equations.mass:
+            n = len(block.columns)
+            matrix = {
+                (i, j): block.entries[i][j]
+                for i in range(n)
+                for j in range(n)
+                if block.entries[i][j] != g.zero or i == j
+            }
+            factor = factorise(g, matrix, range(n), self._reciprocal)
+            for j in range(n):
+                unit = [g.one if i == j else g.zero for i in range(n)]
+                for i, node in enumerate(factor.solve(g, unit)):
+                    if node != g.zero:
+                        result[block.columns[i]][block.columns[j]] = node
+        return result
+
+    def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
+        g = self.graph
+        if self.mass_entries:
+            return self._back(self._half(operation.operands[0]))
+        result = [g.zero] * len(x)
+        for block in self.equations.mass:
+            if len(block.columns) == 1:
+                j, mass = block.columns[0], block.entries[0][0]
+                # two literals are divided while code is generated, so that a weight over its mass is g to the last
+                # digit
+                literal = g.value(x[j]) is not None and g.value(mass) is not None
+                result[j] = g.div(x[j], mass) if literal else g.mul(self.inverse_mass[j][j], x[j])
+                continue
+            for i in block.columns:
+                result[i] = g.total(g.mul(e, x[j]) for j, e in sorted(self.inverse_mass[i].items()))
+        return tuple(result)
+
+    def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+        solved = self.operations[operation.operands[1]]
+        if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
+            half = self._half(solved.operands[0])
+            return tuple(self.graph.dot(scaled, half) for scaled in self._halves(self.rows)[1])
+        return super()._on_product(operation, matrix, x)
+
+    def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:
+        g = self.graph
+        result = [g.zero] * len(x)
+        for block in self.equations.mass:
+            for i, row in zip(block.columns, block.entries, strict=True):
+                result[i] = g.total(g.mul(e, x[j]) for j, e in zip(block.columns, row, strict=True))
+        return tuple(result)
+
+    def _on_mass_rate(self, operation: Operation, x: Nodes, v: Nodes) -> Nodes:
+        g, e = self.graph, self.equations
+        result = [g.zero] * e.nv
+        if self.mass_entries:
+            rates = self._on_at_velocity(operation, e.q_rates, v)
+            slopes = jacobian(g, self.mass_entries, [("t", 0), *(("q", i) for i in range(e.nq))])
+            changes = {
+                entry: g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(found.items()))
+                for entry, found in zip(self.mass_entries, slopes, strict=True)
+            }
+            for (i, j), node in sorted(self.mass_matrix.items()):
+                if node in changes:
+                    result[i] = g.add(result[i], g.mul(changes[node], x[j]))
+        return tuple(result)
+
+    def _on_free_acceleration(self, operation: Operation, f: Nodes) -> Nodes:
+        regular = all(self.graph.value(node) != 0.0 for node in self._diagonal)
+        return self._on_minv(operation, f) if regular else (self.graph.zero,) * len(f)
+
+    def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
+        return tuple(self.graph.mul(next(iter(self.gauge[j].values())), n) for j, n in enumerate(x))
+
+    @cached_property
+    def gauge(self) -> list[dict[int, int]]:
+        """Rows of the diagonal matrix that rank is decided with: 1 for translations, 1 / l^2 for rotations."""
+        units = (v.unit for v in self.equations.velocities)
+        return [{j: self.graph.input("gauge", j) if u == "rad/s" else self.graph.one} for j, u in enumerate(units)]
+
+    @property
+    def _diagonal(self) -> list[int]:
+        return [b.entries[i][i] for b in self.equations.mass for i in range(len(b.columns))]
+
+    def _on_inverse_mass_root(self, operation: Operation) -> Rows:
+        """Return L^-T with M = L L^T by rows of the transposed, L^-1; Cholesky's root is the cheapest."""
+        rows: list[tuple[tuple[int, int], ...]] = [()] * self.equations.nv
+        for block in self.equations.mass:
+            for i, entries in zip(block.columns, self._inverse_root(block), strict=True):
+                rows[i] = tuple((block.columns[j], n) for j, n in enumerate(entries) if n != self.graph.zero)
+        return tuple(rows)
+
+    def _inverse_root(self, block: MassBlock) -> Iterator[list[int]]:
+        g, n = self.graph, len(block.columns)
+        lower: dict[tuple[int, int], int] = {}
+        inverse: dict[tuple[int, int], int] = {}
+        for i in range(n):
+            for j in range(i + 1):
+                rest = g.sub(block.entries[i][j], g.total(g.mul(lower[i, k], lower[j, k]) for k in range(j)))
+                lower[i, j] = g.call("sqrt", rest) if i == j else g.div(rest, lower[j, j])
+        for i in range(n):
+            inverse[i, i] = g.div(g.one, lower[i, i])
+            for j in range(i):
+                rest = g.total(g.mul(lower[i, k], inverse[k, j]) for k in range(j, i))
+                inverse[i, j] = g.neg(g.mul(rest, inverse[i, i]))
+            yield [inverse[i, j] for j in range(i + 1)]
+
+
+def _replaced(mass: tuple[MassBlock, ...], entries: Nodes, graph: Graph, section: str) -> tuple[MassBlock, ...]:
+    """Return a matrix with entries as a section holds them."""
+    places = {node: graph.input(section, k) for k, node in enumerate(entries)}
+    return tuple(MassBlock(b.columns, tuple(tuple(places.get(n, n) for n in row) for row in b.entries)) for b in mass)

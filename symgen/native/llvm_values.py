@@ -1,0 +1,239 @@
+"""Expressions of `symgen.native.language` as instructions for LLVM; statements are printed by `symgen.native.llvm`."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+
+from symgen.native import language as lang
+from symgen.native import sines
+
+TYPE = {"float": "double", "int": "i64", "bool": "i1"}
+#: An array: owner, parent, size, size of an element, data, shape, stride; and where data stand.
+ARRAY = ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64")
+DATA = 4
+_FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
+_INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
+_COMPARED = {
+    "float": {"lt": "olt", "le": "ole", "gt": "ogt", "ge": "oge", "eq": "oeq", "ne": "une"},
+    "int": {"lt": "slt", "le": "sle", "gt": "sgt", "ge": "sge", "eq": "eq", "ne": "ne"},
+    "bool": {"lt": "ult", "le": "ule", "gt": "ugt", "ge": "uge", "eq": "eq", "ne": "ne"},
+}
+INTRINSICS = ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")
+
+
+class Values:
+    """Prints the expressions of one function.
+
+    Attributes
+    ----------
+    found : dict
+        Sines and cosines that are known: by their names and angles.
+    lines, slots : list of str
+        What has been printed, and the memory that it needs.
+    values : dict of str to str
+        Values of variables that need no memory.
+    label : str
+        Of the block that is being printed.
+    """
+
+    def __init__(self, function: lang.Function, symbol: Callable[[lang.Function], str]) -> None:
+        self.function, self.symbol = function, symbol
+        self.found: dict[tuple[str, lang.Expression], str] = {}
+        self.lines: list[str] = []
+        self.slots: list[str] = []
+        self.values: dict[str, str] = {}
+        self.count = 0
+        self.label = ".entry"
+
+    def put(self, text: str) -> str:
+        """Print an instruction and return its value."""
+        self.count += 1
+        self.lines.append(f"  %.{self.count} = {text}")
+        return f"%.{self.count}"
+
+    def labels(self, *names: str) -> list[str]:
+        """Return new labels."""
+        self.count += 1
+        return [f".{name}{self.count}" for name in names]
+
+    def begin(self, label: str) -> None:
+        """Begin a block."""
+        self.lines.append(f"{label}:")
+        self.label = label
+
+    def jump(self, label: str) -> None:
+        """End a block."""
+        self.lines.append(f"  br label %{label}")
+
+    def branch(self, test: str, yes: str, no: str) -> None:
+        """End a block with a choice."""
+        self.lines.append(f"  br i1 {test}, label %{yes}, label %{no}")
+
+    def value(self, e: lang.Expression) -> str:
+        """Print what an expression needs and return its value."""
+        if isinstance(e, lang.Constant):
+            return literal(e.value) if e.type == "float" else str(int(e.value))
+        if isinstance(e, lang.Variable):
+            known = self.values.get(e.name)
+            return known if known is not None else self.put(f"load {TYPE[e.type]}, ptr {slot(e.name)}")
+        if isinstance(e, lang.Element):
+            return self.put(f"load {TYPE[e.type]}, ptr {self.place(e.array, e.index)}")
+        if isinstance(e, lang.Operation):
+            return self.operation(e.type, e.name, e.arguments)
+        if isinstance(e, lang.Call):
+            return self.call(e)
+        if isinstance(e, lang.Logic):
+            return self.decide(e)
+        return self.select(e)
+
+    def place(self, array: str, index: lang.Expression) -> str:
+        """Return the address of an element."""
+        table = self.function.tables.get(array)
+        base = f"%{array}.{DATA}" if table is None else f'@"{self.symbol(self.function)}.{array}"'
+        return self.put(f"getelementptr double, ptr {base}, i64 {self.value(index)}")
+
+    def operation(self, kind: lang.Scalar, name: str, arguments: tuple[lang.Expression, ...]) -> str:
+        """Print an operation."""
+        first = arguments[0].type
+        if name in sines.NAMES and sines.is_simple(arguments[0]) and (name, arguments[0]) in self.found:
+            return self.found[name, arguments[0]]
+        if name == "pow" and arguments[1].type == "int":
+            exponent = arguments[1]
+            assert isinstance(exponent, lang.Constant), "a power with a literal exponent"
+            return self.product(self.value(arguments[0]), int(exponent.value))
+        values = [self.value(a) for a in arguments]
+        if name in _COMPARED["float"]:
+            flag = " contract" if first == "float" else ""
+            compare = "fcmp" if first == "float" else "icmp"
+            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPE[first]} {', '.join(values)}")
+        if name in ("min", "max"):
+            return self.least(kind, name, values)
+        if kind == "float" and name in _FLOATS:
+            return self.put(f"{_FLOATS[name]} contract double {values[0]}, {values[1]}")
+        if name in _INTS:
+            return self.put(f"{_INTS[name]} {TYPE[kind]} {values[0]}, {values[1]}")
+        if name in ("float", "int", "bool"):
+            return self.converted(first, name, values[0])
+        if name == "not":
+            return self.put(f"xor i1 {values[0]}, true")
+        if name == "neg":
+            return self.put(f"fsub contract double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}")
+        if name in ("floordiv", "mod"):
+            return self.divided(name, *values)
+        if name == "abs" and kind == "int":
+            below = self.put(f"icmp slt i64 {values[0]}, 0")
+            return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 0, {values[0]}')}, i64 {values[0]}")
+        return self.function_of_math({"abs": "fabs"}.get(name, name).removeprefix("math."), values)
+
+    def least(self, kind: lang.Scalar, name: str, values: list[str]) -> str:
+        """Print the least or greatest of two values: as in Python, the first where they do not compare."""
+        sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
+        compare = "fcmp contract" if kind == "float" else "icmp"
+        test = self.put(f"{compare} {sign} {TYPE[kind]} {values[1]}, {values[0]}")
+        return self.put(f"select i1 {test}, {TYPE[kind]} {values[1]}, {TYPE[kind]} {values[0]}")
+
+    def product(self, base: str, exponent: int) -> str:
+        """Print a power as products, by squaring."""
+        result = literal(1.0)
+        while exponent:
+            if exponent & 1:
+                result = self.put(f"fmul contract double {result}, {base}")
+            exponent >>= 1
+            base = self.put(f"fmul contract double {base}, {base}")
+        return result
+
+    def divided(self, name: str, value: str, divisor: str) -> str:
+        """Print quotient or rest of a division by a positive constant, rounded downwards."""
+        rest = self.put(f"srem i64 {value}, {divisor}")
+        below = self.put(f"icmp slt i64 {rest}, 0")
+        if name == "mod":
+            return self.put(f"select i1 {below}, i64 {self.put(f'add i64 {rest}, {divisor}')}, i64 {rest}")
+        quotient = self.put(f"sdiv i64 {value}, {divisor}")
+        return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 {quotient}, 1')}, i64 {quotient}")
+
+    def converted(self, before: lang.Scalar, after: str, value: str) -> str:
+        """Print a conversion."""
+        if after == "bool":
+            test = f"fcmp contract une double {value}, 0.0" if before == "float" else f"icmp ne i64 {value}, 0"
+            return self.put(test)
+        if before == "bool":
+            wide = self.put(f"zext i1 {value} to i32")
+            return self.put(f"sitofp i32 {wide} to double" if after == "float" else f"sext i32 {wide} to i64")
+        return self.put(f"sitofp i64 {value} to double" if after == "float" else f"fptosi double {value} to i64")
+
+    def function_of_math(self, name: str, values: list[str]) -> str:
+        """Print a call of a mathematical function."""
+        called = f"@llvm.{name}.f64" if name in INTRINSICS else f"@{name}"
+        value = self.put(f"call contract double {called}({', '.join(f'double {v}' for v in values)})")
+        return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil") else value
+
+    def take_sines(self, angles: tuple[lang.Expression, ...]) -> None:
+        """Print sines and cosines of several angles; the first fills the vector up."""
+        values = [self.value(angle) for angle in angles]
+        n = sines.width(len(values))
+        vector = "undef"
+        for i in range(n):
+            value = values[i] if i < len(values) else values[0]
+            vector = self.put(f"insertelement <{n} x double> {vector}, double {value}, i32 {i}")
+        pair = self.put(f"call {sines.kind(n)} {sines.name(n)}(<{n} x double> {vector}) nounwind memory(none)")
+        for k, name in enumerate(sines.NAMES):
+            found = self.put(f"extractvalue {sines.kind(n)} {pair}, {k}")
+            for i, angle in enumerate(angles):
+                self.found[name, angle] = self.put(f"extractelement <{n} x double> {found}, i32 {i}")
+
+    def call(self, e: lang.Call) -> str:
+        """Print a call of another function."""
+        f = e.function
+        kind = TYPE[f.returned]
+        self.count += 1
+        result = f"%.result{self.count}"
+        self.slots.append(f"  {result} = alloca {kind}")
+        parts = [f"ptr {result}", "ptr null"]
+        for p, argument in zip(f.parameters, e.arguments, strict=True):
+            parts += handed(p, f"%{argument}.{DATA}" if isinstance(argument, str) else self.value(argument))
+        self.put(f'call i32 @"{self.symbol(f)}"({", ".join(parts)}) nounwind')
+        return self.put(f"load {kind}, ptr {result}")
+
+    def decide(self, e: lang.Logic) -> str:
+        """Print `and` or `or`."""
+        more, end = self.labels("more", "end")
+        first = self.value(e.first)
+        before = self.label
+        self.branch(first, *((more, end) if e.name == "and" else (end, more)))
+        self.begin(more)
+        second = self.value(e.second)
+        after = self.label
+        self.jump(end)
+        self.begin(end)
+        return self.put(f"phi i1 [{'false' if e.name == 'and' else 'true'}, %{before}], [{second}, %{after}]")
+
+    def select(self, e: lang.Choice) -> str:
+        """Print a choice between values."""
+        yes, no, end = self.labels("then", "else", "end")
+        self.branch(self.value(e.test), yes, no)
+        parts = []
+        for label, part in ((yes, e.chosen), (no, e.otherwise)):
+            self.begin(label)
+            value = self.value(part)
+            parts.append(f"[{value}, %{self.label}]")
+            self.jump(end)
+        self.begin(end)
+        return self.put(f"phi {TYPE[e.type]} {', '.join(parts)}")
+
+
+def handed(parameter: lang.Parameter, value: str) -> list[str]:
+    """Return an argument of a call; of an array the address of its elements, the rest being unused."""
+    if not parameter.array:
+        return [f"{TYPE[parameter.type]} {value}"]
+    return [f"{kind} {value if i == DATA else 'undef'}" for i, kind in enumerate(ARRAY)]
+
+
+def slot(name: str) -> str:
+    """Return the memory of a variable that has more than one value."""
+    return f'%"{name}."'
+
+
+def literal(value: float | int | bool) -> str:
+    """Return a float as LLVM writes it, to the last bit."""
+    return f"0x{struct.pack('>d', float(value)).hex()}"

@@ -1,0 +1,118 @@
+"""What a comparison runs: every method with the integrators that suit it, at every step or tolerance."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from symgen import arguments
+from symgen.errors import InputError
+from symgen.integrators import INTEGRATORS
+from symgen.methods import METHODS
+from symgen.settings import COORDINATES, Settings
+
+#: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
+STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
+#: Relative tolerances of adaptive runs, by default; absolute ones are this fraction of them.
+RTOLS = (1e-6, 1e-8, 1e-10)
+ATOL_SHARE = 1e-2
+#: What `compare` runs unless methods are named: the six of Marques, Souto and Flores (2017).
+DEFAULT_METHODS = (
+    *("lagrange", "baumgarte", "augmented-lagrangian", "index1-augmented-lagrangian"),
+    *("coordinate-partitioning", "direct-correction"),
+)
+#: And with which integrators; a method that none of them suits gets its own.
+DEFAULT_INTEGRATORS = ("rk4", "dopri5", "dop853")
+#: Stands for every method or integrator.
+ALL = "all"
+
+
+@dataclass(frozen=True)
+class Combinations:
+    """What differs between the runs of a comparison; `symgen.compare` says what each of these means.
+
+    Raises
+    ------
+    InputError
+        If one is of the wrong kind.
+    """
+
+    methods: Sequence[str] = ()
+    integrators: Sequence[str] = ()
+    steps: Sequence[float] = ()
+    rtols: Sequence[float] = ()
+    coordinates: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        given = {name: arguments.words(name, getattr(self, name)) for name in ("methods", "integrators", "coordinates")}
+        for state in given["coordinates"]:
+            arguments.one_of("coordinates", state, COORDINATES)
+        numbers = {
+            name: arguments.numbers(name[:-1], getattr(self, name), positive=True) for name in ("steps", "rtols")
+        }
+        for name, value in (given | numbers).items():
+            object.__setattr__(self, name, value)
+
+    def settings(self, base: Settings, own: float) -> Iterator[Settings]:
+        """Return the settings of all runs.
+
+        Parameters
+        ----------
+        base : Settings
+            What they have in common, their end among it.
+        own : float
+            The mechanism's own step [s].
+
+        Raises
+        ------
+        InputError
+            If there is no such method or integrator, or none of these solves a form of a method.
+        """
+        for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
+            for method in _named(self.methods, DEFAULT_METHODS, METHODS.names):
+                for integrator in _suitable(method, self.integrators):
+                    options = _options_for(base.options, method, self.methods, integrator, self.integrators)
+                    one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
+                    yield from self._steps(one, own)
+
+    def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
+        if INTEGRATORS.get(str(common.integrator), "--integrators").adaptive:
+            for rtol in self.rtols or RTOLS:
+                yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
+        else:
+            assert common.until is not None, "a comparison knows its end"
+            for step in (
+                self.steps or [h for h in (own * f for f in STEP_FACTORS) if h <= common.until] or [common.until]
+            ):
+                yield replace(common, step=step)
+
+
+def _named(given: Sequence[str], default: Sequence[str], everything: Sequence[str]) -> tuple[str, ...]:
+    """Return the names asked for, each once; ``all`` stands for everything there is."""
+    wanted = [name for g in given or default for name in (everything if g == ALL else (g,))]
+    return tuple(dict.fromkeys(wanted))
+
+
+def _suitable(method: str, integrators: Sequence[str]) -> tuple[str, ...]:
+    """Return those of the integrators that solve a form of the method.
+
+    Raises
+    ------
+    InputError
+        If integrators were named and none of them does.
+    """
+    chosen = METHODS.get(method, "--methods")
+    named = _named(integrators, DEFAULT_INTEGRATORS, INTEGRATORS.names)
+    fit = tuple(n for n in named if set(INTEGRATORS.get(n, "--integrators").forms) & set(chosen.forms))
+    if fit or not integrators:
+        return fit or (chosen.default_integrator,)
+    forms = ", ".join(chosen.forms)
+    raise InputError("--integrators", f"one that solves a form of {method} ({forms})", f"'{', '.join(integrators)}'")
+
+
+def _options_for(
+    options: Mapping[str, str | float], method: str, methods: Sequence[str], integrator: str, integrators: Sequence[str]
+) -> dict[str, str | float]:
+    """Return the options that are meant for this method and integrator: those of others in the study are left out."""
+    others = {*(methods or METHODS.names), *(integrators or INTEGRATORS.names)} - {method, integrator}
+    return {key: value for key, value in options.items() if key.partition(".")[0] not in others}

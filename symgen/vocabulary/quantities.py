@@ -1,0 +1,39 @@
+"""Named scalars with their units, and how many a model has."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+
+class Quantity(msgspec.Struct, frozen=True):
+    """A named scalar with its unit."""
+
+    name: str
+    unit: str
+
+
+class Counted:
+    """What lists coordinates, velocities and constraint rows, and says how many there are."""
+
+    __slots__ = ()
+
+    coordinates: tuple[Quantity, ...]
+    velocities: tuple[Quantity, ...]
+    rows: tuple[Any, ...]
+
+    @property
+    def nq(self) -> int:
+        """Number of coordinates."""
+        return len(self.coordinates)
+
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+        return len(self.velocities)
+
+    @property
+    def m(self) -> int:
+        """Number of constraint rows."""
+        return len(self.rows)
