@@ -218,6 +218,7 @@ class _Printer:
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
         if isinstance(e, Choice):
             return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
+        assert isinstance(e, Operation), "emitted functions have no other expressions"
         return self.operation(e)
 
     def operation(self, e: Operation) -> tuple[str, int]:

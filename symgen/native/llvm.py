@@ -34,7 +34,7 @@ from symgen.native.language import (
     While,
 )
 
-_TYPE = {"float": "double", "int": "i64", "bool": "i1"}
+TYPES = {"float": "double", "int": "i64", "bool": "i1"}
 _ARRAY = (
     "ptr",
     "ptr",
@@ -82,13 +82,13 @@ def module(
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
     """
     functions, declared = _reached(function, inlined)
-    texts = [_Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
+    texts = [Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )
     texts.append(_c_function(function, symbol(function)))
     texts.extend(f"declare {_head(f, symbol(f), named=False)}" for f in declared)
-    return "\n".join([*texts, *_declarations(texts), ""])
+    return "\n".join([*texts, *declarations(texts), ""])
 
 
 def _reached(function: Function, inlined: Callable[[Function], bool]) -> tuple[list[Function], list[Function]]:
@@ -109,7 +109,7 @@ def _key(function: Function) -> object:
     return function.source, function.parameters
 
 
-def _declarations(texts: Iterable[str]) -> list[str]:
+def declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
     found = []
@@ -133,19 +133,19 @@ def _head(function: Function, name: str, named: bool = True) -> str:
         if p.array:
             parts += [f"{kind} %{p.name}.{i}" if named else kind for i, kind in enumerate(_ARRAY)]
         else:
-            parts.append(f"{_TYPE[p.type]} %{p.name}" if named else _TYPE[p.type])
+            parts.append(f"{TYPES[p.type]} %{p.name}" if named else TYPES[p.type])
     return f'i32 @"{name}"({", ".join(parts)}) nounwind'
 
 
 def _c_function(function: Function, name: str) -> str:
     """Return the function in C's convention, which calls the other one."""
-    kind = _TYPE[function.returned]
+    kind = TYPES[function.returned]
     lines, arguments = [f"  %.result = alloca {kind}"], ["ptr %.result", "ptr null"]
     for p in function.parameters:
         if p.array:
             lines.append(f"  %{p.name}.{_DATA} = extractvalue {_STRUCT} %{p.name}, {_DATA}")
         arguments += _handed(p, f"%{p.name}.{_DATA}" if p.array else f"%{p.name}")
-    parameters = ", ".join(f"{_STRUCT if p.array else _TYPE[p.type]} %{p.name}" for p in function.parameters)
+    parameters = ", ".join(f"{_STRUCT if p.array else TYPES[p.type]} %{p.name}" for p in function.parameters)
     return "\n".join(
         [
             f'define {kind} @"cfunc.{name}"({parameters}) nounwind {{',
@@ -161,11 +161,11 @@ def _c_function(function: Function, name: str) -> str:
 def _handed(parameter: Parameter, value: str) -> list[str]:
     """Return an argument of a call; of an array the address of its elements, the rest being unused."""
     if not parameter.array:
-        return [f"{_TYPE[parameter.type]} {value}"]
+        return [f"{TYPES[parameter.type]} {value}"]
     return [f"{kind} {value if i == _DATA else 'undef'}" for i, kind in enumerate(_ARRAY)]
 
 
-class _Printer:
+class Printer:
     """Prints one function."""
 
     def __init__(self, function: Function, symbol: Callable[[Function], str], linkage: str, together: bool) -> None:
@@ -185,21 +185,33 @@ class _Printer:
         f = self.function
         for name, kind in f.variables.items():
             if name not in f.fixed:
-                self.slots.append(f"  {_slot(name)} = alloca {_TYPE[kind]}")
-        for p in f.parameters:
-            if not p.array:
-                if p.name in f.variables:
-                    self.lines.append(f"  store {_TYPE[p.type]} %{p.name}, ptr {_slot(p.name)}")
-                else:
-                    self.values[p.name] = f"%{p.name}"
+                self.slots.append(f"  {_slot(name)} = alloca {TYPES[kind]}")
+        self.begun()
         self.statements(f.body)
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
             f"[{', '.join('double ' + _float(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
-        head = f"define {self.linkage}{_head(f, self.symbol(f))} {{"
+        head = f"define {self.linkage}{self.head()} {{"
         return "\n".join([*tables, head, ".entry:", *self.slots, *self.lines, "}"])
+
+    def head(self) -> str:
+        """Return result, name and parameters."""
+        return _head(self.function, self.symbol(self.function))
+
+    def begun(self) -> None:
+        """Print what stands before the statements."""
+        for p in self.function.parameters:
+            if not p.array:
+                self.take(p.name, p.type, f"%{p.name}")
+
+    def take(self, name: str, kind: Scalar, value: str) -> None:
+        """Give an argument that is a number its name."""
+        if name in self.function.variables:
+            self.lines.append(f"  store {TYPES[kind]} {value}, ptr {_slot(name)}")
+        else:
+            self.values[name] = value
 
     def put(self, text: str) -> str:
         """Print an instruction and return its value."""
@@ -237,7 +249,7 @@ class _Printer:
             elif isinstance(statement, Store):
                 value = self.value(statement.value)
                 place = self.place(statement.array, statement.index)
-                self.lines.append(f"  store {_TYPE[statement.value.type]} {value}, ptr {place}")
+                self.lines.append(f"  store {TYPES[statement.value.type]} {value}, ptr {place}")
             elif isinstance(statement, Evaluate):
                 self.value(statement.call)
             elif isinstance(statement, If):
@@ -248,21 +260,31 @@ class _Printer:
             elif isinstance(statement, For):
                 self.count_through(statement)
             elif isinstance(statement, Leave):
-                self.jump(self.leaving[-1][statement.how == "break"])
+                self.leave(statement)
                 return False
             elif isinstance(statement, Return):
-                kind = _TYPE[statement.value.type]
+                kind = TYPES[statement.value.type]
                 self.lines.append(f"  store {kind} {self.value(statement.value)}, ptr %.result")
                 self.lines.append("  ret i32 0")
                 return False
+            elif not self.other(statement):
+                return False
         return True
+
+    def other(self, statement: Statement) -> bool:
+        """Print a statement that only loops have; return whether what follows it can be reached."""
+        raise TypeError(f"emitted functions have no {type(statement).__name__}")
+
+    def leave(self, statement: Leave) -> None:
+        """Print the end of a loop, or of what it repeats."""
+        self.jump(self.leaving[-1][statement.how == "break"])
 
     def assign(self, name: str, value: str) -> None:
         """Give a variable a value."""
         if name in self.function.fixed:
             self.values[name] = value
         else:
-            self.lines.append(f"  store {_TYPE[self.function.variables[name]]} {value}, ptr {_slot(name)}")
+            self.lines.append(f"  store {TYPES[self.function.variables[name]]} {value}, ptr {_slot(name)}")
 
     def choose(self, statement: If) -> bool:
         """Print a choice between statements."""
@@ -323,22 +345,26 @@ class _Printer:
             return _float(e.value) if e.type == "float" else str(int(e.value))
         if isinstance(e, Variable):
             known = self.values.get(e.name)
-            return known if known is not None else self.put(f"load {_TYPE[e.type]}, ptr {_slot(e.name)}")
+            return known if known is not None else self.put(f"load {TYPES[e.type]}, ptr {_slot(e.name)}")
         if isinstance(e, Element):
-            return self.put(f"load {_TYPE[e.type]}, ptr {self.place(e.array, e.index)}")
+            return self.put(f"load {TYPES[e.type]}, ptr {self.place(e.array, e.index)}")
         if isinstance(e, Operation):
             return self.operation(e.type, e.name, e.arguments)
         if isinstance(e, Call):
             return self.call(e)
         if isinstance(e, Logic):
             return self.decide(e)
+        assert isinstance(e, Choice), "all kinds of expressions are known"
         return self.select(e)
 
     def place(self, array: str, index: Expression) -> str:
         """Return the address of an element."""
-        table = self.function.tables.get(array)
-        base = f"%{array}.{_DATA}" if table is None else f'@"{self.symbol(self.function)}.{array}"'
-        return self.put(f"getelementptr double, ptr {base}, i64 {self.value(index)}")
+        return self.put(f"getelementptr double, ptr {self.base(array)}, i64 {self.value(index)}")
+
+    def base(self, array: str) -> str:
+        """Return the address of an array."""
+        constant = array in self.function.tables
+        return f'@"{self.symbol(self.function)}.{array}"' if constant else f"%{array}.{_DATA}"
 
     def operation(self, kind: Scalar, name: str, arguments: tuple[Expression, ...]) -> str:
         """Print an operation."""
@@ -353,19 +379,21 @@ class _Printer:
         if name in _COMPARED["float"]:
             flag = " contract" if first == "float" else ""
             compare = "fcmp" if first == "float" else "icmp"
-            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {_TYPE[first]} {', '.join(values)}")
+            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPES[first]} {', '.join(values)}")
         if name in ("min", "max"):
             return self.least(kind, name, values)
         if kind == "float" and name in _FLOATS:
             return self.put(f"{_FLOATS[name]} contract double {values[0]}, {values[1]}")
         if name in _INTS:
-            return self.put(f"{_INTS[name]} {_TYPE[kind]} {values[0]}, {values[1]}")
+            return self.put(f"{_INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
         if name in ("float", "int", "bool"):
             return self.converted(first, name, values[0])
         if name == "not":
             return self.put(f"xor i1 {values[0]}, true")
         if name == "neg":
             return self.put(f"fsub contract double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}")
+        if name in ("quotient", "rest"):
+            return self.quotient(values[0], values[1], rest_wanted=name == "rest")
         if name in ("floordiv", "mod"):
             return self.divided(name, *values)
         if name == "abs" and kind == "int":
@@ -377,8 +405,8 @@ class _Printer:
         """Print the least or greatest of two values: as in Python, the first where they do not compare."""
         sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
         compare = "fcmp contract" if kind == "float" else "icmp"
-        test = self.put(f"{compare} {sign} {_TYPE[kind]} {values[1]}, {values[0]}")
-        return self.put(f"select i1 {test}, {_TYPE[kind]} {values[1]}, {_TYPE[kind]} {values[0]}")
+        test = self.put(f"{compare} {sign} {TYPES[kind]} {values[1]}, {values[0]}")
+        return self.put(f"select i1 {test}, {TYPES[kind]} {values[1]}, {TYPES[kind]} {values[0]}")
 
     def product(self, base: str, exponent: int) -> str:
         """Print a power as products, by squaring."""
@@ -398,6 +426,17 @@ class _Printer:
             return self.put(f"select i1 {below}, i64 {self.put(f'add i64 {rest}, {divisor}')}, i64 {rest}")
         quotient = self.put(f"sdiv i64 {value}, {divisor}")
         return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 {quotient}, 1')}, i64 {quotient}")
+
+    def quotient(self, value: str, divisor: str, *, rest_wanted: bool) -> str:
+        """Print quotient or rest of a division by any integer, rounded downwards; those by 0 are 0."""
+        none = self.put(f"icmp eq i64 {divisor}, 0")
+        divisor = self.put(f"select i1 {none}, i64 1, i64 {divisor}")
+        quotient, rest = self.put(f"sdiv i64 {value}, {divisor}"), self.put(f"srem i64 {value}, {divisor}")
+        signs = self.put(f"icmp slt i64 {self.put(f'xor i64 {rest}, {divisor}')}, 0")
+        below = self.put(f"and i1 {signs}, {self.put(f'icmp ne i64 {rest}, 0')}")
+        other = f"add i64 {rest}, {divisor}" if rest_wanted else f"sub i64 {quotient}, 1"
+        found = self.put(f"select i1 {below}, i64 {self.put(other)}, i64 {rest if rest_wanted else quotient}")
+        return self.put(f"select i1 {none}, i64 0, i64 {found}")
 
     def converted(self, before: Scalar, after: str, value: str) -> str:
         """Print a conversion."""
@@ -432,7 +471,7 @@ class _Printer:
     def call(self, e: Call) -> str:
         """Print a call of another function."""
         f = e.function
-        kind = _TYPE[f.returned]
+        kind = TYPES[f.returned]
         self.count += 1
         result = f"%.result{self.count}"
         self.slots.append(f"  {result} = alloca {kind}")
@@ -466,7 +505,7 @@ class _Printer:
             parts.append(f"[{value}, %{self.label}]")
             self.jump(end)
         self.begin(end)
-        return self.put(f"phi {_TYPE[e.type]} {', '.join(parts)}")
+        return self.put(f"phi {TYPES[e.type]} {', '.join(parts)}")
 
 
 def _slot(name: str) -> str:

@@ -85,10 +85,10 @@ def read(function: Any, kinds: tuple[Kind, ...], definition: Definition, reading
         raise Foreign(f"the function '{function.__name__}'")
     if function in reading:
         raise Foreign(f"the function '{function.__name__}' calls itself", tree)
-    return _Reader(function, tree, kinds, definition, (*reading, function)).function()
+    return Reader(function, tree, kinds, definition, (*reading, function)).function()
 
 
-class _Reader:
+class Reader:
     """Reads one function."""
 
     def __init__(
@@ -122,7 +122,7 @@ class _Reader:
         if body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
             body = body[1:]  # the docstring
         statements = self.statements(body)
-        if not _returns(statements) or len(self.returned) != 1:
+        if not returns(statements) or len(self.returned) != 1:
             raise Foreign("paths that return nothing, or different types", self.tree)
         (returned,) = self.returned
         if returned == "bool":
@@ -163,11 +163,10 @@ class _Reader:
         if isinstance(node, ast.Assign):
             return self.assignment(node)
         if isinstance(node, ast.AugAssign):
-            sign = _ARITHMETIC.get(type(node.op))
-            if sign is None:
-                raise Foreign("an operation", node)
             before = self.expression(_loaded(node.target))
-            return [self.store(node.target, self.arithmetic(sign, before, self.expression(node.value), node))]
+            return [
+                self.store(node.target, self.arithmetic(self.sign(node), before, self.expression(node.value), node))
+            ]
         if isinstance(node, ast.Return):
             if node.value is None:
                 raise Foreign("a return without value", node)
@@ -224,7 +223,7 @@ class _Reader:
                 raise Foreign("an element of a constant", target)
             if kind == "int" and value.type == "float":
                 raise Foreign("a float in an array of integers", target)
-            return Store(array, index, _as(kind, value))
+            return Store(array, index, as_type(kind, value))
         raise Foreign("a target of an assignment", target)
 
     def give(self, name: str, kind: Scalar, node: ast.AST) -> None:
@@ -261,11 +260,12 @@ class _Reader:
         method = self._expressions.get(type(node))
         if method is None:
             raise Foreign(f"an expression '{type(node).__name__}'", node)
-        return method(self, node)
+        found: Expression = getattr(self, method)(node)
+        return found
 
     def constant(self, node: ast.Constant) -> Expression:
         """Return a literal."""
-        return _number(node.value, node)
+        return number(node.value, node)
 
     def name(self, node: ast.Name) -> Expression:
         """Return a variable, an argument, or a number of the module."""
@@ -276,7 +276,7 @@ class _Reader:
             return Variable(self.numbers[name], name)
         if name in self.locals or name not in self.globals:
             raise Foreign(f"the name '{name}'", node)
-        return _number(self.globals[name], node)
+        return number(self.globals[name], node)
 
     def attribute(self, node: ast.Attribute) -> Expression:
         """Return a constant of ``math``."""
@@ -304,7 +304,7 @@ class _Reader:
         """Return an operation on one value."""
         value = self.expression(node.operand)
         if isinstance(node.op, ast.Not):
-            return Operation("bool", "not", (_truth(value),))
+            return Operation("bool", "not", (truth_of(value),))
         if isinstance(node.op, ast.UAdd) and value.type != "bool":
             return value
         if isinstance(node.op, ast.USub) and value.type != "bool":
@@ -315,10 +315,15 @@ class _Reader:
 
     def binary(self, node: ast.BinOp) -> Expression:
         """Return an operation on two values."""
+        sign = self.sign(node)
+        return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
+
+    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+        """Return what an operation is called."""
         sign = _ARITHMETIC.get(type(node.op))
         if sign is None:
             raise Foreign("an operation", node)
-        return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
+        return sign
 
     def arithmetic(self, sign: str, left: Expression, right: Expression, node: ast.AST) -> Expression:
         """Return an operation on two values of one type."""
@@ -331,16 +336,21 @@ class _Reader:
         kind: Scalar = "float" if "float" in (left.type, right.type) or sign == "div" else "int"
         if sign in ("floordiv", "mod") and (kind != "int" or not isinstance(right, Constant) or right.value <= 0):
             raise Foreign("a division with rest", node)
-        return Operation(kind, sign, (_as(kind, left), _as(kind, right)))
+        return Operation(kind, sign, (as_type(kind, left), as_type(kind, right)))
 
     def comparison(self, node: ast.Compare) -> Expression:
         """Return a comparison of two values."""
-        sign = _COMPARISONS.get(type(node.ops[0]))
-        if sign is None or len(node.ops) > 1:
+        if len(node.ops) > 1:
             raise Foreign("a comparison", node)
-        left, right = self.expression(node.left), self.expression(node.comparators[0])
+        return self.compared(node.ops[0], self.expression(node.left), self.expression(node.comparators[0]), node)
+
+    def compared(self, op: ast.cmpop, left: Expression, right: Expression, node: ast.AST) -> Expression:
+        """Return a comparison of two values in one type."""
+        sign = _COMPARISONS.get(type(op))
+        if sign is None:
+            raise Foreign("a comparison", node)
         kind = _common(left, right)
-        return Operation("bool", sign, (_as(kind, left), _as(kind, right)))
+        return Operation("bool", sign, (as_type(kind, left), as_type(kind, right)))
 
     def logic(self, node: ast.BoolOp) -> Expression:
         """Return ``and`` or ``or`` of booleans."""
@@ -354,14 +364,18 @@ class _Reader:
     def choice(self, node: ast.IfExp) -> Expression:
         """Return one of two values."""
         test, chosen, otherwise = self.truth(node.test), self.expression(node.body), self.expression(node.orelse)
+        return self.chosen(test, chosen, otherwise, node)
+
+    def chosen(self, test: Expression, chosen: Expression, otherwise: Expression, node: ast.AST) -> Expression:
+        """Return one of two values in one type."""
         if chosen.type != otherwise.type and "bool" in (chosen.type, otherwise.type):
             raise Foreign("a choice between a boolean and a number", node)
         kind = _common(chosen, otherwise)
-        return Choice(kind, test, _as(kind, chosen), _as(kind, otherwise))
+        return Choice(kind, test, as_type(kind, chosen), as_type(kind, otherwise))
 
     def truth(self, node: ast.expr) -> Expression:
         """Return whether an expression counts as true."""
-        return _truth(self.expression(node))
+        return truth_of(self.expression(node))
 
     def call(self, node: ast.Call) -> Expression:
         """Return what a function gives."""
@@ -374,7 +388,7 @@ class _Reader:
             name = node.func.attr
             if FUNCTIONS.get(name) != len(node.args):
                 raise Foreign(f"the function 'math.{name}'", node)
-            values = tuple(_as("float", self.expression(x)) for x in node.args)
+            values = tuple(as_type("float", self.expression(x)) for x in node.args)
             return Operation("int" if name in _INTEGER else "float", f"math.{name}", values)
         if not isinstance(node.func, ast.Name) or node.func.id in self.variables:
             raise Foreign("a call", node)
@@ -400,14 +414,14 @@ class _Reader:
                 kind = _common(first, value)
                 if kind == "bool":
                     raise Foreign("the least of booleans", node)
-                first = Operation(kind, name, (_as(kind, first), _as(kind, value)))
+                first = Operation(kind, name, (as_type(kind, first), as_type(kind, value)))
             return first
         if len(values) == 1:
             (value,) = values
             if name == "abs" and value.type != "bool":
                 return Operation(value.type, "abs", (value,))
             if name in ("float", "int"):
-                return _as(cast("Scalar", name), value)
+                return as_type(cast("Scalar", name), value)
         raise Foreign(f"the function '{name}'", node)
 
     def builtin(self, node: ast.expr) -> str | None:
@@ -420,21 +434,21 @@ class _Reader:
         """Whether something is an attribute of the module ``math``."""
         return isinstance(node.value, ast.Name) and self.globals.get(node.value.id) is math
 
-    _expressions: Mapping[type, Callable[[_Reader, Any], Expression]] = {
-        ast.Constant: constant,
-        ast.Name: name,
-        ast.Attribute: attribute,
-        ast.Subscript: element,
-        ast.UnaryOp: unary,
-        ast.BinOp: binary,
-        ast.Compare: comparison,
-        ast.BoolOp: logic,
-        ast.IfExp: choice,
-        ast.Call: call,
+    _expressions: Mapping[type, str] = {
+        ast.Constant: "constant",
+        ast.Name: "name",
+        ast.Attribute: "attribute",
+        ast.Subscript: "element",
+        ast.UnaryOp: "unary",
+        ast.BinOp: "binary",
+        ast.Compare: "comparison",
+        ast.BoolOp: "logic",
+        ast.IfExp: "choice",
+        ast.Call: "call",
     }
 
 
-def _number(value: object, node: ast.AST) -> Constant:
+def number(value: object, node: ast.AST) -> Constant:
     """Return a number of the source or of the module."""
     if isinstance(value, bool):
         return Constant("bool", value)
@@ -459,7 +473,7 @@ def _power(base: Expression, exponent: Expression, node: ast.AST) -> Expression:
         if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative ones raise exceptions of 0
             return Operation("float", "pow", (base, exponent))
     elif exponent.type == "float":
-        return Operation("float", "pow", (_as("float", base), exponent))
+        return Operation("float", "pow", (as_type("float", base), exponent))
     raise Foreign("a power", node)
 
 
@@ -468,7 +482,7 @@ def _common(left: Expression, right: Expression) -> Scalar:
     return left.type if _RANK[left.type] >= _RANK[right.type] else right.type
 
 
-def _as(kind: Scalar, value: Expression) -> Expression:
+def as_type(kind: Scalar, value: Expression) -> Expression:
     """Return a value in a type."""
     if value.type == kind:
         return value
@@ -477,7 +491,7 @@ def _as(kind: Scalar, value: Expression) -> Expression:
     return Operation(kind, kind, (value,))
 
 
-def _truth(value: Expression) -> Expression:
+def truth_of(value: Expression) -> Expression:
     """Return whether a value counts as true."""
     return value if value.type == "bool" else Operation("bool", "bool", (value,))
 
@@ -491,9 +505,9 @@ def _loaded(target: ast.expr) -> ast.expr:
     raise Foreign("a target of an assignment", target)
 
 
-def _returns(statements: tuple[Statement, ...]) -> bool:
+def returns(statements: tuple[Statement, ...]) -> bool:
     """Whether every path through statements ends with a return."""
     if not statements:
         return False
     last = statements[-1]
-    return isinstance(last, Return) or (isinstance(last, If) and _returns(last.then) and _returns(last.otherwise))
+    return isinstance(last, Return) or (isinstance(last, If) and returns(last.then) and returns(last.otherwise))
