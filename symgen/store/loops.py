@@ -95,17 +95,18 @@ class LoopCode(MachineCode):
         self.__dict__.update(dispatcher._cache.__dict__)
         self._dispatcher = dispatcher
         self._read: dict[Any, Function | None] = {}
-        if compiler() == "numba":  # what judges the other never takes its place
+        self._by_numba = compiler() == "numba"
+        if self._by_numba:  # what judges the other never takes its place
             self._identity = digest(self._identity, "by Numba")
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Return what the cache holds, or what was made from the source; None where the loop is Numba's to compile."""
-        found = None if compiler() == "numba" else self._direct(sig, target_context)
+        found = None if self._by_numba else self._direct(sig, target_context)
         return found if found is not None else super().load_overload(sig, target_context)
 
     def has(self, sig: Any, target_context: Any) -> bool:
         """Whether there is an entry for a signature, be it one that turns out to be spoilt."""
-        if compiler() != "numba":
+        if not self._by_numba:
             try:
                 if self._own(sig)[1].exists():
                     return True
@@ -115,7 +116,7 @@ class LoopCode(MachineCode):
 
     def is_quick(self, sig: Any) -> bool:
         """Whether machine code is made from the source, so that nobody needs to begin with it beforehand."""
-        return compiler() != "numba" and self._function(sig) is not None
+        return not self._by_numba and self._function(sig) is not None
 
     def _own(self, sig: Any) -> tuple[str, Path]:
         """Return the key of machine code made from the source, and where it is kept."""
