@@ -10,6 +10,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
@@ -33,7 +34,7 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@jit(_I8(abi.OBSERVE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _C))
+@from_its_source(_I8(abi.OBSERVE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _C))
 def measure_rows(
     observe: Any,
     times: Any,
@@ -81,7 +82,7 @@ def measure_rows(
     return 0
 
 
-@jit(_I8(abi.MEASURE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _I8, _C))
+@from_its_source(_I8(abi.MEASURE, _A, _K, _C, _I8, _K, _M, _M, _A, _A, _I8, _C))
 def gradient_rows(
     geometry: Any,
     times: Any,
