@@ -199,6 +199,7 @@ class _Printer:
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own
         if isinstance(e, lang.Choice):
             return f"{self.value(e.test, 4)} ? {self.value(e.chosen, 3)} : {self.value(e.otherwise, 3)}", 2
+        assert isinstance(e, lang.Operation), "emitted functions have no other expressions"
         return self.operation(e)
 
     def operation(self, e: lang.Operation) -> tuple[str, int]:

@@ -15,11 +15,13 @@ Scalar = Literal["float", "int", "bool"]
 
 
 class Parameter(msgspec.Struct, frozen=True, gc=False):
-    """An argument of a function: a number, or an array of numbers."""
+    """An argument of a function: a number, an array of numbers, or of loops a function by its address."""
 
     name: str
     type: Scalar
     array: bool = False
+    rank: int = 1
+    address: bool = False
 
 
 class Constant(msgspec.Struct, frozen=True, gc=False):
@@ -83,7 +85,43 @@ class Call(msgspec.Struct, frozen=True, gc=False):
     arguments: tuple[Expression | str, ...]
 
 
-Expression = Constant | Variable | Element | Operation | Logic | Choice | Call
+class Shape(msgspec.Struct, frozen=True, gc=False):
+    """The length of an array along one of its axes."""
+
+    array: str
+    axis: int = 0
+    type: Scalar = "int"
+
+
+class Invoke(msgspec.Struct, frozen=True, gc=False):
+    """A call of a function that is known by its address; arrays are handed on by name."""
+
+    type: Scalar
+    function: str
+    arguments: tuple[Expression | str, ...]
+
+
+class Insert(msgspec.Struct, frozen=True, gc=False):
+    """What a function gives that is written in LLVM's language: a piece of a compiler, by its name in machine code.
+
+    Attributes
+    ----------
+    type : {"float", "int", "bool"}
+        Type of the result.
+    symbol, text : str
+        Name and definition of the function, which takes numbers, and arrays as addresses.
+    nothing : bool
+        Whether it gives nothing.
+    """
+
+    type: Scalar
+    symbol: str
+    text: str
+    arguments: tuple[Expression | str, ...]
+    nothing: bool = False
+
+
+Expression = Constant | Variable | Element | Operation | Logic | Choice | Call | Shape | Invoke | Insert
 
 
 class Assign(msgspec.Struct, frozen=True, gc=False):
@@ -127,9 +165,35 @@ class For(msgspec.Struct, frozen=True, gc=False):
 
 
 class Leave(msgspec.Struct, frozen=True, gc=False):
-    """``break`` or ``continue`` of the innermost loop."""
+    """``break`` or ``continue`` of the innermost loop, or the end of a block."""
 
-    how: Literal["break", "continue"]
+    how: Literal["break", "continue", "block"]
+    block: int = 0
+
+
+class Block(msgspec.Struct, frozen=True, gc=False):
+    """Statements that may be left before their end: those of a function that was copied into its caller."""
+
+    number: int
+    body: tuple[Statement, ...]
+
+
+class View(msgspec.Struct, frozen=True, gc=False):
+    """Give a name to some elements of an array, from one on."""
+
+    name: str
+    array: str
+    first: Expression
+    size: Expression
+
+
+class Pick(msgspec.Struct, frozen=True, gc=False):
+    """Give a name to one of two arrays of one dimension."""
+
+    name: str
+    test: Expression
+    chosen: str
+    otherwise: str
 
 
 class Return(msgspec.Struct, frozen=True, gc=False):
@@ -141,10 +205,10 @@ class Return(msgspec.Struct, frozen=True, gc=False):
 class Evaluate(msgspec.Struct, frozen=True, gc=False):
     """A call whose result is not wanted."""
 
-    call: Call
+    call: Call | Invoke | Insert
 
 
-Statement = Assign | Store | If | While | For | Leave | Return | Evaluate
+Statement = Assign | Store | If | While | For | Leave | Return | Evaluate | Block | View | Pick
 
 
 class Function(msgspec.Struct, frozen=True, gc=False):

@@ -88,6 +88,7 @@ class FromPython:
         self._keep = keep
         self._wrapper: Any = None
         self._calls = 0
+        self.entered = False  # into a dispatcher, as a wrapper
         self.result: Any = None
 
     def __call__(self, *arguments: Any) -> Any:
@@ -98,9 +99,13 @@ class FromPython:
                 return self._direct(*arguments)
             with global_compiler_lock:
                 if self._wrapper is None:
-                    self._wrapper = _wrapper(self.result)  # the dispatcher holds no reference
+                    self._wrapper = self.wrapper()  # the dispatcher holds no reference
                     self._keep(self._wrapper)
         return self._wrapper(*arguments)
+
+    def wrapper(self, release_gil: bool = False) -> Any:
+        """Return a compiled wrapper, which may let other threads run meanwhile."""
+        return _wrapper(self.result, release_gil)
 
     @cached_property
     def _direct(self) -> Callable[..., Any]:
@@ -180,11 +185,12 @@ def result(
         fndesc=description,
         library=library,
     )
-    context.insert_user_function(entry, description, [library])
+    if kinds_of(arguments) is not None:  # nothing that Numba compiles calls a loop
+        context.insert_user_function(entry, description, [library])
     return entry.result
 
 
-def _wrapper(result: Any) -> Any:
+def _wrapper(result: Any, release_gil: bool) -> Any:
     """Return a function in machine code as one of Python."""
     description = result.fndesc
     result.target_context.refresh()
@@ -192,5 +198,5 @@ def _wrapper(result: Any) -> Any:
     context = result.target_context.subtarget(environment=environment, fndesc=description)
     library = context.codegen().create_library(f"{description.unique_name}.python")
     library.add_linking_library(rtsys.library)
-    context.create_cpython_wrapper(library, description, environment, None)
+    context.create_cpython_wrapper(library, description, environment, None, release_gil)
     return context.get_executable(library, description, environment)

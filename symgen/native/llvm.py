@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, TYPE, Values, handed, literal, slot
+from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, TYPES, Values, handed, literal, slot
 
 #: The same as one value, as functions in C's convention get it.
 _STRUCT = "{ptr, ptr, i64, i64, ptr, [1 x i64], [1 x i64]}"
@@ -37,13 +37,13 @@ def module(
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
     """
     functions, declared = _reached(function, inlined)
-    texts = [_Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
+    texts = [Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )
     texts.append(_c_function(function, symbol(function)))
     texts.extend(f"declare {_head(f, symbol(f), named=False)}" for f in declared)
-    return "\n".join([*texts, *_declarations(texts), ""])
+    return "\n".join([*texts, *declarations(texts), ""])
 
 
 def _reached(
@@ -66,7 +66,7 @@ def _key(function: lang.Function) -> object:
     return function.source, function.parameters
 
 
-def _declarations(texts: Iterable[str]) -> list[str]:
+def declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
     found = []
@@ -90,19 +90,19 @@ def _head(function: lang.Function, name: str, named: bool = True) -> str:
         if p.array:
             parts += [f"{kind} %{p.name}.{i}" if named else kind for i, kind in enumerate(ARRAY)]
         else:
-            parts.append(f"{TYPE[p.type]} %{p.name}" if named else TYPE[p.type])
+            parts.append(f"{TYPES[p.type]} %{p.name}" if named else TYPES[p.type])
     return f'i32 @"{name}"({", ".join(parts)}) nounwind'
 
 
 def _c_function(function: lang.Function, name: str) -> str:
     """Return the function in C's convention, which calls the other one."""
-    kind = TYPE[function.returned]
+    kind = TYPES[function.returned]
     lines, arguments = [f"  %.result = alloca {kind}"], ["ptr %.result", "ptr null"]
     for p in function.parameters:
         if p.array:
             lines.append(f"  %{p.name}.{DATA} = extractvalue {_STRUCT} %{p.name}, {DATA}")
         arguments += handed(p, f"%{p.name}.{DATA}" if p.array else f"%{p.name}")
-    parameters = ", ".join(f"{_STRUCT if p.array else TYPE[p.type]} %{p.name}" for p in function.parameters)
+    parameters = ", ".join(f"{_STRUCT if p.array else TYPES[p.type]} %{p.name}" for p in function.parameters)
     return "\n".join(
         [
             f'define {kind} @"cfunc.{name}"({parameters}) nounwind {{',
@@ -115,7 +115,7 @@ def _c_function(function: lang.Function, name: str) -> str:
     )
 
 
-class _Printer(Values):
+class Printer(Values):
     """Prints one function."""
 
     def __init__(
@@ -132,21 +132,33 @@ class _Printer(Values):
         f = self.function
         for name, kind in f.variables.items():
             if name not in f.fixed:
-                self.slots.append(f"  {slot(name)} = alloca {TYPE[kind]}")
-        for p in f.parameters:
-            if not p.array:
-                if p.name in f.variables:
-                    self.lines.append(f"  store {TYPE[p.type]} %{p.name}, ptr {slot(p.name)}")
-                else:
-                    self.values[p.name] = f"%{p.name}"
+                self.slots.append(f"  {slot(name)} = alloca {TYPES[kind]}")
+        self.begun()
         self.statements(f.body)
         tables = [
             f'@"{self.symbol(f)}.{name}" = private unnamed_addr constant [{len(x)} x double] '
             f"[{', '.join('double ' + literal(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
-        head = f"define {self.linkage}{_head(f, self.symbol(f))} {{"
+        head = f"define {self.linkage}{self.head()} {{"
         return "\n".join([*tables, head, ".entry:", *self.slots, *self.lines, "}"])
+
+    def head(self) -> str:
+        """Return result, name and parameters."""
+        return _head(self.function, self.symbol(self.function))
+
+    def begun(self) -> None:
+        """Print what stands before the statements."""
+        for p in self.function.parameters:
+            if not p.array:
+                self.take(p.name, p.type, f"%{p.name}")
+
+    def take(self, name: str, kind: lang.Scalar, value: str) -> None:
+        """Give an argument that is a number its name."""
+        if name in self.function.variables:
+            self.lines.append(f"  store {TYPES[kind]} {value}, ptr {slot(name)}")
+        else:
+            self.values[name] = value
 
     # -- statements
 
@@ -160,7 +172,7 @@ class _Printer(Values):
             elif isinstance(statement, lang.Store):
                 value = self.value(statement.value)
                 place = self.place(statement.array, statement.index)
-                self.lines.append(f"  store {TYPE[statement.value.type]} {value}, ptr {place}")
+                self.lines.append(f"  store {TYPES[statement.value.type]} {value}, ptr {place}")
             elif isinstance(statement, lang.Evaluate):
                 self.value(statement.call)
             elif isinstance(statement, lang.If):
@@ -171,21 +183,31 @@ class _Printer(Values):
             elif isinstance(statement, lang.For):
                 self.count_through(statement)
             elif isinstance(statement, lang.Leave):
-                self.jump(self.leaving[-1][statement.how == "break"])
+                self.leave(statement)
                 return False
             elif isinstance(statement, lang.Return):
-                kind = TYPE[statement.value.type]
+                kind = TYPES[statement.value.type]
                 self.lines.append(f"  store {kind} {self.value(statement.value)}, ptr %.result")
                 self.lines.append("  ret i32 0")
                 return False
+            elif not self.other(statement):
+                return False
         return True
+
+    def other(self, statement: lang.Statement) -> bool:
+        """Print a statement that only loops have; return whether what follows it can be reached."""
+        raise TypeError(f"emitted functions have no {type(statement).__name__}")
+
+    def leave(self, statement: lang.Leave) -> None:
+        """Print the end of a loop, or of what it repeats."""
+        self.jump(self.leaving[-1][statement.how == "break"])
 
     def assign(self, name: str, value: str) -> None:
         """Give a variable a value."""
         if name in self.function.fixed:
             self.values[name] = value
         else:
-            self.lines.append(f"  store {TYPE[self.function.variables[name]]} {value}, ptr {slot(name)}")
+            self.lines.append(f"  store {TYPES[self.function.variables[name]]} {value}, ptr {slot(name)}")
 
     def choose(self, statement: lang.If) -> bool:
         """Print a choice between statements."""

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from symgen.native import language as lang
 from symgen.native import sines
 
-TYPE = {"float": "double", "int": "i64", "bool": "i1"}
+TYPES = {"float": "double", "int": "i64", "bool": "i1"}
 #: An array: owner, parent, size, size of an element, data, shape, stride; and where data stand.
 ARRAY = ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64")
 DATA = 4
@@ -76,22 +76,26 @@ class Values:
             return literal(e.value) if e.type == "float" else str(int(e.value))
         if isinstance(e, lang.Variable):
             known = self.values.get(e.name)
-            return known if known is not None else self.put(f"load {TYPE[e.type]}, ptr {slot(e.name)}")
+            return known if known is not None else self.put(f"load {TYPES[e.type]}, ptr {slot(e.name)}")
         if isinstance(e, lang.Element):
-            return self.put(f"load {TYPE[e.type]}, ptr {self.place(e.array, e.index)}")
+            return self.put(f"load {TYPES[e.type]}, ptr {self.place(e.array, e.index)}")
         if isinstance(e, lang.Operation):
             return self.operation(e.type, e.name, e.arguments)
         if isinstance(e, lang.Call):
             return self.call(e)
         if isinstance(e, lang.Logic):
             return self.decide(e)
+        assert isinstance(e, lang.Choice), "all kinds of expressions are known"
         return self.select(e)
 
     def place(self, array: str, index: lang.Expression) -> str:
         """Return the address of an element."""
-        table = self.function.tables.get(array)
-        base = f"%{array}.{DATA}" if table is None else f'@"{self.symbol(self.function)}.{array}"'
-        return self.put(f"getelementptr double, ptr {base}, i64 {self.value(index)}")
+        return self.put(f"getelementptr double, ptr {self.base(array)}, i64 {self.value(index)}")
+
+    def base(self, array: str) -> str:
+        """Return the address of an array."""
+        constant = array in self.function.tables
+        return f'@"{self.symbol(self.function)}.{array}"' if constant else f"%{array}.{DATA}"
 
     def operation(self, kind: lang.Scalar, name: str, arguments: tuple[lang.Expression, ...]) -> str:
         """Print an operation."""
@@ -106,19 +110,21 @@ class Values:
         if name in _COMPARED["float"]:
             flag = " contract" if first == "float" else ""
             compare = "fcmp" if first == "float" else "icmp"
-            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPE[first]} {', '.join(values)}")
+            return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPES[first]} {', '.join(values)}")
         if name in ("min", "max"):
             return self.least(kind, name, values)
         if kind == "float" and name in _FLOATS:
             return self.put(f"{_FLOATS[name]} contract double {values[0]}, {values[1]}")
         if name in _INTS:
-            return self.put(f"{_INTS[name]} {TYPE[kind]} {values[0]}, {values[1]}")
+            return self.put(f"{_INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
         if name in ("float", "int", "bool"):
             return self.converted(first, name, values[0])
         if name == "not":
             return self.put(f"xor i1 {values[0]}, true")
         if name == "neg":
             return self.put(f"fsub contract double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}")
+        if name in ("quotient", "rest"):
+            return self.quotient(values[0], values[1], rest_wanted=name == "rest")
         if name in ("floordiv", "mod"):
             return self.divided(name, *values)
         if name == "abs" and kind == "int":
@@ -130,8 +136,8 @@ class Values:
         """Print the least or greatest of two values: as in Python, the first where they do not compare."""
         sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
         compare = "fcmp contract" if kind == "float" else "icmp"
-        test = self.put(f"{compare} {sign} {TYPE[kind]} {values[1]}, {values[0]}")
-        return self.put(f"select i1 {test}, {TYPE[kind]} {values[1]}, {TYPE[kind]} {values[0]}")
+        test = self.put(f"{compare} {sign} {TYPES[kind]} {values[1]}, {values[0]}")
+        return self.put(f"select i1 {test}, {TYPES[kind]} {values[1]}, {TYPES[kind]} {values[0]}")
 
     def product(self, base: str, exponent: int) -> str:
         """Print a power as products, by squaring."""
@@ -151,6 +157,17 @@ class Values:
             return self.put(f"select i1 {below}, i64 {self.put(f'add i64 {rest}, {divisor}')}, i64 {rest}")
         quotient = self.put(f"sdiv i64 {value}, {divisor}")
         return self.put(f"select i1 {below}, i64 {self.put(f'sub i64 {quotient}, 1')}, i64 {quotient}")
+
+    def quotient(self, value: str, divisor: str, *, rest_wanted: bool) -> str:
+        """Print quotient or rest of a division by any integer, rounded downwards; those by 0 are 0."""
+        none = self.put(f"icmp eq i64 {divisor}, 0")
+        divisor = self.put(f"select i1 {none}, i64 1, i64 {divisor}")
+        quotient, rest = self.put(f"sdiv i64 {value}, {divisor}"), self.put(f"srem i64 {value}, {divisor}")
+        signs = self.put(f"icmp slt i64 {self.put(f'xor i64 {rest}, {divisor}')}, 0")
+        below = self.put(f"and i1 {signs}, {self.put(f'icmp ne i64 {rest}, 0')}")
+        other = f"add i64 {rest}, {divisor}" if rest_wanted else f"sub i64 {quotient}, 1"
+        found = self.put(f"select i1 {below}, i64 {self.put(other)}, i64 {rest if rest_wanted else quotient}")
+        return self.put(f"select i1 {none}, i64 0, i64 {found}")
 
     def converted(self, before: lang.Scalar, after: str, value: str) -> str:
         """Print a conversion."""
@@ -185,7 +202,7 @@ class Values:
     def call(self, e: lang.Call) -> str:
         """Print a call of another function."""
         f = e.function
-        kind = TYPE[f.returned]
+        kind = TYPES[f.returned]
         self.count += 1
         result = f"%.result{self.count}"
         self.slots.append(f"  {result} = alloca {kind}")
@@ -219,13 +236,13 @@ class Values:
             parts.append(f"[{value}, %{self.label}]")
             self.jump(end)
         self.begin(end)
-        return self.put(f"phi {TYPE[e.type]} {', '.join(parts)}")
+        return self.put(f"phi {TYPES[e.type]} {', '.join(parts)}")
 
 
 def handed(parameter: lang.Parameter, value: str) -> list[str]:
     """Return an argument of a call; of an array the address of its elements, the rest being unused."""
     if not parameter.array:
-        return [f"{TYPE[parameter.type]} {value}"]
+        return [f"{TYPES[parameter.type]} {value}"]
     return [f"{kind} {value if i == DATA else 'undef'}" for i, kind in enumerate(ARRAY)]
 
 

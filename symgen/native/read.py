@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from symgen.native import language as lang
-from symgen.native.read_values import ARITHMETIC, Foreign, Kind, Values, converted
+from symgen.native.read_values import Foreign, Kind, Values, as_type
 
 __all__ = ["Definition", "Foreign", "Kind", "read"]
 
@@ -45,10 +45,10 @@ def read(
         raise Foreign(f"the function '{function.__name__}'")
     if function in reading:
         raise Foreign(f"the function '{function.__name__}' calls itself", tree)
-    return _Reader(function, tree, kinds, definition, (*reading, function)).function()
+    return Reader(function, tree, kinds, definition, (*reading, function)).function()
 
 
-class _Reader(Values):
+class Reader(Values):
     """Reads one function."""
 
     def __init__(
@@ -81,7 +81,7 @@ class _Reader(Values):
         if body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
             body = body[1:]  # the docstring
         statements = self.statements(body)
-        if not _returns(statements) or len(self.returned) != 1:
+        if not returns(statements) or len(self.returned) != 1:
             raise Foreign("paths that return nothing, or different types", self.tree)
         (returned,) = self.returned
         if returned == "bool":
@@ -120,11 +120,10 @@ class _Reader(Values):
         if isinstance(node, ast.Assign):
             return self.assignment(node)
         if isinstance(node, ast.AugAssign):
-            sign = ARITHMETIC.get(type(node.op))
-            if sign is None:
-                raise Foreign("an operation", node)
             before = self.expression(_loaded(node.target))
-            return [self.store(node.target, self.arithmetic(sign, before, self.expression(node.value), node))]
+            return [
+                self.store(node.target, self.arithmetic(self.sign(node), before, self.expression(node.value), node))
+            ]
         if isinstance(node, ast.Return):
             if node.value is None:
                 raise Foreign("a return without value", node)
@@ -181,7 +180,7 @@ class _Reader(Values):
                 raise Foreign("an element of a constant", target)
             if kind == "int" and value.type == "float":
                 raise Foreign("a float in an array of integers", target)
-            return lang.Store(array, index, converted(kind, value))
+            return lang.Store(array, index, as_type(kind, value))
         raise Foreign("a target of an assignment", target)
 
     def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
@@ -221,11 +220,11 @@ def _loaded(target: ast.expr) -> ast.expr:
     raise Foreign("a target of an assignment", target)
 
 
-def _returns(statements: tuple[lang.Statement, ...]) -> bool:
+def returns(statements: tuple[lang.Statement, ...]) -> bool:
     """Whether every path through statements ends with a return."""
     if not statements:
         return False
     last = statements[-1]
     return isinstance(last, lang.Return) or (
-        isinstance(last, lang.If) and _returns(last.then) and _returns(last.otherwise)
+        isinstance(last, lang.If) and returns(last.then) and returns(last.otherwise)
     )

@@ -7,7 +7,7 @@ import builtins
 import math
 import types
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, cast
 
 from symgen.native import language as lang
@@ -18,8 +18,8 @@ FUNCTIONS = {
     **dict.fromkeys(("atan2", "copysign", "pow"), 2),
 }
 _INTEGER = ("floor", "ceil")
-ARITHMETIC = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.FloorDiv: "floordiv"}
-ARITHMETIC |= {ast.Mod: "mod", ast.Pow: "pow", ast.BitAnd: "and", ast.BitOr: "or"}
+_ARITHMETIC = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.FloorDiv: "floordiv"}
+_ARITHMETIC |= {ast.Mod: "mod", ast.Pow: "pow", ast.BitAnd: "and", ast.BitOr: "or"}
 _COMPARISONS = {ast.Lt: "lt", ast.LtE: "le", ast.Gt: "gt", ast.GtE: "ge", ast.Eq: "eq", ast.NotEq: "ne"}
 _RANK = {"bool": 0, "int": 1, "float": 2}
 #: Powers with a literal exponent become products up to this one.
@@ -69,11 +69,12 @@ class Values(ABC):
         method = self._expressions.get(type(node))
         if method is None:
             raise Foreign(f"an expression '{type(node).__name__}'", node)
-        return method(self, node)
+        found: lang.Expression = getattr(self, method)(node)
+        return found
 
     def constant(self, node: ast.Constant) -> lang.Expression:
         """Return a literal."""
-        return _number(node.value, node)
+        return number(node.value, node)
 
     def name(self, node: ast.Name) -> lang.Expression:
         """Return a variable, an argument, or a number of the module."""
@@ -84,7 +85,7 @@ class Values(ABC):
             return lang.Variable(self.numbers[name], name)
         if name in self.locals or name not in self.globals:
             raise Foreign(f"the name '{name}'", node)
-        return _number(self.globals[name], node)
+        return number(self.globals[name], node)
 
     def attribute(self, node: ast.Attribute) -> lang.Expression:
         """Return a constant of ``math``."""
@@ -112,7 +113,7 @@ class Values(ABC):
         """Return an operation on one value."""
         value = self.expression(node.operand)
         if isinstance(node.op, ast.Not):
-            return lang.Operation("bool", "not", (_truth(value),))
+            return lang.Operation("bool", "not", (truth_of(value),))
         if isinstance(node.op, ast.UAdd) and value.type != "bool":
             return value
         if isinstance(node.op, ast.USub) and value.type != "bool":
@@ -123,10 +124,15 @@ class Values(ABC):
 
     def binary(self, node: ast.BinOp) -> lang.Expression:
         """Return an operation on two values."""
-        sign = ARITHMETIC.get(type(node.op))
+        sign = self.sign(node)
+        return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
+
+    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+        """Return what an operation is called."""
+        sign = _ARITHMETIC.get(type(node.op))
         if sign is None:
             raise Foreign("an operation", node)
-        return self.arithmetic(sign, self.expression(node.left), self.expression(node.right), node)
+        return sign
 
     def arithmetic(self, sign: str, left: lang.Expression, right: lang.Expression, node: ast.AST) -> lang.Expression:
         """Return an operation on two values of one type."""
@@ -139,16 +145,21 @@ class Values(ABC):
         kind: lang.Scalar = "float" if "float" in (left.type, right.type) or sign == "div" else "int"
         if sign in ("floordiv", "mod") and (kind != "int" or not isinstance(right, lang.Constant) or right.value <= 0):
             raise Foreign("a division with rest", node)
-        return lang.Operation(kind, sign, (converted(kind, left), converted(kind, right)))
+        return lang.Operation(kind, sign, (as_type(kind, left), as_type(kind, right)))
 
     def comparison(self, node: ast.Compare) -> lang.Expression:
         """Return a comparison of two values."""
-        sign = _COMPARISONS.get(type(node.ops[0]))
-        if sign is None or len(node.ops) > 1:
+        if len(node.ops) > 1:
             raise Foreign("a comparison", node)
-        left, right = self.expression(node.left), self.expression(node.comparators[0])
+        return self.compared(node.ops[0], self.expression(node.left), self.expression(node.comparators[0]), node)
+
+    def compared(self, op: ast.cmpop, left: lang.Expression, right: lang.Expression, node: ast.AST) -> lang.Expression:
+        """Return a comparison of two values in one type."""
+        sign = _COMPARISONS.get(type(op))
+        if sign is None:
+            raise Foreign("a comparison", node)
         kind = _common(left, right)
-        return lang.Operation("bool", sign, (converted(kind, left), converted(kind, right)))
+        return lang.Operation("bool", sign, (as_type(kind, left), as_type(kind, right)))
 
     def logic(self, node: ast.BoolOp) -> lang.Expression:
         """Return ``and`` or ``or`` of booleans."""
@@ -162,14 +173,20 @@ class Values(ABC):
     def choice(self, node: ast.IfExp) -> lang.Expression:
         """Return one of two values."""
         test, chosen, otherwise = self.truth(node.test), self.expression(node.body), self.expression(node.orelse)
+        return self.chosen(test, chosen, otherwise, node)
+
+    def chosen(
+        self, test: lang.Expression, chosen: lang.Expression, otherwise: lang.Expression, node: ast.AST
+    ) -> lang.Expression:
+        """Return one of two values in one type."""
         if chosen.type != otherwise.type and "bool" in (chosen.type, otherwise.type):
             raise Foreign("a choice between a boolean and a number", node)
         kind = _common(chosen, otherwise)
-        return lang.Choice(kind, test, converted(kind, chosen), converted(kind, otherwise))
+        return lang.Choice(kind, test, as_type(kind, chosen), as_type(kind, otherwise))
 
     def truth(self, node: ast.expr) -> lang.Expression:
         """Return whether an expression counts as true."""
-        return _truth(self.expression(node))
+        return truth_of(self.expression(node))
 
     def call(self, node: ast.Call) -> lang.Expression:
         """Return what a function gives."""
@@ -182,7 +199,7 @@ class Values(ABC):
             name = node.func.attr
             if FUNCTIONS.get(name) != len(node.args):
                 raise Foreign(f"the function 'math.{name}'", node)
-            values = tuple(converted("float", self.expression(x)) for x in node.args)
+            values = tuple(as_type("float", self.expression(x)) for x in node.args)
             return lang.Operation("int" if name in _INTEGER else "float", f"math.{name}", values)
         if not isinstance(node.func, ast.Name) or node.func.id in self.variables:
             raise Foreign("a call", node)
@@ -208,14 +225,14 @@ class Values(ABC):
                 kind = _common(first, value)
                 if kind == "bool":
                     raise Foreign("the least of booleans", node)
-                first = lang.Operation(kind, name, (converted(kind, first), converted(kind, value)))
+                first = lang.Operation(kind, name, (as_type(kind, first), as_type(kind, value)))
             return first
         if len(values) == 1:
             (value,) = values
             if name == "abs" and value.type != "bool":
                 return lang.Operation(value.type, "abs", (value,))
             if name in ("float", "int"):
-                return converted(cast("lang.Scalar", name), value)
+                return as_type(cast("lang.Scalar", name), value)
         raise Foreign(f"the function '{name}'", node)
 
     def builtin(self, node: ast.expr) -> str | None:
@@ -228,21 +245,21 @@ class Values(ABC):
         """Whether something is an attribute of the module ``math``."""
         return isinstance(node.value, ast.Name) and self.globals.get(node.value.id) is math
 
-    _expressions: Mapping[type, Callable[[Values, Any], lang.Expression]] = {
-        ast.Constant: constant,
-        ast.Name: name,
-        ast.Attribute: attribute,
-        ast.Subscript: element,
-        ast.UnaryOp: unary,
-        ast.BinOp: binary,
-        ast.Compare: comparison,
-        ast.BoolOp: logic,
-        ast.IfExp: choice,
-        ast.Call: call,
+    _expressions: Mapping[type, str] = {
+        ast.Constant: "constant",
+        ast.Name: "name",
+        ast.Attribute: "attribute",
+        ast.Subscript: "element",
+        ast.UnaryOp: "unary",
+        ast.BinOp: "binary",
+        ast.Compare: "comparison",
+        ast.BoolOp: "logic",
+        ast.IfExp: "choice",
+        ast.Call: "call",
     }
 
 
-def _number(value: object, node: ast.AST) -> lang.Constant:
+def number(value: object, node: ast.AST) -> lang.Constant:
     """Return a number of the source or of the module."""
     if isinstance(value, bool):
         return lang.Constant("bool", value)
@@ -267,7 +284,7 @@ def _power(base: lang.Expression, exponent: lang.Expression, node: ast.AST) -> l
         if base.type == "float" and 0 <= exponent.value <= _LARGEST_EXPONENT:  # negative ones raise exceptions of 0
             return lang.Operation("float", "pow", (base, exponent))
     elif exponent.type == "float":
-        return lang.Operation("float", "pow", (converted("float", base), exponent))
+        return lang.Operation("float", "pow", (as_type("float", base), exponent))
     raise Foreign("a power", node)
 
 
@@ -276,7 +293,7 @@ def _common(left: lang.Expression, right: lang.Expression) -> lang.Scalar:
     return left.type if _RANK[left.type] >= _RANK[right.type] else right.type
 
 
-def converted(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
+def as_type(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
     """Return a value in a type."""
     if value.type == kind:
         return value
@@ -285,6 +302,6 @@ def converted(kind: lang.Scalar, value: lang.Expression) -> lang.Expression:
     return lang.Operation(kind, kind, (value,))
 
 
-def _truth(value: lang.Expression) -> lang.Expression:
+def truth_of(value: lang.Expression) -> lang.Expression:
     """Return whether a value counts as true."""
     return value if value.type == "bool" else lang.Operation("bool", "bool", (value,))

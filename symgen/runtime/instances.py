@@ -17,6 +17,7 @@ from numba import njit
 from numba.extending import _Intrinsic as Intrinsic
 
 from symgen.store.jit import jit
+from symgen.store.loops import from_source
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 #: Makes a compiled function of a copy; the original, a plain or a compiled function, says what kind it was.
@@ -72,7 +73,7 @@ def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any)
     """
     copy = Instances(meanings, part).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
-    return jit(signature)(copy)
+    return from_source(jit(signature)(copy))
 
 
 class Instances:

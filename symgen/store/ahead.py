@@ -37,10 +37,13 @@ def start(function: Any) -> bool:
     Returns
     -------
     bool
-        False where there is nothing to do or to gain: compiled or cached already, no cache, or a single processor.
+        False where there is nothing to do or to gain: compiled or cached already or quickly compiled, no cache, or a
+        single processor.
     """
     wanting = getattr(function, "wanting", None)
     if wanting is None or not wanting() or not cache_location().persistent or _processors() < 2 or not _is_python():
+        return False
+    if function.is_quick():
         return False
     name = _name(function)
     if name not in _running:

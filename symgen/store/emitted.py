@@ -95,7 +95,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         InputError
             If the environment names no compiler.
         """
-        if _compiler() == "numba":
+        if compiler() == "numba":
             attach(dispatcher, f"{origin.stamp} by Numba")  # what judges the other never takes its place in the cache
             return
         attach(dispatcher, origin.stamp)
@@ -103,7 +103,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
             # An object of its own would take as long to make as all else that loading does with a function.
             dispatcher.__class__ = cls
             dispatcher._origin, dispatcher._symbols, dispatcher._foreign = origin, {}, set()
-            dispatcher._together = _compiler() != "libm"
+            dispatcher._together = compiler() != "libm"
 
     def compile(self, sig: Any) -> Any:
         """Compile a signature, or load it from the cache."""
@@ -221,7 +221,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
 
     def _leave(self, why: str) -> _Entry | None:
         """Say, if that is wanted, why the function is left to Numba."""
-        if _compiler() == "explain":
+        if compiler() == "explain":
             print(f"{self.__module__}.{self.__name__} is left to Numba: {why}", file=sys.stderr)
         return None
 
@@ -268,7 +268,7 @@ def _content(path: Path) -> bytes:
     return path.read_bytes()
 
 
-def _compiler() -> str:
+def compiler() -> str:
     """Return the compiler that the environment names."""
     name = os.environ.get(COMPILER) or _COMPILERS[0]
     if name not in _COMPILERS:

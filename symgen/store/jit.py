@@ -165,10 +165,10 @@ def _decorate(function: Any, signatures: tuple[Any, ...], options: dict[str, Any
     if not isinstance(eager, CPUDispatcher):  # NUMBA_DISABLE_JIT=1
         return eager
     attach(eager)
-    return _LazySignatures.of(eager, signatures) if signatures else eager
+    return LazySignatures.of(eager, signatures) if signatures else eager
 
 
-class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
+class LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
     """A dispatcher for given signatures only, which are compiled when it is first called or asked for them.
 
     The compiled code is made by an ordinary dispatcher and then entered here. Compilation stays switched off in this
@@ -181,7 +181,7 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
     _busy: bool
 
     @classmethod
-    def of(cls, eager: Any, signatures: tuple[Any, ...]) -> _LazySignatures:
+    def of(cls, eager: Any, signatures: tuple[Any, ...]) -> LazySignatures:
         self = cls(eager.py_func, targetoptions=eager.targetoptions)
         self._eager, self._signatures, self._ready, self._busy = eager, signatures, False, False
         self._can_compile = False
@@ -193,6 +193,11 @@ class _LazySignatures(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         return not self._ready and not all(
             isinstance(cache, MachineCode) and cache.has(signature, self.targetctx) for signature in self._signatures
         )
+
+    def is_quick(self) -> bool:
+        """Whether signatures are compiled so fast that nobody needs to begin with it beforehand."""
+        quick = getattr(self._eager._cache, "is_quick", None)
+        return quick is not None and all(quick(signature) for signature in self._signatures)
 
     def open(self) -> bool:
         """Compile or load the signatures if that has not happened; True if a failed look-up is worth repeating."""

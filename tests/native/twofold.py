@@ -165,8 +165,14 @@ def differences(direct: Any, plain: Any, arguments: Sequence[Any], size: int, ro
 
 def apart(*words: str) -> str:
     """Return what `native.judge` says in a process where nothing can be contracted; see `test_judge`."""
-    command = [sys.executable, "-m", "native.judge", *words]
-    environment = {**os.environ, "NUMBA_CPU_NAME": "generic", "PYTHONPATH": str(TESTS)}
-    done = subprocess.run(command, cwd=TESTS, env=environment, capture_output=True, text=True, check=False)
+    return process("native.judge", *words).stdout.strip()
+
+
+def process(module: str, *words: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    """Run a module of the tests where nothing can be contracted, with these variables in its environment."""
+    path = os.pathsep.join(filter(None, (str(TESTS), os.environ.get("PYTHONPATH"))))
+    given = {**os.environ, "NUMBA_CPU_NAME": "generic", "PYTHONPATH": path, **environment}
+    command = [sys.executable, "-m", module, *words]
+    done = subprocess.run(command, cwd=TESTS, env=given, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
-    return done.stdout.strip()
+    return done

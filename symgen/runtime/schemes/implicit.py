@@ -138,12 +138,12 @@ def attempt(
             return _DIVERGED
     if n > first + sizes.m:
         # multipliers of index 2 are of lower order than the state: these rates come from the law's own
-        rate = part(run.room, 0, sizes.width)
+        of_law = part(run.room, 0, sizes.width)
         for s in range(s_count):
             stage_state(system, scheme, run, h, s, k, rates)
-            evaluate(system, run, t + scheme.c[s] * h, run.trial, rate)
+            evaluate(system, run, t + scheme.c[s] * h, run.trial, of_law)
             for i in range(more):
-                rates[s * more + i] = rate[first + i]
+                rates[s * more + i] = of_law[first + i]
         run.control[_EVALUATIONS] += s_count
     copied(sizes.width, run.y, run.trial)
     for s in range(s_count):

@@ -1,0 +1,189 @@
+"""Loops of `symgen.native.loops` as text for LLVM: as `symgen.native.llvm`, with what emitted functions do not have."""
+
+from __future__ import annotations
+
+from symgen.native import language as lang
+from symgen.native.llvm import Printer, declarations
+from symgen.native.llvm_values import TYPES
+
+#: Parts of an argument as Numba hands it on: an array of one dimension and of two, a function. Of these are used: the
+#: address of the elements and the lengths, and the address in Numba's convention.
+_ARRAYS = {
+    1: ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64"),
+    2: ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64", "i64", "i64"),
+}
+_DATA, _SHAPE = 4, 5
+_ADDRESS = ("ptr", "ptr", "ptr")
+_JIT = 2
+#: What a function returns for which something in Python was not as it should be.
+_FAILED = -1
+
+
+def loop_module(function: lang.Function, symbol: str) -> str:
+    """Return the text of a module that defines a loop in Numba's convention, with the parts that it calls.
+
+    Parameters
+    ----------
+    function : Function
+        From `symgen.native.loops`.
+    symbol : str
+        Its name in machine code.
+    """
+    names: dict[int, str] = {id(function): symbol}
+    waiting, functions, inserted = [function], list[lang.Function](), dict[str, str]()
+    while waiting:
+        each = waiting.pop(0)
+        functions.append(each)
+        for called in each.called:
+            if id(called) not in names:
+                names[id(called)] = f"{symbol}.{len(names)}.{called.name}"
+                waiting.append(called)
+    texts = []
+    for each in functions:
+        printer = LoopPrinter(each, names, each is function)
+        texts.append(printer.text())
+        inserted |= printer.inserted
+    known: dict[str, None] = {}
+    for text in inserted.values():
+        lines = text.splitlines()
+        known |= dict.fromkeys(line for line in lines if line.startswith("declare "))
+        texts.append("\n".join(line for line in lines if not line.startswith("declare ")))
+    return "\n".join([*texts, *known, *declarations(texts), ""])
+
+
+class LoopPrinter(Printer):
+    """Prints a loop or a part that is called."""
+
+    def __init__(self, function: lang.Function, names: dict[int, str], outermost: bool) -> None:
+        super().__init__(function, lambda f: names[id(f)], "" if outermost else "internal ", together=False)
+        self.outermost = outermost
+        self.views: dict[str, tuple[str, tuple[str, ...]]] = {}  # address and lengths of arrays
+        self.blocks: dict[int, str] = {}  # labels behind blocks
+        self.inserted: dict[str, str] = {}
+        for p in function.parameters:
+            if p.array:
+                lengths = tuple(f'%"{p.name}.{_SHAPE + i}"' for i in range(p.rank))
+                self.views[p.name] = f'%"{p.name}.{_DATA}"', lengths
+
+    def head(self) -> str:
+        """Return result, name and parameters."""
+        parts = ["ptr noalias %.result", "ptr noalias %.exception"]
+        for p in self.function.parameters:
+            if p.array:
+                kinds = dict(enumerate(_ARRAYS[p.rank]))
+                used = range(_DATA, _SHAPE + p.rank)
+                parts += [f'{k} %"{p.name}.{i}"' for i, k in kinds.items() if self.outermost or i in used]
+            elif p.address:
+                parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(_ADDRESS) if self.outermost or i == _JIT]
+            else:
+                parts.append(f'{TYPES[p.type]} %"{p.name}"')
+        return f'i32 @"{self.symbol(self.function)}"({", ".join(parts)}) nounwind'
+
+    def begun(self) -> None:
+        """Print what stands before the statements: functions that have no address in Numba's convention are refused."""
+        for p in self.function.parameters:
+            if not p.array and not p.address:
+                self.take(p.name, p.type, f'%"{p.name}"')
+            elif p.address and self.outermost:
+                yes, no = self.labels("none", "some")
+                self.branch(self.put(f'icmp eq ptr %"{p.name}.{_JIT}", null'), yes, no)
+                self.begin(yes)
+                self.lines.append(f"  ret i32 {_FAILED}")
+                self.begin(no)
+
+    # -- statements
+
+    def other(self, statement: lang.Statement) -> bool:
+        """Print a statement that emitted functions do not have; return whether what follows it can be reached."""
+        if isinstance(statement, lang.Block):
+            (end,) = self.labels("end")
+            self.blocks[statement.number] = end
+            if self.statements(statement.body):
+                self.jump(end)
+            self.begin(end)
+            return True
+        if isinstance(statement, lang.View):
+            data = self.views[statement.array][0]
+            first, size = self.value(statement.first), self.value(statement.size)
+            self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), (size,)
+            return True
+        assert isinstance(statement, lang.Pick), "all kinds of statements are known"
+        test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
+        data = self.put(f"select i1 {test}, ptr {a}, ptr {b}")
+        self.views[statement.name] = data, (self.put(f"select i1 {test}, i64 {m[0]}, i64 {n[0]}"),)
+        return True
+
+    def leave(self, statement: lang.Leave) -> None:
+        """Print the end of a loop, of what it repeats, or of a block."""
+        if statement.how == "block":
+            self.jump(self.blocks[statement.block])
+        else:
+            super().leave(statement)
+
+    # -- values
+
+    def base(self, array: str) -> str:
+        """Return the address of an array."""
+        return self.views[array][0] if array in self.views else super().base(array)
+
+    def value(self, e: lang.Expression) -> str:
+        """Print what an expression needs and return its value."""
+        if isinstance(e, lang.Shape):
+            return self.views[e.array][1][e.axis]
+        if isinstance(e, lang.Invoke):
+            return self.invoke(e)
+        if isinstance(e, lang.Insert):
+            return self.insert(e)
+        return super().value(e)
+
+    def insert(self, e: lang.Insert) -> str:
+        """Print a call of what a piece of a compiler does."""
+        self.inserted[e.symbol] = e.text
+        parts = []
+        for argument in e.arguments:
+            if isinstance(argument, str):
+                parts.append(f"ptr {self.views[argument][0]}")
+            else:
+                parts.append(f"{TYPES[argument.type]} {self.value(argument)}")
+        text = f'@"{e.symbol}"({", ".join(parts)})'
+        if e.nothing:
+            self.lines.append(f"  call void {text}")
+            return ""
+        return self.put(f"call {TYPES[e.type]} {text}")
+
+    def invoke(self, e: lang.Invoke) -> str:
+        """Print a call of a function by its address."""
+        parts = []
+        for argument in e.arguments:
+            if isinstance(argument, str):
+                data, (n,) = self.views[argument]
+                parts += ["ptr null", "ptr null", f"i64 {n}", "i64 8", f"ptr {data}", f"i64 {n}", "i64 8"]
+            else:
+                parts.append(f"{TYPES[argument.type]} {self.value(argument)}")
+        return self.called(f'%"{e.function}.{_JIT}"', e.type, parts)
+
+    def call(self, e: lang.Call) -> str:
+        """Print a call of a part."""
+        parts = []
+        for p, argument in zip(e.function.parameters, e.arguments, strict=True):
+            if isinstance(argument, str) and p.array:
+                data, lengths = self.views[argument]
+                parts += [f"ptr {data}", *(f"i64 {n}" for n in lengths)]
+            elif isinstance(argument, str):
+                parts.append(f'ptr %"{argument}.{_JIT}"')
+            else:
+                parts.append(f"{TYPES[p.type]} {self.value(argument)}")
+        return self.called(f'@"{self.symbol(e.function)}"', e.function.returned, parts)
+
+    def called(self, function: str, kind: lang.Scalar, parts: list[str]) -> str:
+        """Print a call; where the function has failed, this one fails."""
+        self.count += 1
+        result = f"%.result{self.count}"
+        self.slots.append(f"  {result} = alloca {TYPES[kind]}")
+        status = self.put(f"call i32 {function}({', '.join((f'ptr {result}', 'ptr %.exception', *parts))})")
+        failed, done = self.labels("failed", "done")
+        self.branch(self.put(f"icmp eq i32 {status}, 0"), done, failed)
+        self.begin(failed)
+        self.lines.append(f"  ret i32 {status}")
+        self.begin(done)
+        return self.put(f"load {TYPES[kind]}, ptr {result}")

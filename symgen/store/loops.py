@@ -1,0 +1,225 @@
+"""Loops of the runtime put into machine code without Numba's front end, where they are plain enough.
+
+A loop is entered and cached as one that Numba compiles; what makes its machine code is `symgen.native.loops`, in a
+tenth of the time, with the operations that Numba would put. Where something in it is not in that language, or Numba is
+not as expected, Numba compiles it. `symgen.store.emitted.COMPILER` says which of the two is wanted.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import marshal
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from numba.core import event, sigutils
+from numba.core.compiler_lock import global_compiler_lock
+from numba.core.registry import CPUDispatcher
+
+from symgen.native.library import Library, result
+from symgen.native.machine import codegen, compiled, load
+from symgen.store import private
+from symgen.store.emitted import compiler
+from symgen.store.identity import NotDescribable, digest, sources_digest, type_text
+from symgen.store.jit import LazySignatures, Loading, MachineCode, environment
+from symgen.store.paths import cache_location
+from symgen.store.stats import counters
+
+if TYPE_CHECKING:
+    from symgen.native.language import Function
+
+#: How parts of loops are compiled; with other options the loop is Numba's to compile.
+_OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}}
+
+
+def from_source(loop: Any) -> Any:
+    """Have a compiled loop made from its source, where that can be; return it.
+
+    Parameters
+    ----------
+    loop : Dispatcher
+        Made by ``symgen.store.jit.jit`` with signatures; the plain function where nothing is compiled.
+    """
+    eager = getattr(loop, "_eager", None)
+    if eager is not None and isinstance(eager._cache, MachineCode):
+        eager._cache = LoopCode(eager)
+        loop.__class__, eager.__class__ = _Loop, _Eager
+    return loop
+
+
+class _Eager(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
+    """What makes the machine code of a loop."""
+
+    def add_overload(self, result: Any) -> None:
+        """Enter a result; what comes from the source is not called from Python through this dispatcher."""
+        if isinstance(result.library, Library):
+            self.overloads[tuple(result.signature.args)] = result
+        else:
+            super().add_overload(result)
+
+
+class _Loop(LazySignatures):
+    """A loop, which is entered by its address; a wrapper for calls from Python is made when there is such a call."""
+
+    def add_overload(self, result: Any) -> None:
+        """Enter a result."""
+        if isinstance(result.library, Library):
+            self.overloads[tuple(result.signature.args)] = result
+        else:
+            super().add_overload(result)
+
+    def _search_new_conversions(self, *args: Any, **kws: Any) -> bool:
+        with global_compiler_lock:
+            found = bool(super()._search_new_conversions(*args, **kws))
+            for result in self.overloads.values():
+                if isinstance(result.library, Library) and not result.entry_point.entered:
+                    result.entry_point.entered = True
+                    codes = [argument._code for argument in result.signature.args]
+                    self._insert(codes, result.entry_point.wrapper(release_gil=True), False)
+                    found = True
+        return found
+
+
+class LoopCode(MachineCode):
+    """The cache of a loop, which makes what it does not hold.
+
+    Parameters
+    ----------
+    dispatcher : Dispatcher
+        With a cache for what Numba compiles.
+    """
+
+    def __init__(self, dispatcher: Any) -> None:
+        self.__dict__.update(dispatcher._cache.__dict__)
+        self._dispatcher = dispatcher
+        self._read: dict[Any, Function | None] = {}
+        self._by_numba = compiler() == "numba"
+        if self._by_numba:  # what judges the other never takes its place
+            self._identity = digest(self._identity, "by Numba")
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Return what the cache holds, or what was made from the source; None where the loop is Numba's to compile."""
+        found = None if self._by_numba else self._direct(sig, target_context)
+        return found if found is not None else super().load_overload(sig, target_context)
+
+    def has(self, sig: Any, target_context: Any) -> bool:
+        """Whether there is an entry for a signature, be it one that turns out to be spoilt."""
+        if not self._by_numba:
+            try:
+                if self._own(sig)[1].exists():
+                    return True
+            except NotDescribable:
+                return False
+        return super().has(sig, target_context)
+
+    def is_quick(self, sig: Any) -> bool:
+        """Whether machine code is made from the source, so that nobody needs to begin with it beforehand."""
+        return not self._by_numba and self._function(sig) is not None
+
+    def _own(self, sig: Any) -> tuple[str, Path]:
+        """Return the key of machine code made from the source, and where it is kept."""
+        arguments, returned = sigutils.normalize_signature(sig)
+        signature = ", ".join(type_text(argument) for argument in arguments) + f" -> {type_text(returned)}"
+        parts = (self._name, self._identity, signature, repr(codegen().magic_tuple()), environment())
+        key = "\n".join(("from the source", *parts, sources_digest("native")))
+        return key, Path(self.cache_path) / f"{self._stem}-{digest(key)[:32]}{private.SUFFIX}"
+
+    def _direct(self, sig: Any, target_context: Any) -> Any:
+        """Return machine code made from the source, None where there is none."""
+        try:
+            key, path = self._own(sig)
+        except NotDescribable:
+            return None
+        symbol = f"_ZN6symgen{32 + len(self._stem)}{self._stem}{digest(key)[:32]}E"
+        persistent = cache_location().persistent
+        with Loading() as clock:
+            data = private.read(path, key) if persistent else None
+            if data is not None:
+                clock.loaded = True
+                counters["hits"] += 1
+                return self._result(sig, symbol, marshal.loads(data))
+        if persistent and super().has(sig, target_context):
+            return None  # as it turned out to be in another process
+        with event.trigger_event("numba:compile", data={"dispatcher": self._dispatcher, "args": sig}):
+            code = self._made(sig, symbol)
+            if code is None:
+                counters["foreign"] += 1
+                return None
+            if persistent:
+                private.write(path, key, marshal.dumps(code))
+            counters["misses"] += 1
+            counters["translated"] += 1
+            return self._result(sig, symbol, code)
+
+    def _function(self, sig: Any) -> Function | None:
+        """Return the loop in the language of `symgen.native`, None if it is not in the language."""
+        from symgen.native import internals
+        from symgen.native.loops import read_loop
+        from symgen.native.read import Foreign
+
+        if sig not in self._read:
+            try:
+                if not internals.usable():
+                    raise Foreign("Numba is not as expected, or asked to check or to debug")
+                self._read[sig] = read_loop(self._dispatcher, sigutils.normalize_signature(sig)[0], definition)
+            except Foreign as foreign:
+                self._read[sig] = None
+                self._leave(str(foreign))
+        return self._read[sig]
+
+    def _made(self, sig: Any, symbol: str) -> bytes | None:
+        """Return an object file, None where the loop is Numba's to compile."""
+        from symgen.native.loops_llvm import loop_module
+
+        function = self._function(sig)
+        if function is None:
+            return None
+        try:
+            return compiled(loop_module(function, symbol), symbol)
+        except RuntimeError as error:  # an LLVM that does not know the language any more
+            self._leave(str(error))
+            return None
+
+    def _leave(self, why: str) -> None:
+        """Say, if that is wanted, why the loop is left to Numba."""
+        if compiler() == "explain":
+            print(f"{self._name} is left to Numba: {why}", file=sys.stderr)
+
+    def _result(self, sig: Any, symbol: str, code: bytes) -> Any:
+        """Put machine code into memory."""
+        arguments = tuple(sigutils.normalize_signature(sig)[0])
+        library = Library(load(code, (symbol,)), _alone)
+        return result(self._dispatcher.py_func, arguments, "int", symbol, library, lambda f: None)
+
+
+def _alone() -> str:
+    """Refuse to become one with a caller: loops are called."""
+    raise TypeError("a loop is no part of another function")
+
+
+def definition(function: Any) -> ast.FunctionDef | None:
+    """Return the syntax tree of a function of the runtime, None where its source cannot be had."""
+    options = function.targetoptions
+    if any(options.get(name) != value for name, value in _OPTIONS.items()):
+        return None
+    code = function.py_func.__code__
+    try:
+        return _definition(code.co_filename, code.co_firstlineno - 1)
+    except (OSError, SyntaxError, StopIteration):
+        return None
+
+
+def _definition(file: str, first: int) -> ast.FunctionDef | None:
+    lines = _lines(file)
+    begin = next(i for i in range(first, len(lines)) if lines[i].startswith("def "))
+    rest = range(begin + 1, len(lines))
+    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
+    found = ast.parse("\n".join(lines[begin:end])).body
+    return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None
+
+
+@functools.lru_cache(maxsize=64)
+def _lines(file: str) -> tuple[str, ...]:
+    return tuple(Path(file).read_text().split("\n"))

@@ -1,0 +1,54 @@
+"""Loops made from their source: all of them are in the language, and they are Numba's to the last bit."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import pytest
+
+from symgen.native.loops import read_loop
+from symgen.runtime.hunting import with_events
+from symgen.store.emitted import COMPILER
+from symgen.store.loops import definition
+
+from .twofold import process
+
+SCHEMES = {
+    **dict.fromkeys(("explicit", "adams", "implicit"), ("constant", "adaptive")),
+    **dict.fromkeys(("alpha", "lie", "projected"), ("constant",)),
+}
+LOOPS = [(scheme, name) for scheme, names in SCHEMES.items() for name in names]
+
+
+@pytest.mark.parametrize(("scheme", "name"), LOOPS)
+@pytest.mark.parametrize("events", [False, True])
+def test_every_loop_is_in_the_language(scheme, name, events):
+    loop = getattr(import_module(f"symgen.runtime.schemes.{scheme}"), name)
+    loop = with_events(loop) if events else loop
+    (signature,) = loop._signatures
+    read_loop(loop._eager, signature.args, definition)  # raises where a part is left to Numba
+
+
+#: Every loop, by a model, a method and an integrator that enter it.
+CASES = {
+    "explicit-constant": ("pendulum", "lagrange", "rk4"),
+    "explicit-adaptive": ("four-bar", "direct-correction", "dop853"),
+    "adams": ("four-bar", "lagrange", "abm4", "four-bar", "lagrange", "abm"),
+    "implicit": ("four-bar", "ggl", "radau5", "four-bar", "lagrange", "trapezoidal"),
+    "alpha": ("spherical-double-pendulum", "generalized-alpha", "generalized-alpha"),
+    "projected": ("four-bar", "index3-augmented-lagrangian", "trapezoidal"),
+    "lie": ("heavy-top", "lagrange", "rkmk4"),
+}
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=() if i == 0 else pytest.mark.slow) for i, case in enumerate(CASES)]
+)
+def test_runs_are_numbas_to_the_last_bit(case):
+    """Where nothing can be contracted, as emitted functions are judged (`test_judge`)."""
+    found = []
+    for compiler, made in (("libm", "from the source"), ("numba", "by Numba")):
+        done = process("native.loops", *CASES[case], **{COMPILER: compiler})
+        assert done.stderr.strip().endswith(made)
+        found.append(done.stdout)
+    assert found[0] == found[1]
