@@ -140,8 +140,8 @@ def gather(
         mechanism, Settings(method="lagrange", integrator="dop853", shape=shape, start=held or {}, until=until)
     )
     compiled, start = ready(mechanism, plan, parameters)
-    nq, width = compiled.info.nq, len(start.y) - 1
-    small = 2 * nq + compiled.info.m <= LARGEST_LINEARISED
+    info = compiled.info
+    small = 2 * info.nq + info.m <= LARGEST_LINEARISED
     jacobian = linearised(mechanism, compiled, start) if small else np.zeros((1, 1))
     # off the constraints the equations without feedback have drift modes only; along them they have the mechanism's own
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
@@ -150,14 +150,14 @@ def gather(
     Ready(compiled.law_module.rhs, abi.RHS)(start.t, start.y.copy(), start.p, start.w.copy(), iw, rate)
     # speeds and accelerations of points, over the mechanism's length
     levers = 1.0 / (float(start.w[abi.LENGTH]) * np.sqrt(compiled.section(start.w, "gauge")))
-    speed = float(np.abs(start.y[nq:width] * levers).max(initial=0.0))
-    acceleration = float(np.abs(rate[nq:width] * levers).max(initial=0.0))
+    speed = float(np.abs(info.parts(start.y)[1] * levers).max(initial=0.0))
+    acceleration = float(np.abs(info.parts(rate)[1] * levers).max(initial=0.0))
     change = max(speed, np.sqrt(acceleration), 1.0 / plan.spec.until)
     return Facts(
-        rows=compiled.info.m,
+        rows=info.m,
         rank=start.rank,
-        coordinates=nq,
-        massless=bool(compiled.info.massless),
+        coordinates=info.nq,
+        massless=bool(info.massless),
         fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
         fastest_oscillation=float(np.abs(eigenvalues.imag).max(initial=0.0)),
         slowest_change=float(change),

@@ -210,3 +210,15 @@ def test_who_chooses_is_not_checked():
     result = load("four-bar").simulate(method="direct-correction", integrator="dop853", rtol=1e-3, atol=1e-3, until=2.0)
     assert result.status == "ok" and not any("verified" in note for note in result.notes)
     assert result.error_estimate is None
+
+
+def test_integrals_behind_the_work_are_no_velocities():
+    """The facts are those of the same mechanism without them."""
+    plain = {
+        "mechanism": {"name": "swing", "space": "planar", "gravity": [0.0, -9.81]},
+        "bodies": {"rod": {"mass": 1.0, "inertia": 1.0 / 12.0, "points": {"top": [0.0, 0.5]}, "angle": 1.0}},
+        "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "top"]}},
+    }
+    swept = {"swept": {"value": "integral(rod.omega**2)"}, "path": {"value": "integral(abs(rod.omega))"}}
+    found = [gather(mechanism_of(raw), {}) for raw in (plain, plain | {"outputs": swept})]
+    assert found[0] == found[1]

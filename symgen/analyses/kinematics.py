@@ -237,14 +237,15 @@ def _result(found: Prescribed, traced: Traced, transmission: tuple[str, ...]) ->
         given=traced.accelerations,
     )
     forces = Forces(motion, seats(found.mechanism, {**found.parameters, **_numbers(found)}))
-    velocities = labelled(traced.states[:, info.nq : info.nq + info.nv], info.velocities)
+    q, v = info.parts(traced.states)
+    velocities = labelled(v, info.velocities)
     said = [p.words for p in traced.passages if p.kind == "passed"]
     if (start.redundant_rows or info.dropped_rows) and forces.non_unique:
         said.append("reactions are not unique at " + ", ".join(forces.non_unique))
     return Kinematics(
         mechanism=found.mechanism.name,
         t=traced.times,
-        q=labelled(traced.states[:, : info.nq], info.coordinates),
+        q=labelled(q, info.coordinates),
         v=velocities,
         a=Labelled(traced.accelerations, accelerations_of(velocities.names), tuple(f"{u}^2" for u in velocities.units)),
         transmission=transmission_angles(found.mechanism, motion, found.parameters, transmission),

@@ -152,7 +152,7 @@ def _start(model: Model, started: Started, choice: MethodChoice) -> dict[str, An
         "step": defaults.step,
         "parameters": model.parameters(),
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
-        "y": state.y[: info.nq + info.nv + 1].tolist(),
+        "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),
         "step_at": info.sections["status"][0] + STATUS.index("step"),
         "w": {name: [at, [_json(x) for x in state.w[at : at + size]]] for name, (at, size) in kept.items()},

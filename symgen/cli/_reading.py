@@ -161,7 +161,7 @@ def write_page(name: str, asked: Asked, output: str) -> None:
         started = Started.of(model, asked)
         mechanism, choice, start, q = started.mechanism, started.choice, started.start, started.bodies
         compiled, begins = started.compiled, start
-        free = len(start.y) - 1 - started.compiled.info.nq - start.rank
+        free = started.compiled.info.nv - start.rank
         degrees = f"{free} degree{'' if free == 1 else 's'} of freedom"
         facts = [f"At the start D has rank {start.rank}: {degrees}.", *start.notes]
         if start.redundant_rows:

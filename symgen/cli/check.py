@@ -72,6 +72,7 @@ def examine(model: str, parameters: dict[str, float], held: dict[str, float], st
     compiled = loaded.compile()
     start = loaded.assemble(compiled, parameters, strict=strict, held=held)
     info, mechanism = compiled.info, loaded.mechanism
+    q, v = info.parts(start.y)
     return {
         "mechanism": loaded.name,
         "title": mechanism.title,
@@ -92,7 +93,7 @@ def examine(model: str, parameters: dict[str, float], held: dict[str, float], st
         "notes": list(start.notes),
         "warnings": list(start.warnings),
         "start": {
-            "q": {q.name: float(x) for q, x in zip(info.coordinates, start.y[: info.nq], strict=True)},
-            "v": {v.name: float(x) for v, x in zip(info.velocities, start.y[info.nq : info.work], strict=True)},
+            "q": {each.name: float(x) for each, x in zip(info.coordinates, q, strict=True)},
+            "v": {each.name: float(x) for each, x in zip(info.velocities, v, strict=True)},
         },
     }

@@ -24,8 +24,7 @@ from symgen.describe.mechanism import Force, Joint
 from symgen.vocabulary.expressions import ZERO, Expr, Reading
 from symgen.vocabulary.measures import (
     GROUND,
-    Angle,
-    Bearing,
+    AnyAngle,
     Component,
     Distance,
     Dot,
@@ -37,7 +36,6 @@ from symgen.vocabulary.measures import (
     Source,
     Spin,
     Sum,
-    Turn,
     axes,
 )
 
@@ -110,7 +108,7 @@ def _with_rate(owner: str, label: str, measure: Source, unit: str) -> Table:
 
 def _extent(measure: Source) -> str:
     """Return what the measure of a force is called, nothing where it has no name."""
-    return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, Angle | Turn | Bearing) else ""
+    return "length" if isinstance(measure, Distance) else "angle" if isinstance(measure, AnyAngle) else ""
 
 
 def _components(effort: Effort, extent: str) -> list[str]:
@@ -126,7 +124,7 @@ def is_turning(measure: Source) -> bool:
     """Whether what works along a measure is a torque."""
     if isinstance(measure, Sum):
         return is_turning(measure.terms[0][1])
-    return isinstance(measure, Angle | Turn | Bearing | Spin | Dot)
+    return isinstance(measure, AnyAngle | Spin | Dot)
 
 
 class Readings:

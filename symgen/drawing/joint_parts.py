@@ -11,7 +11,7 @@ from symgen.describe.topology import articulation_of
 from symgen.drawing.markers import Numbers, Place, parts
 from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
-from symgen.vocabulary.measures import Bearing, Component, Turn
+from symgen.vocabulary.measures import Component, Turning
 
 DRIVE = Look("#a0522d", "", 1.6)
 PITCH = Look(GREY, "", 1.0, dashed=True)
@@ -46,7 +46,7 @@ def axis_of(numbers: Numbers, joint: Joint) -> Array:
     found = articulation_of(joint)
     if found is not None and found.of_a:
         return numbers.direction(found.of_a[2])
-    turns = [m for m in parts(joint) if isinstance(m, Turn | Bearing)]
+    turns = [m for m in parts(joint) if isinstance(m, Turning)]
     if turns:
         return np.cross(numbers.direction(turns[0].zero), numbers.direction(turns[0].quarter))
     directions = numbers.directions(joint.rows)

@@ -11,7 +11,7 @@ from symgen.drawing.joint_parts import DRIVE, PITCH, Z, along_of, axis_of, ends_
 from symgen.drawing.markers import Numbers, Place, parts
 from symgen.drawing.pen import RIGID, Pen, across
 from symgen.drawing.scene import GREY, GROUNDED, Array, Look, Mark
-from symgen.vocabulary.measures import Angle, Bearing, Component, PointSpeed, Sum, Turn
+from symgen.vocabulary.measures import AnyAngle, Component, PointSpeed, Sum
 
 
 def _pin(pen: Pen, joint: Joint) -> list[Mark]:
@@ -127,7 +127,7 @@ def blade(pen: Pen, joint: Joint) -> list[Mark]:
 def driver(pen: Pen, joint: Joint) -> list[Mark]:
     """Return an arrow along the coordinate that is driven."""
     numbers, u = pen.numbers, pen.unit
-    turning = [m for m in parts(joint.rows) if isinstance(m, Angle | Turn | Bearing)]
+    turning = [m for m in parts(joint.rows) if isinstance(m, AnyAngle)]
     sliding = [m for m in parts(joint.rows) if isinstance(m, Component)]
     driven = [j for j in numbers.mechanism.joints if j is not joint and set(j.bodies) == set(joint.bodies)]
     if sliding:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, Protocol
 
-from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, module, render, templates_digest
+from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import ElementAccess, print_block
@@ -19,9 +19,6 @@ from symgen.vocabulary.quantities import Quantity
 
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000
-#: What is imported from Numba, and what docstrings say of a target.
-_NUMBA = {"cpu": "njit", "cuda": "cuda"}
-_FOR = {"cpu": "", "cuda": ", for CUDA"}
 
 
 def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu") -> str:
@@ -56,8 +53,8 @@ def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu")
         *table_codes(program.tables, target),
         *straight(program.blocks, layout, equations, target, of_model(equations, program.jacobian)),
     ]
-    title = f"Model `{program.name}`: what every method of it shares{_FOR[target]}."
-    return module(title, header, codes, {}, {}, _NUMBA[target])
+    title = f"Model `{program.name}`: what every method of it shares{PLATFORMS[target].words}."
+    return module(title, header, codes, {}, {}, PLATFORMS[target].numba)
 
 
 def emit_law(
@@ -76,14 +73,14 @@ def emit_law(
     return law_modules(
         pieces,
         {"acceleration": program.form, "metric": metric, "correction": metric, "form": program.level},
-        f"for model `{model.name}`{_FOR[target]}",
+        f"for model `{model.name}`{PLATFORMS[target].words}",
         versions(model.digest),
         {name: (model_stem, name) for name in model_names(model)} | {"geometry_of_model": (model_stem, "geometry")},
-        f"Method `{program.method}` for model `{model.name}`{_FOR[target]}.",
+        f"Method `{program.method}` for model `{model.name}`{PLATFORMS[target].words}.",
         law_header(program, model, summary, reference),
         program.key,
         offsets={name: offset for name, (offset, _) in program.layout.sections.items()},
-        numba=_NUMBA[target],
+        numba=PLATFORMS[target].numba,
         suffix=SUFFIXES[target],
     )
 
@@ -121,7 +118,7 @@ class LiteralLayout:
         What precedes each function.
     """
 
-    def __init__(self, program: LawProgram, turning: str, decorator: str = DECORATORS["cpu"]) -> None:
+    def __init__(self, program: LawProgram, turning: str, decorator: str = PLATFORMS["cpu"].decorator) -> None:
         self.program, self.turning, self.decorator = program, turning, decorator
         self.sections: set[str] = set()
 
@@ -154,7 +151,7 @@ class LiteralLayout:
 def _loops(program: LawProgram, equations: Equations, target: str) -> list[tuple[str, Code]]:
     """Return the functions of a law that are not straight-line code, with their roles, in the order of their text."""
     correction = program.correction
-    parts = Parts(LiteralLayout(program, "y" if equations.spins else "", DECORATORS[target]), correction)
+    parts = Parts(LiteralLayout(program, "y" if equations.spins else "", PLATFORMS[target].decorator), correction)
     if any(b.name == "refactor" for b in program.blocks):
         parts.add("metric", "metric")
     if program.form in ("iterated", "dense"):
@@ -188,7 +185,7 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
         x, y = (found.starts, sum(found.pieces, ())) if found.pieces else (found.x, found.y)
         table: dict[str, Any] = {"name": found.name, "abscissae": list(x), "ordinates": list(y)}
         table |= {what: table_name(found.name, what) for what in ("value", "slope", "x", "y")}
-        values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": DECORATORS[target]}
+        values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": PLATFORMS[target].decorator}
         if found.pieces:
             table["second"], table["period"] = table_name(found.name, "second"), found.period
             text = render("curves/pieces.j2", values).strip("\n")
@@ -235,7 +232,7 @@ def straight(
         body.append(f"return int({lines.flag})" if lines.flag else "return 0")
         purpose = f"{block.purpose}: {block.operations} operations, {block.tree_operations} before sharing."
         arguments = ", ".join(block.arguments)
-        codes.append(function(block.name, arguments, purpose, body, DECORATORS[target], calls=lines.functions))
+        codes.append(function(block.name, arguments, purpose, body, PLATFORMS[target].decorator, calls=lines.functions))
     return codes
 
 

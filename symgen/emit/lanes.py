@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
-from symgen.emit.module import DECORATORS, Code, function, module
+from symgen.emit.module import PLATFORMS, Code, function, module
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import LaneAccess, print_block
 from symgen.errors import InputError
@@ -46,7 +46,7 @@ class Inlined:
     """Functions that are no calls, and know no mechanism."""
 
     turning = ""
-    decorator = DECORATORS["cpu"].replace(")", ', inline="always")')
+    decorator = PLATFORMS["cpu"].decorator.replace(")", ', inline="always")')
 
     def size(self, name: str) -> str:
         """Refuse: there is no mechanism."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.emit.module import DECORATORS, Code, function, law_modules, literal, render
+from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, render
 from symgen.emit.parts import Parts, accept_kind
 from symgen.emit.printer import Printer
 from symgen.emit.text import harmless
@@ -138,7 +138,7 @@ class _Size(str):
 class TableLayout:
     """Sizes and places are read from the tables; see `symgen.emit.parts.PartsLayout`."""
 
-    turning, decorator = "y, w", DECORATORS["cpu"]
+    turning, decorator = "y, w", PLATFORMS["cpu"].decorator
 
     def __init__(self, parameters: Sequence[str]) -> None:
         self.parameters, self.bases = parameters, Bases()

@@ -9,17 +9,38 @@ from decimal import Decimal
 from functools import lru_cache
 from pathlib import Path
 from textwrap import fill
-from typing import Any
+from typing import Any, NamedTuple
 
 import jinja2
 from jinja2 import meta
 
 from symgen.emit.text import harmless
 
-#: What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0 give
-#: infinity, multiply-add may be contracted, nothing else is fast or inexact.
-DECORATORS = {"cpu": '@njit(error_model="numpy", fastmath={"contract"})', "cuda": "@cuda.jit(device=True)"}
 
+class Platform(NamedTuple):
+    """What depends on the target in every module.
+
+    Attributes
+    ----------
+    decorator : str
+        What precedes every emitted function. On CUDA, Numba's defaults are what is asked for elsewhere: divisions by 0
+        give infinity, multiply-add may be contracted, nothing else is fast or inexact.
+    numba : str
+        What is imported from Numba.
+    words : str
+        What docstrings say of it.
+    """
+
+    decorator: str
+    numba: str
+    words: str
+
+
+#: By the target; code for lanes is code for processors.
+PLATFORMS = {
+    "cpu": Platform('@njit(error_model="numpy", fastmath={"contract"})', "njit", ""),
+    "cuda": Platform("@cuda.jit(device=True)", "cuda", ", for CUDA"),
+}
 
 LIBRARIES = frozenset(("math", "numpy"))
 
@@ -135,7 +156,7 @@ def function(
     arguments: str,
     purpose: str,
     body: Iterable[str],
-    decorator: str = DECORATORS["cpu"],
+    decorator: str = PLATFORMS["cpu"].decorator,
     *,
     calls: Iterable[str] = (),
     sections: Iterable[str] = (),

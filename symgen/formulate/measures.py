@@ -19,7 +19,6 @@ from symgen.vocabulary.expressions import Reading
 from symgen.vocabulary.measures import (
     GROUND,
     Angle,
-    Bearing,
     BladeSpeed,
     Component,
     Distance,
@@ -36,6 +35,7 @@ from symgen.vocabulary.measures import (
     Spin,
     Sum,
     Turn,
+    Turning,
 )
 
 
@@ -189,7 +189,7 @@ class Model(Formulas):
             return self._sum(m)
         if isinstance(m, Angle):
             return self._angle(m)
-        if isinstance(m, Turn | Bearing):
+        if isinstance(m, Turning):
             return self._turn(m)
         bodies, constants = self._parts(m)
         kind = m.__struct_config__.tag
@@ -249,7 +249,7 @@ class Model(Formulas):
             return self._kernel("sphere-speed", bodies, constants)
         return self._kernel("disc-speed", bodies, [*constants, *self.direction(speed.axis)])
 
-    def _turn(self, m: Turn | Bearing) -> Derived:
+    def _turn(self, m: Turning) -> Derived:
         """Return an angle in space, on the branch nearest to the angle that the section ``winding`` remembers.
 
         s = atan2(y, x) of two measures, s' = (x y' - y x') / (x^2 + y^2), and s'' once more by the chain rule.

@@ -9,7 +9,7 @@ from symgen.describe.mechanism import Force, Joint, Mechanism
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import known_coordinates
 from symgen.vocabulary.expressions import readings
-from symgen.vocabulary.measures import Bearing, Measure, Sum, Turn
+from symgen.vocabulary.measures import Measure, Sum, Turning
 
 
 def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
@@ -19,7 +19,7 @@ def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:
         measure = waiting.pop(0)
         if isinstance(measure, Sum):
             waiting = [part for _, part in measure.terms] + waiting
-        elif isinstance(measure, Turn | Bearing):
+        elif isinstance(measure, Turning):
             found[measure] = None
     return tuple(found)
 

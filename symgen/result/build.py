@@ -82,6 +82,7 @@ def build_result(
     notes = (*start.notes, *_redundancy(compiled, outcome, forces), *_dense(compiled, outcome))
     verdict = replace(verdict, notes=(*notes, *verdict.notes, *stopped(outcome)))
     states, status = outcome.states, outcome.status_columns
+    q, v = info.parts(states)
     kinetic, potential, work = status[:, abi.KINETIC], status[:, abi.POTENTIAL], states[:, info.work]
     law = compiled.law
     return Result(
@@ -98,8 +99,8 @@ def build_result(
         notes=verdict.notes,
         parameters=parameters,
         t=outcome.times,
-        q=labelled(states[:, : info.nq], info.coordinates),
-        v=labelled(states[:, info.nq : info.nq + info.nv], info.velocities),
+        q=labelled(q, info.coordinates),
+        v=labelled(v, info.velocities),
         kinetic=kinetic,
         potential=potential,
         work=work + start.work if start.work else work,

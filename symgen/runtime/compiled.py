@@ -72,6 +72,10 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
         """Length of the state: q, v, the work and integrals."""
         return self.work + 1 + self.integrals
 
+    def parts(self, y: Array) -> tuple[Array, Array]:
+        """Return views of q and v of a state, or of one state a row."""
+        return y[..., : self.nq], y[..., self.nq : self.work]
+
 
 class LawInfo(msgspec.Struct, frozen=True):
     """Metadata of an emitted law module; `parameters` are (name, default) pairs.

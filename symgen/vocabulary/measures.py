@@ -126,6 +126,10 @@ class Sum(msgspec.Struct, frozen=True, tag="sum"):
     terms: tuple[tuple[Expr, Measure], ...]
 
 
+#: Angles that come back to themselves in a turn, so that somebody has to count.
+Turning = Turn | Bearing
+#: All angles.
+AnyAngle = Angle | Turn | Bearing
 Measure = Component | Distance | LinkStretch | Angle | Dot | Turn | Bearing | Spin | RimHeight | Sum
 
 

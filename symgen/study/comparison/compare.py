@@ -323,13 +323,11 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
 
 def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:
     """Compute the reference; where there is none, note why."""
-    nq, nv = compiled.info.nq, compiled.info.nv
     settings, mechanism = work.settings[0], work.model.mechanism
     values = work.model.parameters(settings.parameters)
     try:
-        known = reference(
-            mechanism, values, start.y[:nq], start.y[nq : nq + nv], work.times, progress, work.reference_by
-        )
+        state = compiled.info.parts(start.y)
+        known = reference(mechanism, values, *state, work.times, progress, work.reference_by)
     except SimulationError as error:
         work.note = f"there is no reference, so errors are unknown: {error}"
         return

@@ -70,10 +70,8 @@ class Task:
             return None
         settings = self.settings[0]
         compiled, start = model.ready(make_plan(model.mechanism, settings), settings.parameters)
-        nq, nv = compiled.info.nq, compiled.info.nv
         values = model.parameters(settings.parameters)
-        q, v = start.y[:nq], start.y[nq : nq + nv]
-        return reference(self.mechanism, values, q, v, self.times, solver=self.reference_by)
+        return reference(self.mechanism, values, *compiled.info.parts(start.y), self.times, solver=self.reference_by)
 
 
 def as_entry(known: Reference) -> dict[str, Any]:

@@ -50,8 +50,7 @@ def _moved(level: Level) -> Fields:
     settings = Settings(method="lagrange", integrator="rk4", until=level.until, step=level.step, shape="looped")
     plan = make_plan(model.mechanism, settings)
     compiled, start = model.ready(plan, parameters)
-    nq, nv = compiled.info.nq, compiled.info.nv
-    q, v = start.y[:nq].copy(), start.y[nq : nq + nv].copy()
+    q, v = (part.copy() for part in compiled.info.parts(start.y))
     if level.spring_end is not None:
         column, fixed = int(level.spring_end[0]), level.spring_end[1:]
         parameters[FREE_LENGTH] = math.dist(q[column : column + len(fixed)], fixed)
