@@ -179,12 +179,13 @@ class Block(msgspec.Struct, frozen=True, gc=False):
 
 
 class View(msgspec.Struct, frozen=True, gc=False):
-    """Give a name to some elements of an array, from one on."""
+    """Give a name to elements of an array from one on: so many rows, or what stands behind some of its indices."""
 
     name: str
     array: str
     first: Expression
-    size: Expression
+    size: Expression | None
+    indices: int = 0
 
 
 class Pick(msgspec.Struct, frozen=True, gc=False):

@@ -6,9 +6,10 @@ import ctypes
 import types as python
 from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import llvmlite.binding as llvm
+import numpy as np
 from numba.core import types
 from numba.core.compiler import compile_result
 from numba.core.compiler_lock import global_compiler_lock
@@ -18,7 +19,9 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import rtsys
 from numba.core.typing import signature
 
+from symgen.errors import SimulationError
 from symgen.native.machine import codegen
+from symgen.native.trampoline import FIRST, FUNCTION, RESULT, numbers, slots, trampoline
 
 if TYPE_CHECKING:  # what compiles is not loaded by runs that find everything in the cache
     from symgen.native.language import Function, Scalar
@@ -88,7 +91,6 @@ class FromPython:
         self._keep = keep
         self._wrapper: Any = None
         self._calls = 0
-        self.entered = False  # into a dispatcher, as a wrapper
         self.result: Any = None
 
     def __call__(self, *arguments: Any) -> Any:
@@ -111,6 +113,8 @@ class FromPython:
     def _direct(self) -> Callable[..., Any]:
         """The function behind its address: (result, exception, arguments), an array as seven numbers."""
         expected, returned = self.result.signature.args, self.result.signature.return_type
+        if kinds_of(expected) is None:
+            return self._by_block()
         kinds: list[Any] = [ctypes.c_void_p, ctypes.c_void_p]
         for kind in expected:
             if isinstance(kind, types.Array):
@@ -132,6 +136,31 @@ class FromPython:
 
         return call
 
+    def _by_block(self) -> Callable[..., Any]:
+        """Return the function behind its address, on arguments that are laid out in memory at every call."""
+        found = self.result
+        expected, returned = found.signature.args, found.signature.return_type
+        call = trampoline(returned, expected)
+        if call is None:  # Numba is not as expected
+            return cast("Callable[..., Any]", self.wrapper(release_gil=True))
+        address = found.library.get_pointer_to_function(found.fndesc.llvm_func_name)
+
+        def enter(*arguments: Any) -> Any:
+            if len(arguments) != len(expected):
+                raise TypeError(f"{len(expected)} arguments, not {len(arguments)}")
+            block: Any = np.zeros(FIRST + sum(1 for kind in expected for _ in slots(kind)), dtype=np.int64)
+            floats, at = block.view(np.float64), FIRST
+            block[FUNCTION] = address
+            for kind, argument in zip(expected, arguments, strict=True):
+                for value in numbers(kind, argument):
+                    (floats if isinstance(value, float) else block)[at] = value
+                    at += 1
+            if call(block.ctypes.data) != 0:
+                raise SimulationError("compiled code has raised an exception")
+            return float(floats[RESULT]) if returned is types.float64 else int(block[RESULT])
+
+        return enter
+
 
 def result(
     function: python.FunctionType,
@@ -140,6 +169,7 @@ def result(
     symbol: str,
     library: Library,
     keep: Callable[[Any], None],
+    known: bool = False,
 ) -> Any:
     """Return what Numba's compiler would give for a function.
 
@@ -157,6 +187,8 @@ def result(
         Where it stands.
     keep : Callable
         Takes the wrapper for calls from Python once it is made.
+    known : bool
+        Whether Numba is told elsewhere that the function is there.
     """
     description = PythonFunctionDescriptor(
         native=True,
@@ -185,7 +217,7 @@ def result(
         fndesc=description,
         library=library,
     )
-    if kinds_of(arguments) is not None:  # nothing that Numba compiles calls a loop
+    if not known:
         context.insert_user_function(entry, description, [library])
     return entry.result
 

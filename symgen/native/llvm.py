@@ -70,7 +70,7 @@ def declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
     found = []
-    for name in INTRINSICS:
+    for name in INTRINSICS.values():
         if f"@llvm.{name}.f64(" in text:
             found.append(
                 f"declare double @llvm.{name}.f64({'double, double' if name in ('copysign', 'pow') else 'double'})"

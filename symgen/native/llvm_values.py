@@ -19,7 +19,8 @@ _COMPARED = {
     "int": {"lt": "slt", "le": "sle", "gt": "sgt", "ge": "sge", "eq": "eq", "ne": "ne"},
     "bool": {"lt": "ult", "le": "ule", "gt": "ugt", "ge": "uge", "eq": "eq", "ne": "ne"},
 }
-INTRINSICS = ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")
+#: Functions that LLVM knows itself, by its names for them.
+INTRINSICS = {name: name for name in ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")} | {"round": "rint"}
 
 
 class Values:
@@ -33,6 +34,8 @@ class Values:
         What has been printed, and the memory that it needs.
     values : dict of str to str
         Values of variables that need no memory.
+    flag : str
+        What operations on floats may be.
     label : str
         Of the block that is being printed.
     """
@@ -44,6 +47,7 @@ class Values:
         self.slots: list[str] = []
         self.values: dict[str, str] = {}
         self.count = 0
+        self.flag = " contract"
         self.label = ".entry"
 
     def put(self, text: str) -> str:
@@ -108,13 +112,13 @@ class Values:
             return self.product(self.value(arguments[0]), int(exponent.value))
         values = [self.value(a) for a in arguments]
         if name in _COMPARED["float"]:
-            flag = " contract" if first == "float" else ""
+            flag = self.flag if first == "float" else ""
             compare = "fcmp" if first == "float" else "icmp"
             return self.put(f"{compare}{flag} {_COMPARED[first][name]} {TYPES[first]} {', '.join(values)}")
         if name in ("min", "max"):
             return self.least(kind, name, values)
         if kind == "float" and name in _FLOATS:
-            return self.put(f"{_FLOATS[name]} contract double {values[0]}, {values[1]}")
+            return self.put(f"{_FLOATS[name]}{self.flag} double {values[0]}, {values[1]}")
         if name in _INTS:
             return self.put(f"{_INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
         if name in ("float", "int", "bool"):
@@ -122,7 +126,9 @@ class Values:
         if name == "not":
             return self.put(f"xor i1 {values[0]}, true")
         if name == "neg":
-            return self.put(f"fsub contract double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}")
+            return self.put(
+                f"fsub{self.flag} double -0.0, {values[0]}" if kind == "float" else f"sub i64 0, {values[0]}"
+            )
         if name in ("quotient", "rest"):
             return self.quotient(values[0], values[1], rest_wanted=name == "rest")
         if name in ("floordiv", "mod"):
@@ -135,7 +141,7 @@ class Values:
     def least(self, kind: lang.Scalar, name: str, values: list[str]) -> str:
         """Print the least or greatest of two values: as in Python, the first where they do not compare."""
         sign = _COMPARED[kind]["lt" if name == "min" else "gt"]
-        compare = "fcmp contract" if kind == "float" else "icmp"
+        compare = f"fcmp{self.flag}" if kind == "float" else "icmp"
         test = self.put(f"{compare} {sign} {TYPES[kind]} {values[1]}, {values[0]}")
         return self.put(f"select i1 {test}, {TYPES[kind]} {values[1]}, {TYPES[kind]} {values[0]}")
 
@@ -144,9 +150,9 @@ class Values:
         result = literal(1.0)
         while exponent:
             if exponent & 1:
-                result = self.put(f"fmul contract double {result}, {base}")
+                result = self.put(f"fmul{self.flag} double {result}, {base}")
             exponent >>= 1
-            base = self.put(f"fmul contract double {base}, {base}")
+            base = self.put(f"fmul{self.flag} double {base}, {base}")
         return result
 
     def divided(self, name: str, value: str, divisor: str) -> str:
@@ -172,7 +178,7 @@ class Values:
     def converted(self, before: lang.Scalar, after: str, value: str) -> str:
         """Print a conversion."""
         if after == "bool":
-            test = f"fcmp contract une double {value}, 0.0" if before == "float" else f"icmp ne i64 {value}, 0"
+            test = f"fcmp{self.flag} une double {value}, 0.0" if before == "float" else f"icmp ne i64 {value}, 0"
             return self.put(test)
         if before == "bool":
             wide = self.put(f"zext i1 {value} to i32")
@@ -181,9 +187,9 @@ class Values:
 
     def function_of_math(self, name: str, values: list[str]) -> str:
         """Print a call of a mathematical function."""
-        called = f"@llvm.{name}.f64" if name in INTRINSICS else f"@{name}"
-        value = self.put(f"call contract double {called}({', '.join(f'double {v}' for v in values)})")
-        return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil") else value
+        called = f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
+        value = self.put(f"call{self.flag} double {called}({', '.join(f'double {v}' for v in values)})")
+        return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil", "round") else value
 
     def take_sines(self, angles: tuple[lang.Expression, ...]) -> None:
         """Print sines and cosines of several angles; the first fills the vector up."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 import ast
 import math
 import types as python
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 from numba import types
@@ -99,7 +99,7 @@ def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
         return lang.Variable(_SCALARS[kind], name), [lang.Parameter(name, _SCALARS[kind])]
     if isinstance(kind, types.FunctionType):
         return Address(name, kind.signature), [lang.Parameter(name, "int", address=True)]
-    if isinstance(kind, types.Array) and kind.layout == "C" and kind.ndim <= 2 and kind.dtype in _SCALARS:
+    if isinstance(kind, types.Array) and kind.layout == "C" and kind.ndim <= 3 and kind.dtype in _SCALARS:
         found = Array(name, _SCALARS[kind.dtype], kind.ndim)
         return found, [lang.Parameter(name, found.type, True, kind.ndim)]
     if isinstance(kind, types.BaseTuple):
@@ -117,6 +117,36 @@ def leaves(value: Value) -> Iterator[Value]:
             yield from leaves(part)
     else:
         yield value
+
+
+def handed_on(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expression | str, ...]:
+    """Return what values of some types are handed on as."""
+    if len(kinds) != len(values):
+        raise Foreign("a function with other arguments")
+    return tuple(x for kind, value in zip(kinds, values, strict=True) for x in handed(kind, value))
+
+
+def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
+    """Yield what a value of a type is handed on as: numbers, and names of arrays and functions.
+
+    Raises
+    ------
+    Foreign
+        If it is none of the type.
+    """
+    if isinstance(value, Record) and isinstance(kind, types.BaseTuple) and len(kind) == len(value.values):
+        for part, item in zip(kind, value.values, strict=True):
+            yield from handed(part, item)
+    elif isinstance(value, Array) and isinstance(kind, types.Array):
+        if _SCALARS.get(kind.dtype) != value.type or kind.ndim != value.rank:
+            raise Foreign("an array of another kind")
+        yield value.name
+    elif isinstance(value, Address) and isinstance(kind, types.FunctionType) and kind.signature == value.signature:
+        yield value.name
+    elif kind in _SCALARS and _is_number(value):
+        yield as_type(_SCALARS[kind], value)
+    else:
+        raise Foreign(f"an argument that is no {kind}")
 
 
 def renamed(name: str, value: Value) -> tuple[Value, list[lang.Parameter]]:
@@ -221,8 +251,8 @@ class LoopReader(Reader):
             return [lang.If(test, self.inner(node.body), self.inner(node.orelse))]
         if isinstance(node, ast.While) and not node.orelse:
             return [self.repeat(node)]
-        if isinstance(node, ast.Break | ast.Continue) and not self.loops:
-            raise Foreign("the end of a loop", node)
+        if isinstance(node, ast.For) and isinstance(node.iter, ast.Tuple):
+            return self.unrolled(node)
         if isinstance(node, ast.AnnAssign) and node.value is not None:
             return self.assignment(ast.copy_location(ast.Assign([node.target], node.value), node))
         if isinstance(node, ast.Expr):
@@ -242,6 +272,15 @@ class LoopReader(Reader):
             return lang.While(test, body)
         leave = lang.If(lang.Operation("bool", "not", (test,)), (lang.Leave("break"),), ())
         return lang.While(lang.Constant("bool", True), (*before, leave, *body))
+
+    def unrolled(self, node: ast.For) -> list[lang.Statement]:
+        """Return what is done for each of some values."""
+        if node.orelse or any(isinstance(x, ast.Break | ast.Continue) for s in node.body for x in ast.walk(s)):
+            raise Foreign("the end of a loop over a tuple", node)
+        found: list[lang.Statement] = []
+        for value in self.value(node.iter).values:
+            found += [*self.stored(node.target, value), *self.inner(node.body)]
+        return found
 
     def end(self, node: ast.Return) -> list[lang.Statement]:
         """Return the end of the function, or of one that is copied into it."""
@@ -263,13 +302,6 @@ class LoopReader(Reader):
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
         """Return what an assignment does; all values are worked out before the first of them is stored."""
-        first = node.targets[0]
-        if len(node.targets) == 1 and isinstance(first, ast.Tuple):
-            value = self.value(node.value)
-            values = list(value.values) if isinstance(value, Record) else []
-            if len(values) != len(first.elts):
-                raise Foreign("an assignment of unequal lengths", node)
-            return [s for t, v in zip(first.elts, values, strict=True) for s in self.stored(t, v)]
         value = self.value(node.value)
         if len(node.targets) > 1:
             value = self.kept(value, node)
@@ -285,7 +317,12 @@ class LoopReader(Reader):
         return lang.Variable(value.type, name)
 
     def stored(self, target: ast.expr, value: Value) -> list[lang.Statement]:
-        """Return the assignment of a value to a name or an element."""
+        """Return the assignment of a value to a name or an element, or of several to several."""
+        if isinstance(target, ast.Tuple):
+            values = list(value.values) if isinstance(value, Record) else []
+            if len(values) != len(target.elts):
+                raise Foreign("an assignment of unequal lengths", target)
+            return [s for t, v in zip(target.elts, values, strict=True) for s in self.stored(t, v)]
         if isinstance(value, _EXPRESSIONS):
             if isinstance(target, ast.Name) and target.id in self.bound:
                 raise Foreign(f"variable '{target.id}' has two types", target)
@@ -368,7 +405,45 @@ class LoopReader(Reader):
                 if isinstance(index, lang.Constant) and 0 <= int(index.value) < len(owner.values):
                     return owner.values[int(index.value)]
                 raise Foreign("an index", node)
+            if isinstance(owner, Array) and isinstance(node.slice, ast.Slice):
+                return self.one(owner, node.slice)
+            if isinstance(owner, Array) and (given := _indices(node)) < owner.rank:
+                return self.behind(owner, node, given)
         return super().element(node)
+
+    def behind(self, array: Array, node: ast.Subscript, given: int) -> Array:
+        """Return what stands behind some indices, as an array of fewer dimensions."""
+        nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+        indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - given)]
+        name = self.array(array.type, array.rank - given)
+        self.pending.append(lang.View(name, array.name, self.at(array, indices, node), None, given))
+        return Array(name, array.type, array.rank - given)
+
+    def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
+        """Return where an element stands."""
+        if len(indices) != array.rank or any(
+            i.type != "int" or (isinstance(i, lang.Constant) and i.value < 0) for i in indices
+        ):
+            raise Foreign("an index", node)
+        at = indices[0]
+        for axis, index in enumerate(indices[1:], 1):
+            row = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
+            at = lang.Operation("int", "add", (row, index))
+        return at
+
+    def one(self, array: Array, part: ast.Slice) -> Array:
+        """Return one row of an array, ``[k : k + 1]``, as an array of the same dimensions."""
+        if part.lower is None or part.step is not None or part.upper is None:
+            raise Foreign("a part of an array", part)
+        behind = ast.BinOp(part.lower, ast.Add(), ast.Constant(1))
+        if ast.dump(part.upper) != ast.dump(behind):
+            raise Foreign("a part of an array", part)
+        (at,) = self.numbers_of([part.lower])
+        name = self.array(array.type, array.rank)
+        for axis in range(1, array.rank):
+            at = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
+        self.pending.append(lang.View(name, array.name, at, lang.Constant("int", 1)))
+        return Array(name, array.type, array.rank)
 
     def owner(self, node: ast.expr) -> Value:
         """Return what something is an element of; None for a table of the module."""
@@ -383,18 +458,8 @@ class LoopReader(Reader):
             return super().place(node)
         if not isinstance(owner, Array):
             raise Foreign("an element of something else than an array", node)
-        if owner.rank == 1:
-            indices = self.numbers_of([node.slice])
-        else:
-            indices = self.numbers_of(node.slice.elts if isinstance(node.slice, ast.Tuple) else [])
-        if len(indices) != owner.rank or any(
-            i.type != "int" or (isinstance(i, lang.Constant) and i.value < 0) for i in indices
-        ):
-            raise Foreign("an index", node)
-        if owner.rank == 1:
-            return owner.name, indices[0]
-        row = lang.Operation("int", "mul", (indices[0], lang.Shape(owner.name, 1)))
-        return owner.name, lang.Operation("int", "add", (row, indices[1]))
+        nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+        return owner.name, self.at(owner, self.numbers_of(nodes), node)
 
     def unary(self, node: ast.UnaryOp) -> lang.Expression:
         """Return an operation on one value."""
@@ -515,10 +580,10 @@ class LoopReader(Reader):
         found = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
         return Record(found) if isinstance(values[0], Record) else found[0]
 
-    def array(self, kind: lang.Scalar) -> str:
+    def array(self, kind: lang.Scalar, rank: int = 1) -> str:
         """Return the name of a new array."""
         name = self.fresh("array")
-        self.arrays[name], self.ranks[name] = kind, 1
+        self.arrays[name], self.ranks[name] = kind, rank
         return name
 
     # -- calls
@@ -531,7 +596,15 @@ class LoopReader(Reader):
             (value,) = self.numbers_of(node.args)
             size = lang.Operation("float", "abs", (as_type("float", value),))
             return lang.Operation("bool", "lt", (size, lang.Constant("float", math.inf)))
+        if isinstance(node.func, ast.Attribute) and self.of_math(node.func) and node.func.attr == "isnan":
+            (value,) = self.numbers_of(node.args)
+            value = self.kept(as_type("float", value), node)
+            return lang.Operation("bool", "ne", (value, value))
         builtin = self.builtin(node.func)
+        if builtin == "round" and len(node.args) == 1:
+            (value,) = self.numbers_of(node.args)
+            if value.type == "float":
+                return lang.Operation("int", "round", (value,))
         if builtin == "bool" and len(node.args) == 1:
             return truth_of(self.expression(node.args[0]))
         if builtin is not None:
@@ -551,10 +624,13 @@ class LoopReader(Reader):
             if len(called._fields) != len(arguments):
                 raise Foreign("a record with other fields", node)
             return Record(tuple(self.kept(v, node) for v in arguments), called._fields)
+        called = getattr(called, "compiled", called)  # of functions that are interpreted as well
         plain = getattr(called, "py_func", None)
         if not isinstance(plain, python.FunctionType):
             raise Foreign("a call", node)
         if called.targetoptions.get("forceinline"):
+            if called.targetoptions.get("fastmath") != self.source.targetoptions.get("fastmath"):
+                raise Foreign(f"the function '{called.__name__}', whose sums are others", node)
             return self.copy(called, arguments, node)
         return self.call_part(called, arguments, node)
 
@@ -583,24 +659,9 @@ class LoopReader(Reader):
 
     def invoke(self, called: Address, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return what a function gives that is known by its address."""
-        kinds = called.signature.args
-        if len(kinds) != len(arguments) or called.signature.return_type is not types.int64:
-            raise Foreign("a function with other arguments", node)
-        handed: list[lang.Expression | str] = []
-        for kind, value in zip(kinds, arguments, strict=True):
-            if isinstance(value, Array):
-                if (
-                    not isinstance(kind, types.Array)
-                    or _SCALARS.get(kind.dtype) != value.type
-                    or value.rank != kind.ndim
-                ):
-                    raise Foreign("an array of another kind", node)
-                handed.append(value.name)
-            elif kind in _SCALARS and isinstance(value, _EXPRESSIONS):
-                handed.append(as_type(_SCALARS[kind], value))
-            else:
-                raise Foreign("an argument of another kind", node)
-        return lang.Invoke("int", called.name, tuple(handed))
+        if called.signature.return_type is not types.int64:
+            raise Foreign("a function with other results", node)
+        return lang.Invoke("int", called.name, handed_on(called.signature.args, arguments))
 
     def insert(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a piece of a compiler gives."""
@@ -626,10 +687,8 @@ class LoopReader(Reader):
             raise Foreign(f"the function '{name}'", node)
         symbol, text, signature = piece
         nothing = signature.return_type is types.void
-        handed: list[lang.Expression | str] = []
-        for kind, value in zip(signature.args, arguments, strict=True):
-            handed.append(value.name if isinstance(value, Array) else as_type(_SCALARS[kind], value))
-        return lang.Insert(_SCALARS.get(signature.return_type, "int"), symbol, text, tuple(handed), nothing)
+        given = handed_on(signature.args, arguments)
+        return lang.Insert(_SCALARS.get(signature.return_type, "int"), symbol, text, given, nothing)
 
     def call_part(self, called: Any, arguments: list[Value], node: ast.Call) -> lang.Expression:
         """Return what a part gives that is called."""
@@ -643,10 +702,8 @@ class LoopReader(Reader):
             reader = LoopReader(called, inside, parameters, self.definition, self.shared)
             self.shared[key] = reader.function()
         function = self.called[called, parameters] = self.shared[key]  # type: ignore[index]  # what tells it from others
-        handed: list[lang.Expression | str] = []
-        for v in leaves(Record(tuple(arguments))):
-            handed.append(v.name if isinstance(v, Array | Address) else v)
-        return lang.Call(function.returned, function, tuple(handed))
+        given = (v.name if isinstance(v, Array | Address) else v for v in leaves(Record(tuple(arguments))))
+        return lang.Call(function.returned, function, tuple(given))
 
     def copy(self, called: Any, arguments: list[Value], node: ast.Call) -> Value:
         """Return what a part gives whose code is copied to where it is called."""
@@ -697,6 +754,10 @@ class _Renamed(ast.NodeTransformer):
     def visit_Name(self, node: ast.Name) -> ast.Name:
         """Return a name under its other name."""
         return ast.copy_location(ast.Name(self.names.get(node.id, node.id), node.ctx), node)
+
+
+def _indices(node: ast.Subscript) -> int:
+    return len(node.slice.elts) if isinstance(node.slice, ast.Tuple) else 1
 
 
 def _is_number(value: Value) -> bool:

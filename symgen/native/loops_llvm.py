@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
+from numba import types
+
 from symgen.native import language as lang
 from symgen.native.llvm import Printer, declarations
 from symgen.native.llvm_values import TYPES
 
-#: Parts of an argument as Numba hands it on: an array of one dimension and of two, a function. Of these are used: the
-#: address of the elements and the lengths, and the address in Numba's convention.
-_ARRAYS = {
-    1: ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64"),
-    2: ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64", "i64", "i64"),
-}
+#: Parts of an array as Numba hands it on, before its lengths and its strides; of a function, which has an address in
+#: C's convention and one in Numba's. Used are the address of the elements, the lengths, and the last.
+_ARRAY = ("ptr", "ptr", "i64", "i64", "ptr")
 _DATA, _SHAPE = 4, 5
 _ADDRESS = ("ptr", "ptr", "ptr")
 _JIT = 2
@@ -19,7 +21,7 @@ _JIT = 2
 _FAILED = -1
 
 
-def loop_module(function: lang.Function, symbol: str) -> str:
+def loop_module(function: lang.Function, symbol: str, kinds: tuple[Any, ...]) -> str:
     """Return the text of a module that defines a loop in Numba's convention, with the parts that it calls.
 
     Parameters
@@ -28,6 +30,8 @@ def loop_module(function: lang.Function, symbol: str) -> str:
         From `symgen.native.loops`.
     symbol : str
         Its name in machine code.
+    kinds : tuple of Numba types
+        Of its arguments.
     """
     names: dict[int, str] = {id(function): symbol}
     waiting, functions, inserted = [function], list[lang.Function](), dict[str, str]()
@@ -48,7 +52,54 @@ def loop_module(function: lang.Function, symbol: str) -> str:
         lines = text.splitlines()
         known |= dict.fromkeys(line for line in lines if line.startswith("declare "))
         texts.append("\n".join(line for line in lines if not line.startswith("declare ")))
+    texts.append(_c_function(symbol, TYPES[function.returned], kinds))
     return "\n".join([*texts, *known, *declarations(texts), ""])
+
+
+def _c_function(symbol: str, returned: str, kinds: tuple[Any, ...]) -> str:
+    """Return the function in C's convention, which calls the other one with its arguments taken apart."""
+    lines, parts = [f"  %.result = alloca {returned}", "  %.exception = alloca ptr"], list[str]()
+    for i, kind in enumerate(kinds):
+        for path, type_ in _leaves(kind):
+            if path:
+                name = f"%.{i}" + "".join(f".{k}" for k in path)
+                lines.append(f"  {name} = extractvalue {_whole(kind)} %a{i}, {', '.join(map(str, path))}")
+                parts.append(f"{type_} {name}")
+            else:
+                parts.append(f"{type_} %a{i}")
+    head = ", ".join(f"{_whole(kind)} %a{i}" for i, kind in enumerate(kinds))
+    call = ", ".join(("ptr %.result", "ptr %.exception", *parts))
+    lines += [f'  %.status = call i32 @"{symbol}"({call})', f"  %.value = load {returned}, ptr %.result"]
+    return "\n".join(
+        [f'define {returned} @"cfunc.{symbol}"({head}) nounwind {{', *lines, f"  ret {returned} %.value", "}"]
+    )
+
+
+def _whole(kind: Any) -> str:
+    """Return LLVM's type of an argument as one value."""
+    if isinstance(kind, types.UniTuple | types.NamedUniTuple):
+        return f"[{len(kind)} x {_whole(kind.dtype)}]"
+    if isinstance(kind, types.BaseTuple):
+        return "{" + ", ".join(_whole(part) for part in kind) + "}"
+    if isinstance(kind, types.Array):
+        return "{" + ", ".join((*_ARRAY, f"[{kind.ndim} x i64]", f"[{kind.ndim} x i64]")) + "}"
+    if isinstance(kind, types.FunctionType):
+        return "{" + ", ".join(_ADDRESS) + "}"
+    return {types.float64: "double", types.int64: "i64"}[kind]
+
+
+def _leaves(kind: Any) -> Iterator[tuple[tuple[int, ...], str]]:
+    """Yield where parts of an argument stand in it, and their types."""
+    if isinstance(kind, types.BaseTuple):
+        for i, part in enumerate(kind):
+            yield from (((i, *path), type_) for path, type_ in _leaves(part))
+    elif isinstance(kind, types.Array):
+        yield from (((i,), type_) for i, type_ in enumerate(_ARRAY))
+        yield from (((len(_ARRAY) + i, axis), "i64") for i in range(2) for axis in range(kind.ndim))
+    elif isinstance(kind, types.FunctionType):
+        yield from (((i,), type_) for i, type_ in enumerate(_ADDRESS))
+    else:
+        yield (), _whole(kind)
 
 
 class LoopPrinter(Printer):
@@ -57,6 +108,8 @@ class LoopPrinter(Printer):
     def __init__(self, function: lang.Function, names: dict[int, str], outermost: bool) -> None:
         super().__init__(function, lambda f: names[id(f)], "" if outermost else "internal ", together=False)
         self.outermost = outermost
+        source: Any = function.source
+        self.flag = " contract" if source.targetoptions.get("fastmath") else ""
         self.views: dict[str, tuple[str, tuple[str, ...]]] = {}  # address and lengths of arrays
         self.blocks: dict[int, str] = {}  # labels behind blocks
         self.inserted: dict[str, str] = {}
@@ -70,11 +123,11 @@ class LoopPrinter(Printer):
         parts = ["ptr noalias %.result", "ptr noalias %.exception"]
         for p in self.function.parameters:
             if p.array:
-                kinds = dict(enumerate(_ARRAYS[p.rank]))
+                kinds = (*_ARRAY, *("i64",) * (2 * p.rank))
                 used = range(_DATA, _SHAPE + p.rank)
-                parts += [f'{k} %"{p.name}.{i}"' for i, k in kinds.items() if self.outermost or i in used]
+                parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(kinds) if self.outermost or i in used]
             elif p.address:
-                parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(_ADDRESS) if self.outermost or i == _JIT]
+                parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(_ADDRESS)]
             else:
                 parts.append(f'{TYPES[p.type]} %"{p.name}"')
         return f'i32 @"{self.symbol(self.function)}"({", ".join(parts)}) nounwind'
@@ -103,9 +156,13 @@ class LoopPrinter(Printer):
             self.begin(end)
             return True
         if isinstance(statement, lang.View):
-            data = self.views[statement.array][0]
-            first, size = self.value(statement.first), self.value(statement.size)
-            self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), (size,)
+            data, lengths = self.views[statement.array]
+            first = self.value(statement.first)
+            if statement.size is None:
+                lengths = lengths[statement.indices :]
+            else:
+                lengths = (self.value(statement.size), *lengths[1:])
+            self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), lengths
             return True
         assert isinstance(statement, lang.Pick), "all kinds of statements are known"
         test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
@@ -155,12 +212,31 @@ class LoopPrinter(Printer):
         """Print a call of a function by its address."""
         parts = []
         for argument in e.arguments:
-            if isinstance(argument, str):
-                data, (n,) = self.views[argument]
-                parts += ["ptr null", "ptr null", f"i64 {n}", "i64 8", f"ptr {data}", f"i64 {n}", "i64 8"]
-            else:
+            if not isinstance(argument, str):
                 parts.append(f"{TYPES[argument.type]} {self.value(argument)}")
+            elif argument in self.views:
+                parts += self.whole(argument)
+            else:
+                parts += [f'{k} %"{argument}.{i}"' for i, k in enumerate(_ADDRESS)]
         return self.called(f'%"{e.function}.{_JIT}"', e.type, parts)
+
+    def whole(self, array: str) -> list[str]:
+        """Return an array as Numba hands it on, without an owner."""
+        data, lengths = self.views[array]
+        strides = ["8"]
+        for n in reversed(lengths[1:]):
+            strides.insert(0, self.put(f"mul i64 {n}, {strides[0]}"))
+        size = lengths[0]
+        for n in lengths[1:]:
+            size = self.put(f"mul i64 {size}, {n}")
+        return [
+            "ptr null",
+            "ptr null",
+            f"i64 {size}",
+            "i64 8",
+            f"ptr {data}",
+            *(f"i64 {n}" for n in (*lengths, *strides)),
+        ]
 
     def call(self, e: lang.Call) -> str:
         """Print a call of a part."""
@@ -170,7 +246,7 @@ class LoopPrinter(Printer):
                 data, lengths = self.views[argument]
                 parts += [f"ptr {data}", *(f"i64 {n}" for n in lengths)]
             elif isinstance(argument, str):
-                parts.append(f'ptr %"{argument}.{_JIT}"')
+                parts += [f'{k} %"{argument}.{i}"' for i, k in enumerate(_ADDRESS)]
             else:
                 parts.append(f"{TYPES[p.type]} {self.value(argument)}")
         return self.called(f'@"{self.symbol(e.function)}"', e.function.returned, parts)

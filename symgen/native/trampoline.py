@@ -15,6 +15,7 @@ import inspect
 from collections.abc import Callable, Iterator
 from typing import Any
 
+import numpy as np
 from numba import types
 from numba.core.datamodel import default_manager
 from numba.core.registry import cpu_target
@@ -36,6 +37,7 @@ _FIELDS = {
     types.FunctionType(types.float64(types.float64)): ("c_addr", "py_addr", "jit_addr"),
 }
 _NUMBERS = {types.float64: "double", types.int64: "i64"}
+_DOUBLE, _WHOLE = np.dtype(np.float64), np.dtype(np.int64)
 
 
 def changed() -> list[str]:
@@ -92,6 +94,26 @@ def slots(kind: Any) -> Iterator[str]:
         yield _NUMBERS[kind]
     else:
         raise TypeError(f"no slots for {kind}")
+
+
+def numbers(kind: Any, value: Any) -> Iterator[int | float]:
+    """Yield what stands in the slots of an argument: integers, addresses among them, and floating-point numbers."""
+    if kind is types.float64:
+        yield float(value)
+    elif kind is types.int64:
+        yield int(value)
+    elif isinstance(kind, types.Array):
+        if not (isinstance(value, np.ndarray) and value.flags.c_contiguous and value.ndim == kind.ndim):
+            raise TypeError("an array of another kind")
+        if value.dtype != (_DOUBLE if kind.dtype is types.float64 else _WHOLE):
+            raise TypeError("an array of other numbers")
+        data, _ = value.__array_interface__["data"]
+        yield from (0, 0, value.size, value.itemsize, data, *value.shape, *value.strides)
+    elif isinstance(kind, types.BaseTuple):
+        for part, item in zip(kind, value, strict=True):
+            yield from numbers(part, item)
+    else:
+        yield from addresses(value, kind)
 
 
 def trampoline(returned: Any, arguments: tuple[Any, ...]) -> Callable[[int], int] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, Self
 
 import numpy as np
@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 
 from symgen.errors import SimulationError
 from symgen.native import trampoline as ways
-from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, addresses, slots
+from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots
 
 Array = NDArray[np.float64]
 #: A trampoline.
 Call = Callable[[int], int]
-_DOUBLE, _WHOLE = np.dtype(np.float64), np.dtype(np.int64)
 #: Two of a loop's arguments, counted from the end, as before them stand functions: scheme, sizes, span, state, outputs.
 _SCHEME, _SPAN = -5, -3
 
@@ -76,7 +75,7 @@ class Block:
     def _fill(self, which: int) -> None:
         """Put an argument into its slots."""
         at = self._places[which]
-        for value in _numbers(self._kinds[which], self._arguments[which]):
+        for value in numbers(self._kinds[which], self._arguments[which]):
             if isinstance(value, float):
                 self._floats[at] = value
             else:
@@ -172,23 +171,3 @@ def _layout(result: Any) -> tuple[Call | None, tuple[Any, ...], list[int]]:
         sizes = () if call is None else tuple(sum(1 for _ in slots(kind)) for kind in kinds)
         _KNOWN[id(result)] = result, (call, kinds, np.cumsum([FIRST, *sizes]).tolist())
     return _KNOWN[id(result)][1]
-
-
-def _numbers(kind: Any, value: Any) -> Iterator[int | float]:
-    """Yield what stands in the slots of an argument: integers, addresses among them, and floating-point numbers."""
-    if kind is types.float64:
-        yield float(value)
-    elif kind is types.int64:
-        yield int(value)
-    elif isinstance(kind, types.Array):
-        if not (isinstance(value, np.ndarray) and value.flags.c_contiguous and value.ndim == kind.ndim):
-            raise TypeError("an array of another kind")
-        if value.dtype != (_DOUBLE if kind.dtype is types.float64 else _WHOLE):
-            raise TypeError("an array of other numbers")
-        data, _ = value.__array_interface__["data"]
-        yield from (0, 0, value.size, value.itemsize, data, *value.shape, *value.strides)
-    elif isinstance(kind, types.BaseTuple):
-        for part, item in zip(kind, value, strict=True):
-            yield from _numbers(part, item)
-    else:
-        yield from addresses(value, kind)

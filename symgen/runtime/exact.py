@@ -16,6 +16,7 @@ from numba.core.types import Dispatcher
 
 from symgen.runtime import bare
 from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 
 class Exact:
@@ -36,7 +37,8 @@ class Exact:
         wrappers = (
             {} if self._signatures else {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
         )
-        return jit(*self._signatures, fastmath=False, **wrappers)(self.py_func)
+        made = from_its_source if self._signatures else jit
+        return made(*self._signatures, fastmath=False, **wrappers)(self.py_func)
 
     @cached_property
     def plain(self) -> Any:

@@ -39,6 +39,7 @@ from symgen.runtime.following_records import (
 )
 from symgen.runtime.redundancy import FALLEN
 from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 #: Newton's iteration at one time ends after so many steps; the state that it corrects may be at most this far off, in
 #: all and beside the sine by which the rows are apart: two branches are nearer to each other where that is small.
@@ -247,7 +248,7 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     return sign
 
 
-@jit(
+@from_its_source(
     _I8(
         *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE),
         *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K),

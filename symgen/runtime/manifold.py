@@ -6,12 +6,12 @@ from typing import Any
 
 from numba import types
 
-from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 _A = types.float64[::1]
 
 
-@jit(types.int64(_A, _A))
+@from_its_source(types.int64(_A, _A))
 def stay(y: Any, w: Any) -> int:
     """Stand in for the emitted ``turn`` of models whose coordinates change as velocities do; it is never called."""
     return 0

@@ -10,6 +10,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
@@ -68,7 +69,7 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@jit(_I8(abi.OBSERVE, LEFT, _C))
+@from_its_source(_I8(abi.OBSERVE, LEFT, _C))
 def measure_rows(observe: Any, left: Any, found: Any) -> int:
     """Evaluate formulas of a run at all outputs of runs, each with its own parameters.
 
@@ -93,7 +94,7 @@ def measure_rows(observe: Any, left: Any, found: Any) -> int:
     return 0
 
 
-@jit(_I8(abi.MEASURE, LEFT, _I8, _C))
+@from_its_source(_I8(abi.MEASURE, LEFT, _I8, _C))
 def gradient_rows(geometry: Any, left: Any, at: int, found: Any) -> int:
     """Evaluate the entries of D that vary at all outputs of runs.
 

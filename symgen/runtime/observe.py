@@ -11,6 +11,7 @@ from symgen.runtime import abi
 from symgen.runtime.bare import part
 from symgen.runtime.records import OBSERVED, OUTPUTS, SIZES
 from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 _WINDING, _N_STATUS = abi.WINDING, abi.N_STATUS
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
@@ -25,7 +26,7 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[_WINDING + i] = outputs.status[k, _N_STATUS + i]
 
 
-@jit(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+@from_its_source(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
 def observe_rates(
     rates: Any,
     confirm: Any,
@@ -71,7 +72,7 @@ def observe_rates(
     return 0
 
 
-@jit(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
+@from_its_source(_I8(abi.OBSERVE, SIZES, OUTPUTS, _I8, _A, _A, OBSERVED, _A))
 def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, observed: Any, room: Any) -> int:
     """Evaluate a function of the motion at outputs: D v' - gamma and joint coordinates, or what was asked for.
 
@@ -101,7 +102,7 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
     return 0
 
 
-@jit(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
+@from_its_source(_I8(abi.MEASURE, abi.MEASURE, SIZES, OUTPUTS, _A, _A, _A))
 def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any, w: Any, y: Any) -> int:
     """Measure states, one after the other: the status and the angles that count turns.
 

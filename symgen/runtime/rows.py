@@ -20,7 +20,7 @@ from symgen.runtime.observe import observe_rates, observe_rows
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Observed, Outputs
 from symgen.runtime.redundancy import choose_rows
 from symgen.runtime.schemes import explicit
-from symgen.store.jit import jit
+from symgen.store.loops import from_its_source
 
 _F8, _A = types.float64, types.float64[::1]
 
@@ -260,7 +260,7 @@ def integrate(*arguments: Any) -> int:
     raise NotImplementedError
 
 
-@jit(types.int64(_F8, _A, _A, _A, _A, _A))
+@from_its_source(types.int64(_F8, _A, _A, _A, _A, _A))
 def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> int:
     """Stand in for the emitted ``observe`` where no joint coordinate is asked for, so that it is not compiled."""
     return 0

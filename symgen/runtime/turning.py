@@ -105,7 +105,7 @@ def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None
         for i in range(count):
             effect = effects[row * count + i]
             if effect != 0.0 and effects[free + i] != 0.0:
-                number = round(-rest[row] / effect)
+                number = float(round(-rest[row] / effect))
                 left = abs(rest[row] + number * effect)
                 if left < best:
                     column, best, wanted = i, left, number

@@ -11,11 +11,11 @@ import ast
 import functools
 import marshal
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from numba.core import event, sigutils
-from numba.core.compiler_lock import global_compiler_lock
+from numba.core import event, sigutils, types
 from numba.core.registry import CPUDispatcher
 
 from symgen.native.library import Library, result
@@ -23,15 +23,15 @@ from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
 from symgen.store.emitted import compiler
 from symgen.store.identity import NotDescribable, digest, sources_digest, type_text
-from symgen.store.jit import LazySignatures, Loading, MachineCode, environment
+from symgen.store.jit import LazySignatures, Loading, MachineCode, environment, jit
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 
 if TYPE_CHECKING:
-    from symgen.native.language import Function
+    from symgen.native.language import Function, Scalar
 
 #: How parts of loops are compiled; with other options the loop is Numba's to compile.
-_OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}}
+_OPTIONS = {"error_model": ("numpy",), "fastmath": ({"contract"}, False, None)}
 
 
 def from_source(loop: Any) -> Any:
@@ -49,6 +49,11 @@ def from_source(loop: Any) -> Any:
     return loop
 
 
+def from_its_source(*signatures: Any, **options: Any) -> Callable[[Any], Any]:
+    """Return a decorator as `symgen.store.jit.jit` does, for functions of the runtime with records and functions."""
+    return lambda function: from_source(jit(*signatures, **options)(function))
+
+
 class _Eager(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
     """What makes the machine code of a loop."""
 
@@ -61,7 +66,7 @@ class _Eager(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
 
 
 class _Loop(LazySignatures):
-    """A loop, which is entered by its address; a wrapper for calls from Python is made when there is such a call."""
+    """A loop, which is entered by its address."""
 
     def add_overload(self, result: Any) -> None:
         """Enter a result."""
@@ -70,16 +75,13 @@ class _Loop(LazySignatures):
         else:
             super().add_overload(result)
 
-    def _search_new_conversions(self, *args: Any, **kws: Any) -> bool:
-        with global_compiler_lock:
-            found = bool(super()._search_new_conversions(*args, **kws))
-            for result in self.overloads.values():
-                if isinstance(result.library, Library) and not result.entry_point.entered:
-                    result.entry_point.entered = True
-                    codes = [argument._code for argument in result.signature.args]
-                    self._insert(codes, result.entry_point.wrapper(release_gil=True), False)
-                    found = True
-        return found
+    def __call__(self, *arguments: Any) -> Any:
+        """Call the function from Python."""
+        self.open()
+        made = list(self.overloads.values())
+        if len(made) == 1 and isinstance(made[0].library, Library):
+            return made[0].entry_point(*arguments)
+        return super().__call__(*arguments)
 
 
 class LoopCode(MachineCode):
@@ -177,7 +179,7 @@ class LoopCode(MachineCode):
         if function is None:
             return None
         try:
-            return compiled(loop_module(function, symbol), symbol)
+            return compiled(loop_module(function, symbol, tuple(sigutils.normalize_signature(sig)[0])), symbol)
         except RuntimeError as error:  # an LLVM that does not know the language any more
             self._leave(str(error))
             return None
@@ -190,19 +192,24 @@ class LoopCode(MachineCode):
     def _result(self, sig: Any, symbol: str, code: bytes) -> Any:
         """Put machine code into memory."""
         arguments = tuple(sigutils.normalize_signature(sig)[0])
-        library = Library(load(code, (symbol,)), _alone)
-        return result(self._dispatcher.py_func, arguments, "int", symbol, library, lambda f: None)
+        library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol))
+        returned = sigutils.normalize_signature(sig)[1]
+        kind: Scalar = "float" if returned is types.float64 else "int"
+        return result(self._dispatcher.py_func, arguments, kind, symbol, library, lambda f: None, known=True)
 
+    def _linkable(self, sig: Any, symbol: str) -> str:
+        """Return the text of a module that holds the function and all it calls."""
+        from symgen.native.loops_llvm import loop_module
 
-def _alone() -> str:
-    """Refuse to become one with a caller: loops are called."""
-    raise TypeError("a loop is no part of another function")
+        function = self._function(sig)
+        assert function is not None, "it was made from its source"
+        return loop_module(function, symbol, tuple(sigutils.normalize_signature(sig)[0]))
 
 
 def definition(function: Any) -> ast.FunctionDef | None:
     """Return the syntax tree of a function of the runtime, None where its source cannot be had."""
     options = function.targetoptions
-    if any(options.get(name) != value for name, value in _OPTIONS.items()):
+    if any(options.get(name) not in values for name, values in _OPTIONS.items()):
         return None
     code = function.py_func.__code__
     try:
