@@ -20,7 +20,12 @@ from symgen.runtime.vectors import combine, copied, total, weigh
 from symgen.runtime.watch import keep_maxima
 
 _EVALUATIONS, _OUTPUTS, _KNOWN, _ORDER = abi.EVALUATIONS, abi.OUTPUTS, abi.KNOWN, abi.ORDER
-_NEXT, _N_STATUS = abi.NEXT, abi.N_STATUS
+_NEXT, _STEP, _ALLOWED = abi.NEXT, abi.STEP, abi.ALLOWED
+_N_STATUS, _IN_ZONE = abi.N_STATUS, abi.IN_ZONE
+#: By how much the step that the tolerance allows may grow from one step to the next: an estimate that says more passes
+#: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
+#: where its error is rounding, and near singular positions.
+_GROWTH, _SETTLED = 1.25, 0.25
 
 
 def attempt_constant(
@@ -95,9 +100,17 @@ def attempt(
         return math.sqrt(first / count)
     total(width, h, start[row + 1], start[row + 2], column, value, stages, other)
     second = weigh(width, other, share, run.y, new, span.rtol, span.atol)
-    if first == 0.0:
-        return 0.0
-    return float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+    size = 0.0
+    if first != 0.0:
+        size = float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+    allowed = run.clock[_ALLOWED]
+    if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[_IN_ZONE] == 0:
+        least = h / (_GROWTH * allowed * run.clock[_STEP])
+        least *= least  # and twice more: the combination goes with the eighth power of the step
+        least *= least
+        least *= least
+        size = least if least > size else size  # nan stays nan
+    return size
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
