@@ -26,7 +26,6 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
@@ -158,7 +157,6 @@ def note_step(run: Any, h: float) -> None:
     run.w[_STEP_STATUS] = h
 
 
-@called
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
     """Write output `k`: the state, what ``accept`` measured, and angles with their turns counted."""
     for i in range(sizes.ny):

@@ -19,8 +19,8 @@ from numba.extending import intrinsic
 
 from symgen.runtime.blocks import BLOCK
 
-_F64, _I64 = ir.DoubleType(), ir.IntType(64)
-_VECTOR, _INDICES = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK)
+_F64, _I32, _I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
+_VECTOR, _INDICES, _PAIR = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK), ir.VectorType(_F64, 2)
 #: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
 _FLAGS = ("contract",)
 
@@ -99,6 +99,7 @@ def _finite(width: int, array: Any) -> bool:
 
 PLAIN: dict[str, Callable[..., Any]] = {
     "combine": _combine,
+    "follow": _combine,
     "total": _total,
     "copied": _copied,
     "weigh": _weigh,
@@ -161,13 +162,56 @@ def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], An
 def _vector_combine(
     typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
 ) -> Any:
+    return types.void(*_TABLE, column, value, rows, base, out), _combining(_last_whole)
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_follow(
+    typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
+) -> Any:
+    return types.void(*_TABLE, column, value, rows, base, out), _combining(_last_in_pairs)
+
+
+def _combining(last_row: Callable[..., None]) -> Callable[..., Any]:
+    """Return what writes `combine`, with one of two ways to add the last row."""
+
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        base, out = _data(context, builder, signature, arguments, 7, 8)
-        for i, change in _sums(context, builder, signature, arguments):
-            _store(builder, builder.fadd(_load(builder, base, i), change, flags=_FLAGS), out, i)
+        width, h, first, last = arguments[:4]
+        column, value, rows, base, out = _data(context, builder, signature, arguments, 4, 5, 6, 7, 8)
+        with builder.if_else(builder.icmp_signed("<", first, last)) as (some, none):
+            with some:
+                end = builder.sub(last, _I64(1))
+                row = builder.mul(builder.load(builder.gep(column, [end])), width)
+                factor = _spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
+                for i, change in _sums(context, builder, signature, (*arguments[:3], end, *arguments[4:])):
+                    before = builder.fadd(_load(builder, base, i), change, flags=_FLAGS)
+                    last_row(builder, before, factor, builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i]))
+            with none, cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+                _store(builder, _load(builder, base, i), out, i)
         return context.get_dummy_value()
 
-    return types.void(*_TABLE, column, value, rows, base, out), generate
+    return generate
+
+
+def _last_whole(builder: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+    """Write a block of a state, from it without the last row and the block of that row."""
+    term = builder.fmul(factor, _load(builder, rate, _I64(0)), flags=_FLAGS)
+    _store(builder, builder.fadd(before, term, flags=_FLAGS), out, _I64(0))
+
+
+def _last_in_pairs(builder: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+    """Do the same in pairs of numbers that are read one by one, as emitted functions have just written them."""
+    undefined = ir.Constant(_VECTOR, ir.Undefined)
+    for k in range(0, BLOCK, 2):
+        pair: Any = ir.Constant(_PAIR, ir.Undefined)
+        for i in range(2):
+            where = builder.bitcast(builder.gep(rate, [_I64(k + i)]), _I64.as_pointer())
+            number = builder.bitcast(builder.load_atomic(where, "unordered", 8), _F64)
+            pair = builder.insert_element(pair, number, _I32(i))
+        places = ir.Constant(ir.VectorType(_I32, 2), [k, k + 1])
+        mine, weight = (builder.shuffle_vector(vector, undefined, places) for vector in (before, factor))
+        changed = builder.fadd(mine, builder.fmul(weight, pair, flags=_FLAGS), flags=_FLAGS)
+        builder.store(changed, builder.bitcast(builder.gep(out, [_I64(k)]), _PAIR.as_pointer()), align=8)
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -278,6 +322,7 @@ def _vector_finite(typing: Any, width: Any, array: Any) -> Any:
     return types.boolean(types.int64, array), generate
 
 
+follow: Any = _combine if config.DISABLE_JIT else _vector_follow
 total: Any = _total if config.DISABLE_JIT else _vector_total
 copied: Any = _copied if config.DISABLE_JIT else _vector_copied
 combine: Any = _combine if config.DISABLE_JIT else _vector_combine
