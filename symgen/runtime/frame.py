@@ -30,7 +30,7 @@ from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
-from symgen.runtime.vectors import copied
+from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, stuck, watch
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
@@ -328,7 +328,7 @@ def integrate(
         if DENSE and out < asked and times[out] < following:
             interpolate(system, scheme, span, run, outputs, t, following, h)
             out = control[_OUTPUTS]
-        copied(width, run.trial, run.y)
+        received(width, run.trial, run.y)
         if not ADAPTIVE:
             control[_INDEX] += 1
             early = following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny

@@ -28,12 +28,11 @@ def attempt_constant(
 ) -> float:
     """Try a step whose error is not asked for."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
-    for s in range(scheme.stages):
+    for s in range(scheme.stages + 1):
         follow(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
-        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
-    last = scheme.stages
-    follow(width, h, start[last], start[last + 1], column, value, run.room, run.y, run.trial)
-    run.control[_EVALUATIONS] += last
+        if s < scheme.stages:
+            evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
+    run.control[_EVALUATIONS] += scheme.stages
     return 0.0
 
 
@@ -75,26 +74,22 @@ def attempt(
     """Try a step; return its error over the tolerance. The unprojected end is kept in working memory."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     stages, last = run.memory, scheme.stages
-    new, error, other = part(run.room, 0, width), part(run.room, width, width), part(run.room, 2 * width, width)
-    for s in range(1, last):
+    new, error = part(run.room, 0, width), part(run.room, width, width)
+    for s in range(1, last + 1):
         follow(width, h, start[s], start[s + 1], column, value, stages, run.y, run.trial)
-        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
-    follow(width, h, start[last], start[last + 1], column, value, stages, run.y, new)
-    run.control[_EVALUATIONS] += last - 1
+        if s < last + scheme.ends:
+            evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
+    run.control[_EVALUATIONS] += last - 1 + scheme.ends
     run.control[_KNOWN] = scheme.ends
-    if scheme.ends == 1:
-        evaluate(system, run, t + h, new, part(stages, last * width, width))
-        run.control[_EVALUATIONS] += 1
-    copied(width, new, run.trial)
+    copied(width, run.trial, new)
     # error weights stand behind all stages in the table
-    row, count = scheme.nodes.shape[0], system.sizes.controlled
-    total(width, h, start[row], start[row + 1], column, value, stages, error)
-    share = weights_of(span, run)
-    first = weigh(width, error, share, run.y, new, span.rtol, span.atol)
+    row, count, share = scheme.nodes.shape[0], system.sizes.controlled, weights_of(span, run)
+    first = second = 0.0
+    for e in range(scheme.estimates):
+        total(width, h, start[row + e], start[row + e + 1], column, value, stages, error)
+        first, second = second, weigh(width, error, share, run.y, new, span.rtol, span.atol)
     if scheme.estimates == 1:
-        return math.sqrt(first / count)
-    total(width, h, start[row + 1], start[row + 2], column, value, stages, other)
-    second = weigh(width, other, share, run.y, new, span.rtol, span.atol)
+        return math.sqrt(second / count)
     if first == 0.0:
         return 0.0
     return float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
