@@ -34,6 +34,11 @@ def _stripped(context: Any, builder: Any, kind: Any, value: Any) -> Any:
     view = context.make_array(kind)(context, builder, value)
     view.meminfo = view.meminfo.type(None)
     view.parent = view.parent.type(None)
+    item = context.get_abi_sizeof(context.get_data_type(kind.dtype))
+    view.itemsize = view.itemsize.type(item)  # known, so that no call has to fetch it
+    if kind.layout == "C":
+        *outer, inner = cgutils.unpack_tuple(builder, view.strides)
+        view.strides = cgutils.pack_array(builder, [*outer, inner.type(item)])
     return view._getvalue()
 
 

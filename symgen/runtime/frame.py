@@ -26,12 +26,11 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
-from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
-from symgen.runtime.vectors import copied
+from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, stuck, watch
 
 _STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
@@ -158,7 +157,6 @@ def note_step(run: Any, h: float) -> None:
     run.w[_STEP_STATUS] = h
 
 
-@called
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
     """Write output `k`: the state, what ``accept`` measured, and angles with their turns counted."""
     for i in range(sizes.ny):
@@ -330,7 +328,7 @@ def integrate(
         if DENSE and out < asked and times[out] < following:
             interpolate(system, scheme, span, run, outputs, t, following, h)
             out = control[_OUTPUTS]
-        copied(width, run.trial, run.y)
+        received(width, run.trial, run.y)
         if not ADAPTIVE:
             control[_INDEX] += 1
             early = following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny

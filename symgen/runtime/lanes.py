@@ -29,7 +29,7 @@ from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLE
 from symgen.runtime.redundancy import never
 from symgen.runtime.rows import begin_run, end_run, take
 from symgen.runtime.schemes import explicit
-from symgen.runtime.vectors import copied
+from symgen.runtime.vectors import combine, copied
 
 #: rhs(t, z) and accept(t, z).
 LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
@@ -184,7 +184,8 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 _MEANINGS: dict[str, Any] = {
     **{"opened": opened, "evaluate": evaluate, "correct": correct, "note_step": note_step, "store": store},
     **{"settle": settle, "remember_rank": remember_rank, "begin": begin, "keep_maxima": keep_maxima, "watch": watch},
-    **{"rows_fell": never, "attempt": explicit.attempt_constant},
+    # emitted code for lanes writes whole vectors, which are read as such
+    **{"rows_fell": never, "attempt": explicit.attempt_constant, "follow": combine},
 }
 
 

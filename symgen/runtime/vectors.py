@@ -10,6 +10,7 @@ Where nothing is compiled, and on CUDA devices, plain loops stand in: the functi
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 from llvmlite import ir
@@ -19,8 +20,10 @@ from numba.extending import intrinsic
 
 from symgen.runtime.blocks import BLOCK
 
-_F64, _I64 = ir.DoubleType(), ir.IntType(64)
-_VECTOR, _INDICES = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK)
+_F64, _I32, _I64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
+_VECTOR, _INDICES, _PAIR = ir.VectorType(_F64, BLOCK), ir.VectorType(_I64, BLOCK), ir.VectorType(_F64, 2)
+#: Up to this width numbers that were just written one by one are read one by one.
+_SMALL = 4 * BLOCK
 #: Multiplication and addition may be contracted, as everywhere in compiled code; nothing else is allowed.
 _FLAGS = ("contract",)
 
@@ -99,8 +102,10 @@ def _finite(width: int, array: Any) -> bool:
 
 PLAIN: dict[str, Callable[..., Any]] = {
     "combine": _combine,
+    "follow": _combine,
     "total": _total,
     "copied": _copied,
+    "received": _copied,
     "weigh": _weigh,
     "largest": _largest,
     "finite": _finite,
@@ -135,6 +140,13 @@ def _magnitude(builder: Any, vector: Any) -> Any:
     return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), [vector])
 
 
+def _added(builder: Any, a: Any, b: Any, c: Any) -> Any:
+    """Return a b + c, contracted wherever the processor can: which is left to no optimisation, and so is every bit."""
+    kind = ir.FunctionType(a.type, [a.type] * 3)
+    name = f"llvm.fmuladd.v{a.type.count}f64"
+    return builder.call(cgutils.get_or_insert_function(builder.module, kind, name), [a, b, c])
+
+
 def _greater(builder: Any, a: Any, b: Any) -> Any:
     """Return the greater of two, element by element; b where they cannot be compared."""
     return builder.select(builder.fcmp_ordered(">", a, b), a, b)
@@ -161,13 +173,84 @@ def _blocks(builder: Any, width: Any, begin: Any, block: Callable[[Any, Any], An
 def _vector_combine(
     typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
 ) -> Any:
+    return types.void(*_TABLE, column, value, rows, base, out), _combining(_last_whole)
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_follow(
+    typing: Any, width: Any, h: Any, first: Any, last: Any, column: Any, value: Any, rows: Any, base: Any, out: Any
+) -> Any:
+    return types.void(*_TABLE, column, value, rows, base, out), _combining(_last_as_written)
+
+
+def _combining(last_row: Callable[..., None]) -> Callable[..., Any]:
+    """Return what writes `combine`, with one of two ways to add the last row."""
+
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        base, out = _data(context, builder, signature, arguments, 7, 8)
-        for i, change in _sums(context, builder, signature, arguments):
-            _store(builder, builder.fadd(_load(builder, base, i), change, flags=_FLAGS), out, i)
+        width, h, first, last = arguments[:4]
+        column, value, rows, base, out = _data(context, builder, signature, arguments, 4, 5, 6, 7, 8)
+        with builder.if_else(builder.icmp_signed("<", first, last)) as (some, none):
+            with some:
+                end = builder.sub(last, _I64(1))
+                row = builder.mul(builder.load(builder.gep(column, [end])), width)
+                factor = _spread(builder, builder.fmul(h, builder.load(builder.gep(value, [end])), flags=_FLAGS))
+                for i, total in _sums(context, builder, signature, (*arguments[:3], end, *arguments[4:])):
+                    before = _added(builder, _spread(builder, h), total, _load(builder, base, i))
+                    rate, to = builder.gep(rows, [builder.add(row, i)]), builder.gep(out, [i])
+                    last_row(builder, width, before, factor, rate, to)
+            with none, cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
+                _store(builder, _load(builder, base, i), out, i)
         return context.get_dummy_value()
 
-    return types.void(*_TABLE, column, value, rows, base, out), generate
+    return generate
+
+
+def _last_whole(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+    """Write a block of a state, from it without the last row and the block of that row."""
+    _store(builder, _added(builder, factor, _load(builder, rate, _I64(0)), before), out, _I64(0))
+
+
+def _last_as_written(builder: Any, width: Any, before: Any, factor: Any, rate: Any, out: Any) -> None:
+    """Do the same where an emitted function has just written the row."""
+
+    def small() -> None:
+        undefined = ir.Constant(_VECTOR, ir.Undefined)
+        for k, pair in _pairs(builder, rate):
+            places = ir.Constant(ir.VectorType(_I32, 2), [k, k + 1])
+            mine, weight = (builder.shuffle_vector(vector, undefined, places) for vector in (before, factor))
+            builder.store(_added(builder, weight, pair, mine), _pair_at(builder, out, _I64(k)), align=8)
+
+    _as_written(builder, width, small, partial(_last_whole, builder, width, before, factor, rate, out))
+
+
+# -- what emitted functions have just written --------------------------------------------------------------------------
+#
+# They write number by number, and a vector of numbers that still wait to be written is not to be had before they are;
+# each by itself is. Large states are read as vectors all the same, as there are too many numbers.
+
+
+def _as_written(builder: Any, width: Any, small: Callable[[], None], large: Callable[[], None]) -> None:
+    """Write one of two ways to do a block, by the width of the state."""
+    with builder.if_else(builder.icmp_signed("<=", width, _I64(_SMALL))) as (then, otherwise):
+        with then:
+            small()
+        with otherwise:
+            large()
+
+
+def _pairs(builder: Any, data: Any) -> Iterator[tuple[int, Any]]:
+    """Give a block in pairs, and where they stand in it; loads that are atomic are not joined by the compiler."""
+    for k in range(0, BLOCK, 2):
+        pair: Any = ir.Constant(_PAIR, ir.Undefined)
+        for i in range(2):
+            where = builder.bitcast(builder.gep(data, [_I64(k + i)]), _I64.as_pointer())
+            number = builder.bitcast(builder.load_atomic(where, "unordered", 8), _F64)
+            pair = builder.insert_element(pair, number, _I32(i))
+        yield k, pair
+
+
+def _pair_at(builder: Any, data: Any, at: Any) -> Any:
+    return builder.bitcast(builder.gep(data, [at]), _PAIR.as_pointer())
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -176,8 +259,9 @@ def _vector_total(
 ) -> Any:
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         (out,) = _data(context, builder, signature, arguments, 7)
+        h = _spread(builder, arguments[1])
         for i, total in _sums(context, builder, signature, arguments):
-            _store(builder, total, out, i)
+            _store(builder, builder.fmul(h, total), out, i)
         return context.get_dummy_value()
 
     return types.void(*_TABLE, column, value, rows, out), generate
@@ -188,19 +272,19 @@ _TABLE = types.int64, types.float64, types.int64, types.int64
 
 
 def _sums(context: Any, builder: Any, signature: Any, arguments: Any) -> Iterator[tuple[Any, Any]]:
-    """Give each block's index and h times its sum of values times rows, inside the loop over blocks."""
-    width, h, first, last = arguments[:4]
+    """Give each block's index and its sum of values times rows, inside the loop over blocks."""
+    width, _, first, last = arguments[:4]
     column, value, rows = _data(context, builder, signature, arguments, 4, 5, 6)
-    zero, factor = ir.Constant(_VECTOR, [0.0] * BLOCK), _spread(builder, h)
+    zero = ir.Constant(_VECTOR, [0.0] * BLOCK)
     with cgutils.for_range_slice(builder, _I64(0), width, _I64(BLOCK), _I64, inc=True) as (i, _):
         total = cgutils.alloca_once(builder, _VECTOR)
         builder.store(zero, total)
         with cgutils.for_range_slice(builder, first, last, _I64(1), _I64, inc=True) as (k, _):
             row = builder.mul(builder.load(builder.gep(column, [k])), width)
             weight = _spread(builder, builder.load(builder.gep(value, [k])))
-            term = builder.fmul(weight, _load(builder, rows, builder.add(row, i)), flags=_FLAGS)
-            builder.store(builder.fadd(builder.load(total), term, flags=_FLAGS), total)
-        yield i, builder.fmul(factor, builder.load(total), flags=_FLAGS)
+            rate = _load(builder, rows, builder.add(row, i))
+            builder.store(_added(builder, weight, rate, builder.load(total)), total)
+        yield i, builder.load(total)
 
 
 @intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
@@ -209,6 +293,25 @@ def _vector_copied(typing: Any, width: Any, array: Any, out: Any) -> Any:
         data, to = _data(context, builder, signature, arguments, 1, 2)
         with cgutils.for_range_slice(builder, _I64(0), arguments[0], _I64(BLOCK), _I64, inc=True) as (i, _):
             _store(builder, _load(builder, data, i), to, i)
+        return context.get_dummy_value()
+
+    return types.void(types.int64, array, out), generate
+
+
+@intrinsic  # type: ignore[untyped-decorator]  # Numba is untyped
+def _vector_received(typing: Any, width: Any, array: Any, out: Any) -> Any:
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        data, to = _data(context, builder, signature, arguments, 1, 2)
+
+        def small(i: Any) -> None:
+            for k, pair in _pairs(builder, builder.gep(data, [i])):
+                builder.store(pair, _pair_at(builder, to, builder.add(i, _I64(k))), align=8)
+
+        def large(i: Any) -> None:
+            _store(builder, _load(builder, data, i), to, i)
+
+        with cgutils.for_range_slice(builder, _I64(0), arguments[0], _I64(BLOCK), _I64, inc=True) as (i, _):
+            _as_written(builder, arguments[0], partial(small, i), partial(large, i))
         return context.get_dummy_value()
 
     return types.void(types.int64, array, out), generate
@@ -278,8 +381,10 @@ def _vector_finite(typing: Any, width: Any, array: Any) -> Any:
     return types.boolean(types.int64, array), generate
 
 
+follow: Any = _combine if config.DISABLE_JIT else _vector_follow
 total: Any = _total if config.DISABLE_JIT else _vector_total
 copied: Any = _copied if config.DISABLE_JIT else _vector_copied
+received: Any = _copied if config.DISABLE_JIT else _vector_received
 combine: Any = _combine if config.DISABLE_JIT else _vector_combine
 weigh: Any = _weigh if config.DISABLE_JIT else _vector_weigh
 largest: Any = _largest if config.DISABLE_JIT else _vector_largest

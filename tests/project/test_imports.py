@@ -43,7 +43,7 @@ ALLOWED = {
     "lower": {"msgspec"},
     "memory": set(),
     "methods": set(),
-    "native": {"llvmlite", "msgspec", "numba"},
+    "native": {"llvmlite", "msgspec", "numba", "numpy"},
     "plan": {"numpy"},
     "player": {"PIL", "matplotlib", "numpy"},
     "reading": {"numpy", "sympy"},

@@ -11,16 +11,21 @@ import math
 from typing import Any
 
 from symgen.runtime import abi
-from symgen.runtime.bare import part
+from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import correct, evaluate, loop, store
 from symgen.runtime.instances import called
 from symgen.runtime.records import TABLEAU
 from symgen.runtime.scales import weights_of
-from symgen.runtime.vectors import combine, copied, total, weigh
+from symgen.runtime.vectors import combine, copied, follow, total, weigh
 from symgen.runtime.watch import keep_maxima
 
 _EVALUATIONS, _OUTPUTS, _KNOWN, _ORDER = abi.EVALUATIONS, abi.OUTPUTS, abi.KNOWN, abi.ORDER
-_NEXT, _N_STATUS = abi.NEXT, abi.N_STATUS
+_NEXT, _STEP, _ALLOWED = abi.NEXT, abi.STEP, abi.ALLOWED
+_N_STATUS, _IN_ZONE = abi.N_STATUS, abi.IN_ZONE
+#: By how much the step that the tolerance allows may grow from one step to the next: an estimate that says more passes
+#: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
+#: where its error is rounding, and near singular positions.
+_GROWTH, _SETTLED = 1.25, 0.25
 
 
 def attempt_constant(
@@ -28,12 +33,11 @@ def attempt_constant(
 ) -> float:
     """Try a step whose error is not asked for."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
-    for s in range(scheme.stages):
-        combine(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
-        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
-    last = scheme.stages
-    combine(width, h, start[last], start[last + 1], column, value, run.room, run.y, run.trial)
-    run.control[_EVALUATIONS] += last
+    for s in range(scheme.stages + 1):
+        follow(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
+        if s < scheme.stages:
+            evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
+    run.control[_EVALUATIONS] += scheme.stages
     return 0.0
 
 
@@ -75,29 +79,33 @@ def attempt(
     """Try a step; return its error over the tolerance. The unprojected end is kept in working memory."""
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     stages, last = run.memory, scheme.stages
-    new, error, other = part(run.room, 0, width), part(run.room, width, width), part(run.room, 2 * width, width)
-    for s in range(1, last):
-        combine(width, h, start[s], start[s + 1], column, value, stages, run.y, run.trial)
-        evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
-    combine(width, h, start[last], start[last + 1], column, value, stages, run.y, new)
-    run.control[_EVALUATIONS] += last - 1
+    new, error = part(run.room, 0, width), part(run.room, width, width)
+    for s in range(1, last + 1):
+        follow(width, h, start[s], start[s + 1], column, value, stages, run.y, run.trial)
+        if s < last + scheme.ends:
+            evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
+    run.control[_EVALUATIONS] += last - 1 + scheme.ends
     run.control[_KNOWN] = scheme.ends
-    if scheme.ends == 1:
-        evaluate(system, run, t + h, new, part(stages, last * width, width))
-        run.control[_EVALUATIONS] += 1
-    copied(width, new, run.trial)
+    copied(width, run.trial, new)
     # error weights stand behind all stages in the table
-    row, count = scheme.nodes.shape[0], system.sizes.controlled
-    total(width, h, start[row], start[row + 1], column, value, stages, error)
-    share = weights_of(span, run)
-    first = weigh(width, error, share, run.y, new, span.rtol, span.atol)
+    row, count, share = scheme.nodes.shape[0], system.sizes.controlled, weights_of(span, run)
+    first = second = 0.0
+    for e in range(scheme.estimates):
+        total(width, h, start[row + e], start[row + e + 1], column, value, stages, error)
+        first, second = second, weigh(width, error, share, run.y, new, span.rtol, span.atol)
     if scheme.estimates == 1:
-        return math.sqrt(first / count)
-    total(width, h, start[row + 1], start[row + 2], column, value, stages, other)
-    second = weigh(width, other, share, run.y, new, span.rtol, span.atol)
-    if first == 0.0:
-        return 0.0
-    return float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+        return math.sqrt(second / count)
+    size = 0.0
+    if first != 0.0:
+        size = float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+    allowed = run.clock[_ALLOWED]
+    if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[_IN_ZONE] == 0:
+        least = h / (_GROWTH * allowed * run.clock[_STEP])
+        least *= least  # and twice more: the combination goes with the eighth power of the step
+        least *= least
+        least *= least
+        size = least if least > size else size  # nan stays nan
+    return size
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
@@ -115,6 +123,7 @@ def interpolate(
     system: Any, scheme: Any, span: Any, run: Any, outputs: Any, t: float, following: float, h: float
 ) -> None:
     """Write the outputs inside a step, each projected; what ``accept`` measured at the end of the step is kept."""
+    scheme, run, outputs = bare(scheme), bare(run), bare(outputs)
     width, start, column, value = system.sizes.width, scheme.start, scheme.column, scheme.value
     stages, last, every, count = run.memory, scheme.stages, scheme.nodes.shape[0], scheme.count
     degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
@@ -127,7 +136,7 @@ def interpolate(
         run.control[_EVALUATIONS] += 1
         run.control[_KNOWN] = 1
     for s in range(last + 1, every):
-        combine(width, h, start[s], start[s + 1], column, value, stages, run.y, new)
+        follow(width, h, start[s], start[s + 1], column, value, stages, run.y, new)
         evaluate(system, run, t + scheme.nodes[s] * h, new, part(stages, s * width, width))
         run.control[_EVALUATIONS] += 1
     out = run.control[_OUTPUTS]

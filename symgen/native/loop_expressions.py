@@ -1,0 +1,317 @@
+"""What expressions in the source of loops are: numbers as in emitted functions, or records, arrays and functions.
+
+Where an expression needs statements, those of a function that is copied to where it is called for instance, they wait
+for being put before the statement that it stands in; what was worked out before them keeps its value.
+"""
+
+from __future__ import annotations
+
+import ast
+import types as python
+from collections.abc import Callable
+from typing import Any
+
+from symgen.native import language as lang
+from symgen.native.loop_values import EXPRESSIONS, Array, Record, Value, is_number, leaves
+from symgen.native.read import Reader
+from symgen.native.read_values import Foreign, number
+
+
+class Values(Reader):
+    """Reads expressions, where there are records and arrays of several dimensions.
+
+    Parameters
+    ----------
+    function : Dispatcher
+        What the Python function is called through.
+    arguments : dict of str to object
+        What arguments are that are no numbers.
+    parameters : tuple of Parameter
+        What all of them take.
+    definition : Callable
+        Gives the syntax tree of a function, None where it is not to be read.
+    """
+
+    def __init__(
+        self,
+        function: Any,
+        arguments: dict[str, Value],
+        parameters: tuple[lang.Parameter, ...],
+        definition: Callable[[Any], ast.FunctionDef | None],
+    ) -> None:
+        super().__init__(function, ast.FunctionDef(name="", args=_NONE, body=[], decorator_list=[]), (), definition, ())
+        self.parameters, self.bound = parameters, arguments
+        self.arrays = {p.name: p.type for p in parameters if p.array}
+        self.numbers = {p.name: p.type for p in parameters if not p.array and not p.address}
+        self.pending: list[lang.Statement] = []
+        self.count = 0
+
+    def kept(self, value: Value, node: ast.AST) -> Value:
+        """Return a value that later statements do not change: a number is given a name."""
+        if not isinstance(value, EXPRESSIONS) or isinstance(value, lang.Constant):
+            return value
+        name = self.fresh("")
+        self.give(name, value.type, node)
+        self.pending.append(lang.Assign(name, value))
+        return lang.Variable(value.type, name)
+
+    def fresh(self, name: str) -> str:
+        """Return a name that is no name of Python's."""
+        self.count += 1
+        return f"{name}..{self.count}"
+
+    def expression(self, node: ast.expr) -> lang.Expression:
+        """Return the value of an expression that is a number."""
+        value = self.value(node)
+        if not is_number(value):
+            raise Foreign("something that is no number", node)
+        found: lang.Expression = value
+        return found
+
+    def value(self, node: ast.expr) -> Value:
+        """Return the value of an expression, which may be a record, an array or a function as well."""
+        if isinstance(node, ast.Tuple):
+            return Record(tuple(self.kept(v, node) for v in self.several(node.elts)))
+        if isinstance(node, ast.Name) and node.id in self.bound:
+            return self.bound[node.id]
+        if isinstance(node, ast.IfExp):
+            return self.choice(node)
+        return super().expression(node)
+
+    def several(self, nodes: list[ast.expr]) -> list[Value]:
+        """Return values in their order: what a later one needs to have been done does not change an earlier one."""
+        values: list[Value] = []
+        for node in nodes:
+            before = len(self.pending)
+            value = self.value(node)
+            if len(self.pending) > before and any(
+                isinstance(v, EXPRESSIONS) and not isinstance(v, lang.Constant) for v in values
+            ):
+                behind, self.pending = self.pending[before:], self.pending[:before]
+                values = [self.kept(v, node) for v in values]
+                self.pending += behind
+            values.append(value)
+        return values
+
+    def numbers_of(self, nodes: list[ast.expr]) -> list[lang.Expression]:
+        """Return values that are numbers."""
+        values = self.several(nodes)
+        if not all(is_number(v) for v in values):
+            raise Foreign("something that is no number", nodes[0])
+        return values
+
+    def attribute(self, node: ast.Attribute) -> Value:
+        """Return a field of a record, a number of a module, or what NumPy calls the shape."""
+        if isinstance(node.value, ast.Name) and node.value.id not in self.bound:
+            module = self.globals.get(node.value.id)
+            if isinstance(module, python.ModuleType) and node.value.id not in self.variables:
+                return number(getattr(module, node.attr), node)
+        owner = self.value(node.value)
+        if isinstance(owner, Record) and node.attr in owner.fields:
+            return owner.values[owner.fields.index(node.attr)]
+        if isinstance(owner, Array) and node.attr == "shape":
+            return Record(tuple(lang.Shape(owner.name, axis) for axis in range(owner.rank)))
+        if isinstance(owner, Array) and node.attr == "size" and owner.rank == 1:
+            return lang.Shape(owner.name)
+        raise Foreign("an attribute", node)
+
+    def element(self, node: ast.Subscript) -> Value:
+        """Return an element of an array or of a tuple."""
+        if isinstance(node.value, ast.Attribute | ast.Name):
+            owner = self.owner(node.value)
+            if isinstance(owner, Record):
+                index = self.expression(node.slice)
+                if isinstance(index, lang.Constant) and 0 <= int(index.value) < len(owner.values):
+                    return owner.values[int(index.value)]
+                raise Foreign("an index", node)
+            if isinstance(owner, Array) and isinstance(node.slice, ast.Slice):
+                return self.one(owner, node.slice)
+            if isinstance(owner, Array) and (given := _indices(node)) < owner.rank:
+                return self.behind(owner, node, given)
+        return super().element(node)
+
+    def behind(self, array: Array, node: ast.Subscript, given: int) -> Array:
+        """Return what stands behind some indices, as an array of fewer dimensions."""
+        nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+        indices = [*self.numbers_of(nodes), *(lang.Constant("int", 0),) * (array.rank - given)]
+        name = self.array(array.type, array.rank - given)
+        self.pending.append(lang.View(name, array.name, self.at(array, indices, node), None, given))
+        return Array(name, array.type, array.rank - given)
+
+    def at(self, array: Array, indices: list[lang.Expression], node: ast.AST) -> lang.Expression:
+        """Return where an element stands."""
+        if len(indices) != array.rank or any(
+            i.type != "int" or (isinstance(i, lang.Constant) and i.value < 0) for i in indices
+        ):
+            raise Foreign("an index", node)
+        at = indices[0]
+        for axis, index in enumerate(indices[1:], 1):
+            row = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
+            at = lang.Operation("int", "add", (row, index))
+        return at
+
+    def one(self, array: Array, part: ast.Slice) -> Array:
+        """Return one row of an array, ``[k : k + 1]``, as an array of the same dimensions."""
+        if part.lower is None or part.step is not None or part.upper is None:
+            raise Foreign("a part of an array", part)
+        behind = ast.BinOp(part.lower, ast.Add(), ast.Constant(1))
+        if ast.dump(part.upper) != ast.dump(behind):
+            raise Foreign("a part of an array", part)
+        (at,) = self.numbers_of([part.lower])
+        name = self.array(array.type, array.rank)
+        for axis in range(1, array.rank):
+            at = lang.Operation("int", "mul", (at, lang.Shape(array.name, axis)))
+        self.pending.append(lang.View(name, array.name, at, lang.Constant("int", 1)))
+        return Array(name, array.type, array.rank)
+
+    def owner(self, node: ast.expr) -> Value:
+        """Return what something is an element of; None for a table of the module."""
+        if isinstance(node, ast.Name) and node.id not in self.bound:
+            return None
+        return self.value(node)
+
+    def place(self, node: ast.Subscript) -> tuple[str, lang.Expression]:
+        """Return array and index of an element."""
+        owner = self.owner(node.value)
+        if owner is None:
+            return super().place(node)
+        if not isinstance(owner, Array):
+            raise Foreign("an element of something else than an array", node)
+        nodes = list(node.slice.elts) if isinstance(node.slice, ast.Tuple) else [node.slice]
+        return owner.name, self.at(owner, self.numbers_of(nodes), node)
+
+    def unary(self, node: ast.UnaryOp) -> lang.Expression:
+        """Return an operation on one value."""
+        if isinstance(node.op, ast.Not):
+            value = self.truth(node.operand)
+            if isinstance(value, lang.Constant):
+                return lang.Constant("bool", not value.value)
+            return lang.Operation("bool", "not", (value,))
+        return super().unary(node)
+
+    def binary(self, node: ast.BinOp) -> lang.Expression:
+        """Return an operation on two values."""
+        left, right = self.numbers_of([node.left, node.right])
+        if left.type == right.type == "int" and not isinstance(right, lang.Constant):
+            if isinstance(node.op, ast.FloorDiv | ast.Mod):
+                name = "quotient" if isinstance(node.op, ast.FloorDiv) else "rest"
+                return lang.Operation("int", name, (left, right))
+        sign = self.sign(node)
+        if sign == "pow" and left.type == "int" and isinstance(right, lang.Constant) and right.value == 2:
+            left = self.kept(left, node)
+            return lang.Operation("int", "mul", (left, left))
+        return self.arithmetic(sign, left, right, node)
+
+    def comparison(self, node: ast.Compare) -> lang.Expression:
+        """Return one comparison or several in a row."""
+        values = self.numbers_of([node.left, *node.comparators])
+        if len(values) > 2:
+            values = [self.kept(v, node) for v in values]  # none is worked out twice
+        found: lang.Expression | None = None
+        for sign, left, right in zip(node.ops, values, values[1:], strict=False):
+            test = self.compared(sign, left, right, node)
+            found = test if found is None else lang.Logic("and", found, test)
+        assert found is not None, "a comparison compares"
+        return found
+
+    def logic(self, node: ast.BoolOp) -> lang.Expression:
+        """Return ``and`` or ``or`` of booleans; what is known to be true or false decides what is read at all."""
+        deciding = isinstance(node.op, ast.Or)
+        found: list[lang.Expression] = []
+        for value_node in node.values:
+            before = len(self.pending)
+            value = self.expression(value_node)
+            if value.type != "bool":
+                raise Foreign("'and' or 'or' of numbers", node)
+            if found and len(self.pending) > before:
+                behind, self.pending = self.pending[before:], self.pending[:before]
+                name = self.fresh("decided")
+                self.depth += 1
+                self.give(name, "bool", node)
+                self.depth -= 1
+                test = self.joined(found, deciding)
+                if not deciding:
+                    chosen = lang.If(test, (*behind, lang.Assign(name, value)), (_given(name, False),))
+                else:
+                    chosen = lang.If(test, (_given(name, True),), (*behind, lang.Assign(name, value)))
+                self.pending.append(chosen)
+                found = [lang.Variable("bool", name)]
+                continue
+            if isinstance(value, lang.Constant):
+                if value.value is deciding:
+                    found.append(value)
+                    break
+                continue
+            found.append(value)
+        if not found:
+            return lang.Constant("bool", not deciding)
+        return self.joined(found, deciding)
+
+    def joined(self, values: list[lang.Expression], deciding: bool) -> lang.Expression:
+        """Return ``and`` of booleans that False decides, or ``or`` of those that True does."""
+        *first, last = values
+        for earlier in reversed(first):
+            last = lang.Logic("or" if deciding else "and", earlier, last)
+        return last
+
+    def choice(self, node: ast.IfExp) -> Value:
+        """Return one of two values, of which only that one is worked out."""
+        test = self.truth(node.test)
+        if isinstance(test, lang.Constant):
+            return self.value(node.body if test.value else node.orelse)
+        outer, values, needed = self.pending, list[Value](), list[list[lang.Statement]]()
+        self.depth += 1
+        for part in (node.body, node.orelse):
+            self.pending = []
+            values.append(self.value(part))
+            needed.append(self.pending)
+        self.depth, self.pending = self.depth - 1, outer
+        chosen, otherwise = values
+        if any(needed) or isinstance(chosen, Record):
+            return self.decided(test, values, needed, node)
+        if isinstance(chosen, Array) and isinstance(otherwise, Array) and chosen.type == otherwise.type:
+            name = self.array(chosen.type)
+            self.pending.append(lang.Pick(name, test, chosen.name, otherwise.name))
+            return Array(name, chosen.type)
+        if not isinstance(chosen, EXPRESSIONS) or not isinstance(otherwise, EXPRESSIONS):
+            raise Foreign("a choice between things that are no numbers", node)
+        return self.chosen(test, chosen, otherwise, node)
+
+    def decided(
+        self, test: lang.Expression, values: list[Value], needed: list[list[lang.Statement]], node: ast.AST
+    ) -> Value:
+        """Return one of two values that need statements, or are records of numbers."""
+        first, second = (list(leaves(value)) for value in values)
+        if len(first) != len(second) or any(
+            not is_number(a) or not is_number(b) or a.type != b.type for a, b in zip(first, second, strict=True)
+        ):
+            raise Foreign("a choice between things that are no numbers", node)
+        names = [self.fresh("chosen") for _ in first]
+        for name, value in zip(names, first, strict=True):
+            self.depth += 1
+            self.give(name, value.type, node)
+            self.depth -= 1
+        then, otherwise = (
+            (*before, *(lang.Assign(name, v) for name, v in zip(names, branch, strict=True)))
+            for before, branch in zip(needed, (first, second), strict=True)
+        )
+        self.pending.append(lang.If(test, then, otherwise))
+        found = tuple(lang.Variable(value.type, name) for name, value in zip(names, first, strict=True))
+        return Record(found) if isinstance(values[0], Record) else found[0]
+
+    def array(self, kind: lang.Scalar, rank: int = 1) -> str:
+        """Return the name of a new array."""
+        name = self.fresh("array")
+        self.arrays[name] = kind
+        return name
+
+
+def _given(name: str, value: bool) -> lang.Statement:
+    return lang.Assign(name, lang.Constant("bool", value))
+
+
+def _indices(node: ast.Subscript) -> int:
+    return len(node.slice.elts) if isinstance(node.slice, ast.Tuple) else 1
+
+
+_NONE = ast.arguments(posonlyargs=[], args=[], kwonlyargs=[], kw_defaults=[], defaults=[])

@@ -1,0 +1,143 @@
+"""What stands in the source of loops beside numbers: arrays, functions that are known by their address, and records.
+
+Records exist while the source is read and leave nothing but names of arrays, numbers and addresses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from numba import types
+
+from symgen.native import language as lang
+from symgen.native.read_values import Foreign, as_type
+
+SCALARS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int", types.boolean: "bool"}
+NUMBERS: dict[Any, Any] = {kind: number_type for number_type, kind in SCALARS.items()}
+EXPRESSIONS = (
+    lang.Constant,
+    lang.Variable,
+    lang.Element,
+    lang.Operation,
+    lang.Logic,
+    lang.Choice,
+    lang.Call,
+    lang.Shape,
+    lang.Invoke,
+    lang.Insert,
+)
+
+
+class Array(NamedTuple):
+    """An array, by its name in the function."""
+
+    name: str
+    type: lang.Scalar
+    rank: int = 1
+
+
+class Address(NamedTuple):
+    """A function that is known by its address, by its name in the function; and how it is called."""
+
+    name: str
+    signature: Any
+
+
+class Record(NamedTuple):
+    """A tuple, with the names of its fields where it has such."""
+
+    values: tuple[Any, ...]
+    fields: tuple[str, ...] = ()
+
+
+#: What a name may stand for: a number, an array, a function, or a record of such.
+Value = Any
+#: What is left out where a function is copied that gives nothing.
+NOTHING = Record(())
+
+
+def laid_out(name: str, kind: Any) -> tuple[Value, list[lang.Parameter]]:
+    """Return what an argument is, and the parameters that it takes.
+
+    Parameters
+    ----------
+    name : str
+        Of the argument.
+    kind : Numba type
+        Its type.
+
+    Raises
+    ------
+    Foreign
+        If it is none of the types of loops.
+    """
+    if kind in SCALARS:
+        return lang.Variable(SCALARS[kind], name), [lang.Parameter(name, SCALARS[kind])]
+    if isinstance(kind, types.FunctionType):
+        return Address(name, kind.signature), [lang.Parameter(name, "int", address=True)]
+    if isinstance(kind, types.Array) and kind.layout == "C" and kind.ndim <= 3 and kind.dtype in SCALARS:
+        found = Array(name, SCALARS[kind.dtype], kind.ndim)
+        return found, [lang.Parameter(name, found.type, True, kind.ndim)]
+    if isinstance(kind, types.BaseTuple):
+        fields = tuple(getattr(kind, "fields", ()))
+        names = fields or tuple(str(i) for i in range(len(kind)))
+        parts = [laid_out(f"{name}.{field}", part) for field, part in zip(names, kind, strict=True)]
+        return Record(tuple(v for v, _ in parts), fields), [p for _, ps in parts for p in ps]
+    raise Foreign(f"an argument of type {kind}")
+
+
+def leaves(value: Value) -> Iterator[Value]:
+    """Yield numbers, arrays and functions of a value in their order."""
+    if isinstance(value, Record):
+        for part in value.values:
+            yield from leaves(part)
+    else:
+        yield value
+
+
+def handed_on(kinds: Sequence[Any], values: Sequence[Value]) -> tuple[lang.Expression | str, ...]:
+    """Return what values of some types are handed on as."""
+    if len(kinds) != len(values):
+        raise Foreign("a function with other arguments")
+    return tuple(x for kind, value in zip(kinds, values, strict=True) for x in handed(kind, value))
+
+
+def handed(kind: Any, value: Value) -> Iterator[lang.Expression | str]:
+    """Yield what a value of a type is handed on as: numbers, and names of arrays and functions.
+
+    Raises
+    ------
+    Foreign
+        If it is none of the type.
+    """
+    if isinstance(value, Record) and isinstance(kind, types.BaseTuple) and len(kind) == len(value.values):
+        for part, item in zip(kind, value.values, strict=True):
+            yield from handed(part, item)
+    elif isinstance(value, Array) and isinstance(kind, types.Array):
+        if SCALARS.get(kind.dtype) != value.type or kind.ndim != value.rank:
+            raise Foreign("an array of another kind")
+        yield value.name
+    elif isinstance(value, Address) and isinstance(kind, types.FunctionType) and kind.signature == value.signature:
+        yield value.name
+    elif kind in SCALARS and is_number(value):
+        yield as_type(SCALARS[kind], value)
+    else:
+        raise Foreign(f"an argument that is no {kind}")
+
+
+def renamed(name: str, value: Value) -> tuple[Value, list[lang.Parameter]]:
+    """Return a value as a function sees it that it is handed to, and the parameters that it takes."""
+    if isinstance(value, Record):
+        parts = [renamed(f"{name}.{i}", part) for i, part in enumerate(value.values)]
+        return Record(tuple(v for v, _ in parts), value.fields), [p for _, ps in parts for p in ps]
+    if isinstance(value, Array):
+        return Array(name, value.type, value.rank), [lang.Parameter(name, value.type, True, value.rank)]
+    if isinstance(value, Address):
+        return Address(name, value.signature), [lang.Parameter(name, "int", address=True)]
+    return lang.Variable(value.type, name), [lang.Parameter(name, value.type)]
+
+
+def is_number(value: Value) -> bool:
+    """Whether a value is a number."""
+    return isinstance(value, EXPRESSIONS) and not (isinstance(value, lang.Insert) and value.nothing)
