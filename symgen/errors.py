@@ -6,7 +6,8 @@ Whatever a message repeats of a file or an argument goes through `quoted`, so th
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 #: Characters at most of a part of a message, such as what was found, and of a text that it repeats in quotes.
 LONGEST_PART, LONGEST_QUOTE = 1000, 60
@@ -104,6 +105,16 @@ class StepError(SimulationError):
 
     def __reduce__(self) -> tuple[type, tuple[str, float]]:
         return type(self), (self.reason, self.time)
+
+
+@contextmanager
+def finite_numbers(where: str, hint: str = "") -> Iterator[None]:
+    """Refuse numbers of formulas that overflow where they meet; `where` and `hint` as of `InputError`."""
+    try:
+        yield
+    except OverflowError:
+        expected = "numbers whose products, sums and quotients are finite"
+        raise InputError(where, expected, "some that overflow", hint) from None
 
 
 def printable(text: str) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import msgspec
 
@@ -16,7 +17,7 @@ from symgen.compiling.side import READ
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
-from symgen.errors import InputError
+from symgen.errors import InputError, finite_numbers
 from symgen.lower.windings import winding_order
 from symgen.runtime import abi
 from symgen.runtime.compiled import CompiledModel
@@ -58,18 +59,16 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entri
     stem = f"integrals_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
     store = Entries() if entries is None else entries
     folder = path.parent.name
-    if store.get(folder, stem) is None:
-        with store.building(folder):
-            if store.get(folder, stem) is None:  # another process may have built it while this one waited
-                from symgen.emit.side import emit_integrals
-                from symgen.lower.side import lower_integrands
 
-                try:
-                    program = lower_integrands(mechanism, turning, sections, rows)
-                except OverflowError:
-                    expected = "numbers whose products, sums and quotients are finite"
-                    raise InputError("integrals of outputs", expected, "some that overflow") from None
-                store.put(folder, stem, emit_integrals(program, path.stem, names, abi.POWER), {})
+    def make() -> tuple[str, dict[str, Any]]:
+        from symgen.emit.side import emit_integrals
+        from symgen.lower.side import lower_integrands
+
+        with finite_numbers("integrals of outputs"):
+            program = lower_integrands(mechanism, turning, sections, rows)
+        return emit_integrals(program, path.stem, names, abi.POWER), {}
+
+    store.made(folder, stem, make)
     return replace(
         compiled,
         info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),

@@ -7,9 +7,9 @@ cache has no entry.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.compiling.side import READ
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError
+from symgen.errors import finite_numbers
 from symgen.lower.windings import winding_order
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
@@ -198,12 +198,7 @@ def _compiled(
     parts = [str(sorted(sections.items())), str(rows), repr(turning), str(by), formulas, str(groups)]
     text = "\n".join([*parts, generator_digest()])
     stem = f"{NAME}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    known = store.get(folder, stem)
-    if known is None:
-        with store.building(folder):
-            known = store.get(folder, stem)  # another process may have built it while this one waited
-            if known is None:
-                known = _built(mechanism, by, groups, turning, sections, rows, partial(store.put, folder, stem))
+    known = store.made(folder, stem, lambda: _built(mechanism, by, groups, turning, sections, rows))
     if known["still"]:
         return None
     spaces = ("t", "q", "v", "a", "lam", "p")
@@ -229,20 +224,16 @@ def _built(
     turning: tuple[Measure, ...],
     sections: Mapping[str, tuple[int, int]],
     rows: Mapping[str, int],
-    put: Callable[[str, dict[str, Any]], object],
-) -> dict[str, Any]:
-    """Emit the function, hand it on with what its numbers are, and return the latter."""
+) -> tuple[str, dict[str, Any]]:
+    """Return the module of the function, and what its numbers are."""
     from symgen.emit.side import emit_side
     from symgen.lower.linearised import can_decay, lower_linearised
 
     known: dict[str, Any] = {"still": bool(groups) and not can_decay(mechanism, turning, rows)}
     text = '"""Nothing decays."""\n'
     if not known["still"]:
-        try:
+        with finite_numbers(f"mechanism '{mechanism.name}'"):
             program = lower_linearised(mechanism, by, turning, sections, rows, groups)
-        except OverflowError:
-            expected = "numbers whose products, sums and quotients are finite"
-            raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
         text = emit_side(program.side)
         known |= {
             "sizes": list(program.sizes.items()),
@@ -250,5 +241,4 @@ def _built(
             "elements": [list(place) for place in program.elements],
             "functions": [[f.name, f.unit, f.orders] for f in program.functions],
         }
-    put(text, known)
-    return known
+    return text, known

@@ -21,7 +21,7 @@ from symgen.compiling.looped import compile_looped, generate_looped, shared_fold
 from symgen.compiling.straight_model import law_info, load_compiled, model_info
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
-from symgen.errors import InputError
+from symgen.errors import InputError, finite_numbers
 from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.methods import METHODS
 from symgen.methods._base import Method
@@ -137,11 +137,10 @@ def generate(
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
-    try:
+    with finite_numbers(
+        f"mechanism '{mechanism.name}'"
+    ):  # that only meet where equations are solved; others have names
         return _generate_straight(mechanism, choices, target)
-    except OverflowError:  # of numbers that only meet where the equations are solved; the others name their section
-        expected = "numbers whose products, sums and quotients are finite"
-        raise InputError(f"mechanism '{mechanism.name}'", expected, "some that overflow") from None
 
 
 def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str) -> Generated:

@@ -21,7 +21,7 @@ from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
-from symgen.errors import InputError
+from symgen.errors import finite_numbers
 from symgen.lower.windings import winding_order
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
@@ -111,20 +111,15 @@ def compile_side(
     text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])
     text += "\n".join(to_text(e) for _, e in formulas)
     stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    metadata = store.get(folder, stem)
-    if metadata is None:
-        with store.building(folder):
-            metadata = store.get(folder, stem)  # another process may have built it while this one waited
-            if metadata is None:
-                from symgen.emit.side import emit_side
-                from symgen.lower.side import lower_side
 
-                try:
-                    program = lower_side(mechanism, name, purpose, formulas, turning, sections, rows, rates)
-                except OverflowError:
-                    expected = "numbers whose products, sums and quotients are finite"
-                    raise InputError(purpose, expected, "some that overflow") from None
-                metadata = {"reads": list(program.reads)}
-                store.put(folder, stem, emit_side(program), metadata)
+    def make() -> tuple[str, dict[str, Any]]:
+        from symgen.emit.side import emit_side
+        from symgen.lower.side import lower_side
+
+        with finite_numbers(purpose):
+            program = lower_side(mechanism, name, purpose, formulas, turning, sections, rows, rates)
+        return emit_side(program), {"reads": list(program.reads)}
+
+    metadata = store.made(folder, stem, make)
     path = store.path(folder, stem)
     return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))

@@ -6,13 +6,12 @@ system.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import state_names
-from symgen.errors import InputError
+from symgen.errors import finite_numbers
 from symgen.formulate.carried import carried_energies
 from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
@@ -47,7 +46,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         If products or sums of a mechanism's numbers overflow; says of which body, joint or force.
     """
     mechanism, repeats = without_repeats(mechanism)
-    with _finite("mechanism"):
+    with finite_numbers("mechanism"):
         model = Model(mechanism)
     rows = tuple(_derived(model, joint.name, row) for joint in mechanism.joints for row in joint.rows)
     forces, power, potential = _forces(model)
@@ -109,20 +108,10 @@ def _spins(model: Model) -> tuple[tuple[int, int], ...]:
     )
 
 
-@contextmanager
-def _finite(where: str, hint: str = "") -> Iterator[None]:
-    """Refuse numbers that overflow, naming their section."""
-    try:
-        yield
-    except OverflowError:
-        expected = "numbers whose products, sums and quotients are finite"
-        raise InputError(where, expected, "some that overflow", hint) from None
-
-
 def _joint_coordinates(model: Model) -> list[JointCoordinate]:
     found = list[JointCoordinate]()
     for joint in model.mechanism.joints:
-        with _finite(f"joints.{joint.name}"):
+        with finite_numbers(f"joints.{joint.name}"):
             for label, measure in joint.coordinates:
                 derived = model.measure(measure)
                 rate = derived.rate(model.graph, model.velocities)
@@ -145,7 +134,7 @@ def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quanti
 
 
 def _derived(model: Model, joint: str, row: Row) -> ConstraintRow:
-    with _finite(f"joints.{joint}"):
+    with finite_numbers(f"joints.{joint}"):
         return _row(model, joint, row)
 
 
@@ -186,7 +175,7 @@ def _forces(model: Model) -> tuple[list[int], int, int]:
     g = model.graph
     forces, power, potential = [g.zero] * len(model.velocities), g.zero, g.zero
     for force in model.mechanism.forces:
-        with _finite(f"forces.{force.name}"):
+        with finite_numbers(f"forces.{force.name}"):
             for effort in force.efforts:
                 found = exertion(model, effort)
                 for i, entry in sorted(found.row.items()):
@@ -204,7 +193,7 @@ def _inertia(model: Model, forces: list[int]) -> tuple[tuple[MassBlock, ...], in
     kinetic = potential = g.zero
     half = g.constant(0.5)
     for body in model.mechanism.bodies:
-        with _finite(f"bodies.{body.name}", "its weight is its mass times gravity"):
+        with finite_numbers(f"bodies.{body.name}", "its weight is its mass times gravity"):
             first, first_q = model.first[body.name], model.first_q[body.name]
             mass = model.expression(body.mass)
             masses = [mass] * len(gravity)

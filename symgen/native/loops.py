@@ -118,18 +118,7 @@ class LoopReader(Values):
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if len(self.returned) != 1:
             raise Foreign("results of different types", self.tree)
-        fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
-        return lang.Function(
-            name=self.source.__name__,
-            parameters=self.parameters,
-            returned=next(iter(self.returned)),
-            body=statements,
-            variables=self.variables,
-            fixed=frozenset(fixed),
-            tables=self.tables,
-            called=tuple(self.called.values()),
-            source=self.source,
-        )
+        return self.made_of(statements)
 
     # -- statements
 

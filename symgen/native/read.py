@@ -83,9 +83,13 @@ class Reader(Values):
         statements = self.statements(body)
         if not returns(statements) or len(self.returned) != 1:
             raise Foreign("paths that return nothing, or different types", self.tree)
-        (returned,) = self.returned
-        if returned == "bool":
+        if "bool" in self.returned:
             raise Foreign("a boolean result", self.tree)
+        return self.made_of(statements)
+
+    def made_of(self, statements: tuple[lang.Statement, ...]) -> lang.Function:
+        """Return the function that does what has been read, its results being of one type."""
+        (returned,) = self.returned
         fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
         return lang.Function(
             name=self.source.__name__,

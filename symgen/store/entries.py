@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -190,6 +190,25 @@ class Entries:
             yield
         finally:
             lock.release()
+
+    def made(self, folder: str, stem: str, make: Callable[[], tuple[str, dict[str, Any]]]) -> dict[str, Any]:
+        """Return what describes a module, which is made and kept where it is not there; one process makes it.
+
+        Parameters
+        ----------
+        folder, stem : str
+            As for `path`.
+        make : callable
+            Returns the module and what describes it, as `put` takes them.
+        """
+        found = self.get(folder, stem)
+        if found is None:
+            with self.building(folder):
+                found = self.get(folder, stem)  # another process may have made it while this one waited
+                if found is None:
+                    source, found = make()
+                    self.put(folder, stem, source, found)
+        return found
 
     def info(self) -> upkeep.CacheInfo:
         """Return what the whole cache holds: emitted modules, compiled functions and bytes."""
