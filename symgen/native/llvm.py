@@ -22,6 +22,7 @@ def module(
     symbol: Callable[[lang.Function], str],
     inlined: Callable[[lang.Function], bool],
     together: bool = True,
+    alone: bool = False,
 ) -> str:
     """Return the text of a module that defines a function.
 
@@ -35,9 +36,13 @@ def module(
         Whether the body of a function that is called stands in the module too, for the compiler to copy.
     together : bool
         Whether sines and cosines of several angles are taken together (`symgen.native.sines`).
+    alone : bool
+        Whether what is called is kept where the compiler does not copy it. Without, it has to be in memory under its
+        symbol when the module is loaded: LLVM calls address 0 for a symbol that nobody has.
     """
     functions, declared = _reached(function, inlined)
-    texts = [Printer(f, symbol, "" if f is function else "available_externally ", together).text() for f in functions]
+    others = "linkonce_odr " if alone else "available_externally "
+    texts = [Printer(f, symbol, "" if f is function else others, together).text() for f in functions]
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )

@@ -236,7 +236,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
         """Return the text of a module that holds the function and all it calls."""
         from symgen.native.llvm import module
 
-        return module(self.read(kinds), _symbol, lambda called: True, self._together)
+        return module(self.read(kinds), _symbol, lambda called: True, self._together, alone=True)
 
 
 def plain(function: Any) -> Any:

@@ -43,7 +43,7 @@ from symgen.store.upkeep import NATIVE
 __all__ = ["attach", "cache_stats", "internals_changed", "jit"]
 
 
-_FORMAT = "1"
+_FORMAT = "2"
 # Settings of Numba that change the machine code although the source stays the same.
 _SETTINGS = ("OPT", "BOUNDSCHECK", "DEBUGINFO_DEFAULT", "LOOP_VECTORIZE", "SLP_VECTORIZE", "DISABLE_INTEL_SVML")
 _DEFAULTS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "fastmath": {"contract"}}

@@ -312,6 +312,18 @@ class TestNumbaBeside:
         module.lengthy(*values)
         assert right(values, module.lengthy)
 
+    def test_what_numba_compiled_holds_long_functions_behind_those_it_calls(self, law, cache, python):
+        """Too long to be copied into `rhs`, which `lengthy` calls: the symbol of nobody is the address 0."""
+        model = law.parent / "model.py"
+        lines = "".join(f"    w[{i % 3 + 1}] += math.sin(y[{i % 2}] + w[{i % 3}])\n" for i in range(100))
+        model.write_text(MODEL.replace("    return 0\n", f"{lines}    return 0\n"))
+        first = python(RUN, law, "lengthy")
+        for name in ("rhs", "geometry", "table"):
+            (entry,) = entries(cache, name)
+            entry.unlink()
+        second = python(RUN, law, "lengthy")
+        assert (second["hits"], second["misses"], second["y"]) == (2, 0, first["y"])
+
     def test_other_options_and_other_types_are_left_to_numba(self, law, tmp_path):
         law.write_text(LAW.replace(NJIT, "@njit\n", 1))
         module = load_module(law)
