@@ -150,3 +150,17 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
 def weights_of(span: Any, run: Any) -> Any:
     """Return by what the elements of a state are multiplied where tolerances are asked of them."""
     return run.scales if span.relative != 0.0 else run.share
+
+
+def with_work(span: Any, run: Any, at: int, error: float, others: float) -> float:
+    """Return the larger of two errors over their tolerances: of the work, element `at` of a state, and of the others.
+
+    The work's is relative to the energy in motion. It enters no rate, but the balance of energy, and where drivers
+    prescribe all that moves nothing else is integrated.
+    """
+    least = span.atol
+    if span.relative != 0.0:
+        least *= run.w[abi.KINETIC] + abs(run.w[abi.POTENTIAL])
+    allowed = least + span.rtol * max(run.gauges[abi.ENERGY_SCALE], abs(run.y[at]), abs(run.trial[at]))
+    found = abs(error) / allowed if allowed > 0.0 else 0.0
+    return found if found > others else others  # nan of the others stays nan

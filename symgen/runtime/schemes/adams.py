@@ -19,7 +19,7 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import evaluate, loop
 from symgen.runtime.instances import called
 from symgen.runtime.records import MULTISTEP
-from symgen.runtime.scales import weights_of
+from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.vectors import combine, copied, weigh
 
 _EVALUATIONS, _POINTS, _ORDER, _REFUSED = abi.EVALUATIONS, abi.POINTS, abi.ORDER, abi.REFUSED
@@ -142,7 +142,8 @@ def attempt(
     for i in range(width):
         predicted[i] -= run.trial[i]
     total = weigh(width, predicted, weights_of(span, run), run.y, run.trial, span.rtol, span.atol)
-    return 0.1 * math.sqrt(total / system.sizes.controlled)
+    work = system.sizes.nq + system.sizes.nv
+    return 0.1 * with_work(span, run, work, predicted[work], math.sqrt(total / system.sizes.controlled))
 
 
 def refuse(run: Any) -> None:

@@ -15,7 +15,7 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import correct, evaluate, loop, store
 from symgen.runtime.instances import called
 from symgen.runtime.records import TABLEAU
-from symgen.runtime.scales import weights_of
+from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.vectors import combine, copied, follow, total, weigh
 from symgen.runtime.watch import keep_maxima
 
@@ -89,15 +89,19 @@ def attempt(
     copied(width, run.trial, new)
     # error weights stand behind all stages in the table
     row, count, share = scheme.nodes.shape[0], system.sizes.controlled, weights_of(span, run)
-    first = second = 0.0
+    work, first, second, before, done = system.sizes.nq + system.sizes.nv, 0.0, 0.0, 0.0, 0.0
     for e in range(scheme.estimates):
         total(width, h, start[row + e], start[row + e + 1], column, value, stages, error)
         first, second = second, weigh(width, error, share, run.y, new, span.rtol, span.atol)
+        before, done = done, abs(error[work])
     if scheme.estimates == 1:
-        return math.sqrt(second / count)
+        return with_work(span, run, work, done, math.sqrt(second / count))
     size = 0.0
     if first != 0.0:
         size = float(first) / math.sqrt((first + 0.01 * second) * count)  # two estimates are combined as Hairer does
+    if before != 0.0:
+        done = before * before / math.sqrt(before * before + 0.01 * done * done)
+        size = with_work(span, run, work, done, size)
     allowed = run.clock[_ALLOWED]
     if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[_IN_ZONE] == 0:
         least = h / (_GROWTH * allowed * run.clock[_STEP])

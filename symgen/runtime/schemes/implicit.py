@@ -15,13 +15,13 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.instances import called
 from symgen.runtime.records import STAGES
-from symgen.runtime.scales import weights_of
+from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.sparse import leave_out_rest, solve
 from symgen.runtime.vectors import copied, weigh
 
 _EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
-_KNOWN, _ORDER, _SCALE = abi.KNOWN, abi.ORDER, abi.ENERGY_SCALE
-_LENGTH, _SPEED, _KINETIC, _POTENTIAL = abi.LENGTH, abi.SPEED, abi.KINETIC, abi.POTENTIAL
+_KNOWN, _ORDER = abi.KNOWN, abi.ORDER
+_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
 _DIVERGED, _TOO_LARGE = DIVERGED, TOO_LARGE
 _MOST_ITERATIONS = 15
 #: As in the frame: whether steps follow the error estimate.
@@ -191,13 +191,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
     error = math.sqrt(weigh(sizes.width, change, share, run.y, run.trial, span.rtol, span.atol) / sizes.controlled)
     # the work enters no rate, so it needs no filter; where every coordinate is driven nothing else is integrated, since
     # constraints in every stage make the other estimates 0
-    scale = max(run.gauges[_SCALE], abs(run.y[first]), abs(run.trial[first]))
-    if span.relative != 0.0:
-        least = span.atol * (run.w[_KINETIC] + abs(run.w[_POTENTIAL]))
-    else:
-        least = span.atol
-    allowed = least + span.rtol * scale
-    return float(max(error, abs(change[first]) / allowed)) if allowed > 0.0 else float(error)
+    return with_work(span, run, first, change[first], error)
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
