@@ -17,7 +17,7 @@ from symgen.native.library import Library
 def digest(model: str, method: str, integrator: str) -> str:
     """Return what a run gives, and what made its loop."""
     loaded = load(model)
-    result = loaded.simulate(method=method, integrator=integrator, until=0.05, output_step=0.007)
+    result = loaded.simulate(method=method, integrator=integrator, until=0.5, output_step=0.07)
     arrays = (result.t, result.q.values, result.v.values, result.kinetic, result.smallest_pivot)
     counts = (result.steps, result.rejected, result.evaluations, result.iterations)
     found = hashlib.sha256(b"".join(np.asarray(a).tobytes() for a in (*arrays, counts)))
