@@ -45,6 +45,10 @@ class _Source:
     siblings: tuple[str, ...]
 
 
+#: What has been read in this process, by place and content: a model is loaded again for every run.
+_known: dict[tuple[Path, str], _Source] = {}
+
+
 def load_module(path: str | Path, qualified_name: str | None = None) -> ModuleType:
     """Load an emitted module, from the cache or from any folder, and let its functions use the cache.
 
@@ -110,8 +114,11 @@ def _read(path: Path) -> _Source:
     except OSError as error:
         raise InputError(str(path), "a generated module", error.strerror or "an unreadable file") from error
     digest = hashlib.sha256(content).hexdigest()
-    code = _code(path, content, digest)
-    return _Source(path, content, digest, code, tuple(_siblings(code)))
+    known = _known.get((path, digest))
+    if known is None:
+        code = _code(path, content, digest)
+        known = _known[path, digest] = _Source(path, content, digest, code, tuple(_siblings(code)))
+    return known
 
 
 def _code(path: Path, content: bytes, digest: str) -> CodeType:
