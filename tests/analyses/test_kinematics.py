@@ -171,6 +171,7 @@ def test_massless_links_have_kinematics_and_forces_along_them():
     assert np.abs(found.efforts["motor"] - moment).max() < 1e-9  # the crank turns steadily
 
 
+@pytest.mark.slow
 def test_looped_code_gives_the_same(driven):
     times = np.linspace(0.0, 0.5, 11)
     looped, straight = driven.kinematics(times, shape="looped"), driven.kinematics(times)

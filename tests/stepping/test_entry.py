@@ -84,6 +84,7 @@ def test_rows_are_chosen_anew_on_the_way(integrator, monkeypatch):
     assert_same(sim, plain)
 
 
+@pytest.mark.slow
 def test_room_for_factors_is_made_on_the_way():
     sim, plain = both("bricard", method="lagrange", integrator="radau5", shape="looped", until=0.01)
     for plan in ("plan", "filter_plan"):
