@@ -57,7 +57,7 @@ def source_stamp(function: Any) -> str:
     try:
         files = sorted({inspect.getfile(reached) for reached in _reached(function, {})})
         # Contents without names: the same sources in another place give the same machine code.
-        return digest(*sorted(_file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
+        return digest(*sorted(file_digest(file) for file in files), sources_digest(*_SOURCE_FOLDERS))
     except (OSError, TypeError) as error:
         raise NotDescribable(str(error)) from error
 
@@ -174,7 +174,8 @@ def type_text(numba_type: Any) -> str:
 
 
 @functools.cache
-def _file_digest(path: str) -> str:
+def file_digest(path: str) -> str:
+    """Return the digest of what a file held when it was first asked for, at the latest when it was loaded."""
     return digest(Path(path).read_bytes())
 
 

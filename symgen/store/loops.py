@@ -22,7 +22,7 @@ from symgen.native.library import Library, result
 from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
 from symgen.store.emitted import compiler
-from symgen.store.identity import NotDescribable, digest, sources_digest, type_text
+from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest, type_text
 from symgen.store.jit import LazySignatures, Loading, MachineCode, environment, jit
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
@@ -214,7 +214,7 @@ def definition(function: Any) -> ast.FunctionDef | None:
     code = function.py_func.__code__
     try:
         return _definition(code.co_filename, code.co_firstlineno - 1)
-    except (OSError, SyntaxError, StopIteration):
+    except (OSError, ValueError, SyntaxError, StopIteration):
         return None
 
 
@@ -229,4 +229,6 @@ def _definition(file: str, first: int) -> ast.FunctionDef | None:
 
 @functools.lru_cache(maxsize=64)
 def _lines(file: str) -> tuple[str, ...]:
-    return tuple(Path(file).read_text().split("\n"))
+    """Return the lines of a file, none of one that has been edited since what stands in it was loaded."""
+    content = Path(file).read_bytes()
+    return tuple(content.decode().split("\n")) if digest(content) == file_digest(file) else ()

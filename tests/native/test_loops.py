@@ -9,7 +9,7 @@ import pytest
 from symgen.native.loops import read_loop
 from symgen.runtime.hunting import with_events
 from symgen.store.emitted import COMPILER
-from symgen.store.loops import definition
+from symgen.store.loops import _lines, definition
 
 from .twofold import process
 
@@ -27,6 +27,23 @@ def test_every_loop_is_in_the_language(scheme, name, events):
     loop = with_events(loop) if events else loop
     (signature,) = loop._signatures
     read_loop(loop._eager, signature.args, definition)  # raises where a part is left to Numba
+
+
+def test_a_loop_whose_file_was_edited_since_it_was_loaded_is_numbas(tmp_path, monkeypatch):
+    """The definition at its place in the file is another one by then."""
+    file = tmp_path / "edited_later.py"
+    text = (
+        "from numba import njit\n@njit(error_model='numpy', fastmath={'contract'})\ndef area(x):\n    return 2.0 * x\n"
+    )
+    file.write_text(text)
+    monkeypatch.syspath_prepend(tmp_path)
+    area = import_module("edited_later").area
+    assert definition(area) is not None
+    file.write_text(text.replace("2.0", "3.0"))
+    _lines.cache_clear()
+    assert definition(area) is None
+    assert area(1.0) == 2.0
+    _lines.cache_clear()
 
 
 #: Every loop, by a model, a method and an integrator that enter it.
