@@ -1,6 +1,6 @@
 """Sines and cosines of several angles at once, in vectors: in the plane they are a third of a right-hand side.
 
-Straight code that wants sines of four angles or more, all known before the first of them is wanted, gets them from one
+Straight code that wants sines of three angles or more, all known before the first of them is wanted, gets them from one
 call. What is called is fdlibm's: angles are reduced by multiples of pi/2 in three parts (Cody and Waite), and two
 polynomials follow. Results are within one unit of the last place (`tests/native/test_sines.py`), as those of the C
 library are, but not always the same; nothing is contracted, so every processor gives the same bits. Angles of more
@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from symgen.native import language as lang
 
 #: Fewer angles take as long one by one: their calls overlap with each other, and with what stands around them.
-FEWEST = 4
+FEWEST = 3
 #: Angles of a call at most.
 MOST = 8
 NAMES = ("math.sin", "math.cos")

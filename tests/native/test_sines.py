@@ -117,7 +117,7 @@ def f(y, out):
     a = y[0]
     b = y[1]
     out[0] = math.sin(a) + math.cos(b)
-    out[1] = math.sin(a + b)
+    out[1] = math.sin(b)
     return 0
 """
 
@@ -140,7 +140,7 @@ def f(y, out):
 
 
 def test_which_angles_are_taken_together(tmp_path):
-    """Those known when the first is wanted, of four or more; not what is behind a choice, nor what is called for."""
+    """Those known when the first is wanted, of three or more; not what is behind a choice, nor what is called for."""
     assert [len(call) for call in groups_of(tmp_path, "many", MANY)] == [6]
     assert groups_of(tmp_path, "few", FEW) == []
     assert groups_of(tmp_path, "calling", CALLED, CALLING) == []
