@@ -100,6 +100,7 @@ def exudyn(problem: str, n: int) -> tuple[Any, str]:
     start = time.perf_counter()
     if problem == "catenary":
         settings = exu.SimulationSettings()
+        settings.solution.file.write = False
         settings.staticSolver.numberOfLoadSteps = 100
         settings.staticSolver.stabilizerODE2term = 1.0
         system.SolveStatic(settings, updateInitialValues=True)
