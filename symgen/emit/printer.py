@@ -13,6 +13,8 @@ from symgen.vocabulary.functions import ELEMENTARY
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
 _COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
+#: Operations that give an integer where all they have are integers.
+_WHOLE = frozenset("add sub mul neg abs min max where".split())
 _MATH = frozenset((*ELEMENTARY, "atan2", "floor"))
 #: Arrays that functions get as arguments of their own; every other space is a section of ``w``.
 _ARRAYS = frozenset(("p", "y", "ydot", "out", "k", "r", "j"))
@@ -172,8 +174,10 @@ class Printer:
         """Return text and precedence of one operation."""
         if op in _BINARY:
             sign, level = _BINARY[op]
-            left = self.wrapped(args[0], level if op != "pow" else 5)
-            right = self.wrapped(args[1], level if op == "add" else level + 1 if op != "pow" else 5)
+            if op == "pow":
+                return f"{self.factor(args[0])}{sign}{self.factor(args[1])}", level
+            left = self.wrapped(args[0], level)
+            right = self.wrapped(args[1], level if op == "add" else level + 1)
             return f"{left} {sign} {right}" if level == 1 else f"{left}{sign}{right}", level
         if op == "neg":
             return f"-{self.wrapped(args[0], 2)}", 1
@@ -200,6 +204,16 @@ class Printer:
             self.functions.add(name)
             return f"{name}({texts[0]})", 5
         raise AssertionError(f"no syntax for operation {op}")
+
+    def factor(self, node: int) -> str:
+        """Return a node's text as a part of a power: no integer, whose powers overflow or raise what nobody catches."""
+        return f"float({self.text[node][0]})" if self.is_whole(node) else self.wrapped(node, 5)
+
+    def is_whole(self, node: int) -> bool:
+        """Whether a node's text is an integer, as rounded numbers are, and their sums and products."""
+        op, args, _ = self.graph.nodes[node]
+        values = args[1:] if op == "where" else args
+        return op == "floor" or (op in _WHOLE and all(map(self.is_whole, values)))
 
     def wrapped(self, node: int, level: int) -> str:
         """Return a node's text, in parentheses where it binds weaker than `level`."""
