@@ -224,7 +224,8 @@ def test_run_shows_a_table(cli):
 
 
 def test_a_failed_run_exits_1_and_still_gives_its_result(cli, tmp_path):
-    code, out, err = cli("run", "n-four-bar:1", "--method", "lagrange", "--json", "--save", tmp_path / "a.csv")
+    drifting = ("--method", "lagrange", "--step", "2e-2", "--until", "3")
+    code, out, err = cli("run", "four-bar", *drifting, "--json", "--save", tmp_path / "a.csv")
     assert code == 1
     found = json.loads(out)
     assert found["status"] == "failed" and found["final"]["t"] > 0.0
@@ -279,10 +280,10 @@ def test_compare_several_models(cli):
 
 def test_a_study_in_which_everything_failed_exits_1(cli):
     code, out, err = cli(
-        *("compare", "n-four-bar:1", "--methods", "lagrange", "--integrators", "rk4", "--steps", "1e-3"),
-        *("--until", "4", "--repeat", "1", "--json"),
+        *("compare", "four-bar", "--methods", "lagrange", "--integrators", "rk4", "--steps", "2e-2"),
+        *("--until", "3", "--repeat", "1", "--json"),
     )
-    assert code == 1 and err == "symgen: n-four-bar-1: every run failed\n"
+    assert code == 1 and err == "symgen: four-bar: every run failed\n"
     assert json.loads(out)["rows"][0]["status"] == "failed"
 
 

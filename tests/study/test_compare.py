@@ -59,12 +59,13 @@ def test_errors_follow_the_tolerance(study):
 
 
 def test_a_failed_run_stays_a_row():
-    study = symgen.compare("n-four-bar:1", ["lagrange", "direct-correction"], ["rk4"], [1e-3], until=4.0, repeat=1)
+    """Constraints drift without correction: on the way past a singular position rounding would decide how far."""
+    study = symgen.compare("four-bar", ["lagrange", "direct-correction"], ["rk4"], [2e-2], until=3.0, repeat=1)
     wrong, right = study.rows
     assert wrong.status == "failed" and wrong.error is None and " at t = " in wrong.reason
-    assert right.status == "ok" and right.error < 1e-7 and right.warnings
+    assert right.status == "ok" and right.error < 1e-3
     assert not study.failed
-    assert symgen.compare("n-four-bar:1", ["lagrange"], ["rk4"], [1e-3], until=4.0, repeat=1).failed
+    assert symgen.compare("four-bar", ["lagrange"], ["rk4"], [2e-2], until=3.0, repeat=1).failed
 
 
 def test_rows_below_the_reference_are_marked(monkeypatch):
@@ -260,11 +261,11 @@ def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, m
 def test_failed_rows_come_back_from_a_journal_as_they_were(tmp_path):
     from symgen.study.journal import Journal
 
-    arguments = ["n-four-bar:1", ["lagrange"], ["rk4"], [1e-3]]
+    arguments = ["four-bar", ["lagrange"], ["rk4"], [2e-2]]
     studies = []
     for _ in range(2):
         with Journal(tmp_path / "rows.journal") as journal:
-            studies.append(symgen.compare(*arguments, until=4.0, repeat=1, journal=journal))
+            studies.append(symgen.compare(*arguments, until=3.0, repeat=1, journal=journal))
     assert repr(studies[0]) == repr(studies[1])
     assert studies[0].rows[0].status == "failed"
 
