@@ -66,7 +66,7 @@ def b0(outcome) -> np.ndarray:
 @pytest.mark.parametrize("weight", ["identity", "mass"])
 @pytest.mark.parametrize("windows", [1, pytest.param(2, marks=SLOW)])
 def test_n_four_bar_through_its_singular_positions(windows, weight):
-    """Ten passages in 10 s; which steps fall near them matters, so the bound is that of the worst of many, next test."""
+    """Ten passages in 10 s; which steps fall near them matters: bounds are those of the worst of many, next test."""
     rows = np.array([r for r in N_FOUR_BAR[str(windows)] if r[0] <= 10.0])
     outcome = run(
         load(f"n-four-bar:{windows}"),
