@@ -19,6 +19,7 @@ import gc
 import marshal
 import os
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -70,7 +71,18 @@ class _Entry(NamedTuple):
     code: bytes
 
 
-class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
+class FromSource(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
+    """A dispatcher of which some results come from the source."""
+
+    def add_overload(self, result: Any) -> None:
+        """Enter a result; calls from Python learn of one that comes from the source when the first of them is made."""
+        if isinstance(result.library, Library):
+            self.overloads[tuple(result.signature.args)] = result
+        else:
+            super().add_overload(result)
+
+
+class EmittedFunction(FromSource):
     """A dispatcher that makes machine code from the source of its function, or else as every dispatcher does."""
 
     _origin: Origin | None = None
@@ -111,13 +123,6 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
             with global_compiler_lock:
                 self._compile_directly(sig)
         return super().compile(sig)
-
-    def add_overload(self, result: Any) -> None:
-        """Enter a result; calls from Python learn of one that comes from the source when the first of them is made."""
-        if isinstance(result.library, Library):
-            self.overloads[tuple(result.signature.args)] = result
-        else:
-            super().add_overload(result)
 
     def is_direct(self, kinds: tuple[Kind, ...]) -> bool:
         """Compile, or load from the cache; return whether the machine code comes from the source."""
@@ -221,8 +226,7 @@ class EmittedFunction(CPUDispatcher):  # type: ignore[misc]  # Numba has no type
 
     def _leave(self, why: str) -> _Entry | None:
         """Say, if that is wanted, why the function is left to Numba."""
-        if compiler() == "explain":
-            print(f"{self.__module__}.{self.__name__} is left to Numba: {why}", file=sys.stderr)
+        explain(f"{self.__module__}.{self.__name__}", why)
         return None
 
     def _result(self, arguments: tuple[Any, ...], kinds: tuple[Kind, ...], entry: _Entry) -> Any:
@@ -276,6 +280,12 @@ def compiler() -> str:
     return name
 
 
+def explain(name: str, why: str) -> None:
+    """Say, if the environment asks for it, why a function is left to Numba."""
+    if compiler() == "explain":
+        print(f"{name} is left to Numba: {why}", file=sys.stderr)
+
+
 def _dispatcher(function: Function) -> EmittedFunction:
     assert isinstance(function.source, EmittedFunction), "functions are read from dispatchers of this kind"
     return function.source
@@ -293,11 +303,25 @@ def _definition(function: Any) -> ast.FunctionDef | None:
     """Return the syntax tree of an emitted function, None where its source cannot be had."""
     if not isinstance(function, EmittedFunction) or function._origin is None or function.targetoptions != _OPTIONS:
         return None
-    first = function.py_func.__code__.co_firstlineno - 1
-    lines = _lines(function._origin.content)
-    last = next((i for i in range(first + 2, len(lines)) if lines[i][:1].strip()), len(lines))
+    return syntax_tree(_lines(function._origin.content), function.py_func)
+
+
+def syntax_tree(lines: Sequence[str], function: Any) -> ast.FunctionDef | None:
+    """Return the syntax tree of a function that begins at a line's first column, None where there is none.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        Of its file.
+    function : function
+        As it was loaded from there.
+    """
+    first = function.__code__.co_firstlineno - 1  # of its decorators, if there are some
+    begin = next((i for i in range(first, len(lines)) if lines[i].startswith("def ")), len(lines))
+    rest = range(begin + 1, len(lines))
+    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
     try:
-        found = ast.parse("\n".join(lines[first:last])).body
+        found = ast.parse("\n".join(lines[first:end])).body
     except SyntaxError:
         return None
     return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None

@@ -325,10 +325,11 @@ class MachineCode(_Cache):  # type: ignore[misc]  # Numba has no types
             return
         private.write(path, key, data)
 
-    def _place(self, sig: Any, codegen: Any) -> tuple[str, Path]:
+    def _place(self, sig: Any, codegen: Any, *made: str) -> tuple[str, Path]:
+        """Return key and place of machine code; `made` is what else it depends on where it is not Numba's."""
         arguments, returned = sigutils.normalize_signature(sig)
         signature = ", ".join(type_text(argument) for argument in arguments) + f" -> {type_text(returned)}"
-        key = "\n".join((self._name, self._identity, signature, repr(codegen.magic_tuple()), environment()))
+        key = "\n".join((*made, self._name, self._identity, signature, repr(codegen.magic_tuple()), environment()))
         return key, Path(self.cache_path) / f"{self._stem}-{digest(key)[:32]}{private.SUFFIX}"
 
 

@@ -10,20 +10,18 @@ from __future__ import annotations
 import ast
 import functools
 import marshal
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from numba.core import event, sigutils, types
-from numba.core.registry import CPUDispatcher
 
 from symgen.native.library import Library, result
 from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
-from symgen.store.emitted import compiler
-from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest, type_text
-from symgen.store.jit import LazySignatures, Loading, MachineCode, environment, jit
+from symgen.store.emitted import FromSource, compiler, explain, syntax_tree
+from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest
+from symgen.store.jit import LazySignatures, Loading, MachineCode, jit
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 
@@ -45,7 +43,7 @@ def from_source(loop: Any) -> Any:
     eager = getattr(loop, "_eager", None)
     if eager is not None and isinstance(eager._cache, MachineCode):
         eager._cache = LoopCode(eager)
-        loop.__class__, eager.__class__ = _Loop, _Eager
+        loop.__class__, eager.__class__ = _Loop, FromSource
     return loop
 
 
@@ -54,26 +52,8 @@ def from_its_source(*signatures: Any, **options: Any) -> Callable[[Any], Any]:
     return lambda function: from_source(jit(*signatures, **options)(function))
 
 
-class _Eager(CPUDispatcher):  # type: ignore[misc]  # Numba has no types
-    """What makes the machine code of a loop."""
-
-    def add_overload(self, result: Any) -> None:
-        """Enter a result; what comes from the source is not called from Python through this dispatcher."""
-        if isinstance(result.library, Library):
-            self.overloads[tuple(result.signature.args)] = result
-        else:
-            super().add_overload(result)
-
-
-class _Loop(LazySignatures):
+class _Loop(FromSource, LazySignatures):
     """A loop, which is entered by its address."""
-
-    def add_overload(self, result: Any) -> None:
-        """Enter a result."""
-        if isinstance(result.library, Library):
-            self.overloads[tuple(result.signature.args)] = result
-        else:
-            super().add_overload(result)
 
     def __call__(self, *arguments: Any) -> Any:
         """Call the function from Python."""
@@ -122,11 +102,7 @@ class LoopCode(MachineCode):
 
     def _own(self, sig: Any) -> tuple[str, Path]:
         """Return the key of machine code made from the source, and where it is kept."""
-        arguments, returned = sigutils.normalize_signature(sig)
-        signature = ", ".join(type_text(argument) for argument in arguments) + f" -> {type_text(returned)}"
-        parts = (self._name, self._identity, signature, repr(codegen().magic_tuple()), environment())
-        key = "\n".join(("from the source", *parts, sources_digest("native")))
-        return key, Path(self.cache_path) / f"{self._stem}-{digest(key)[:32]}{private.SUFFIX}"
+        return self._place(sig, codegen(), "from the source", sources_digest("native"))
 
     def _direct(self, sig: Any, target_context: Any) -> Any:
         """Return machine code made from the source, None where there is none."""
@@ -165,10 +141,10 @@ class LoopCode(MachineCode):
             try:
                 if not internals.usable():
                     raise Foreign("Numba is not as expected, or asked to check or to debug")
-                self._read[sig] = read_loop(self._dispatcher, sigutils.normalize_signature(sig)[0], definition)
+                self._read[sig] = read_loop(self._dispatcher, _arguments(sig), definition)
             except Foreign as foreign:
                 self._read[sig] = None
-                self._leave(str(foreign))
+                explain(self._name, str(foreign))
         return self._read[sig]
 
     def _made(self, sig: Any, symbol: str) -> bytes | None:
@@ -179,23 +155,17 @@ class LoopCode(MachineCode):
         if function is None:
             return None
         try:
-            return compiled(loop_module(function, symbol, tuple(sigutils.normalize_signature(sig)[0])), symbol)
+            return compiled(loop_module(function, symbol, _arguments(sig)), symbol)
         except RuntimeError as error:  # an LLVM that does not know the language any more
-            self._leave(str(error))
+            explain(self._name, str(error))
             return None
-
-    def _leave(self, why: str) -> None:
-        """Say, if that is wanted, why the loop is left to Numba."""
-        if compiler() == "explain":
-            print(f"{self._name} is left to Numba: {why}", file=sys.stderr)
 
     def _result(self, sig: Any, symbol: str, code: bytes) -> Any:
         """Put machine code into memory."""
-        arguments = tuple(sigutils.normalize_signature(sig)[0])
         library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol))
         returned = sigutils.normalize_signature(sig)[1]
         kind: Scalar = "float" if returned is types.float64 else "int"
-        return result(self._dispatcher.py_func, arguments, kind, symbol, library, lambda f: None, known=True)
+        return result(self._dispatcher.py_func, _arguments(sig), kind, symbol, library, lambda f: None, known=True)
 
     def _linkable(self, sig: Any, symbol: str) -> str:
         """Return the text of a module that holds the function and all it calls."""
@@ -203,7 +173,11 @@ class LoopCode(MachineCode):
 
         function = self._function(sig)
         assert function is not None, "it was made from its source"
-        return loop_module(function, symbol, tuple(sigutils.normalize_signature(sig)[0]))
+        return loop_module(function, symbol, _arguments(sig))
+
+
+def _arguments(sig: Any) -> tuple[Any, ...]:
+    return tuple(sigutils.normalize_signature(sig)[0])
 
 
 def definition(function: Any) -> ast.FunctionDef | None:
@@ -211,20 +185,10 @@ def definition(function: Any) -> ast.FunctionDef | None:
     options = function.targetoptions
     if any(options.get(name) not in values for name, values in _OPTIONS.items()):
         return None
-    code = function.py_func.__code__
     try:
-        return _definition(code.co_filename, code.co_firstlineno - 1)
-    except (OSError, ValueError, SyntaxError, StopIteration):
+        return syntax_tree(_lines(function.py_func.__code__.co_filename), function.py_func)
+    except (OSError, ValueError):
         return None
-
-
-def _definition(file: str, first: int) -> ast.FunctionDef | None:
-    lines = _lines(file)
-    begin = next(i for i in range(first, len(lines)) if lines[i].startswith("def "))
-    rest = range(begin + 1, len(lines))
-    end = next((i for i in rest if lines[i][:1].strip() and not lines[i].startswith(")")), len(lines))
-    found = ast.parse("\n".join(lines[begin:end])).body
-    return found[0] if len(found) == 1 and isinstance(found[0], ast.FunctionDef) else None
 
 
 @functools.lru_cache(maxsize=64)
