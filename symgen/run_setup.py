@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen import __version__
-from symgen.compiling.events import compile_events
 from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.evaluate import parameter_values, scalars
@@ -305,5 +304,7 @@ def watching(
     """Return a plan whose run looks for its events, which are compiled for the model."""
     if not plan.events:
         return plan
+    from symgen.compiling.events import compile_events
+
     watched = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, parameters))
     return replace(plan, spec=replace(plan.spec, events=watched))

@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.choose_tree import on_tree
-from symgen.compiling.events import compile_events
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates, state_names
@@ -138,6 +137,8 @@ class TreeRun:
                 continue
             if watched is None:
                 values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
+                from symgen.compiling.events import compile_events
+
                 watched = compile_events(self.whole, self.bodies, self.events, values)
                 assert watched is not None, "there are events"
             if id(event.impulses) not in struck:  # resets at the same time share what they do

@@ -12,11 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
 from symgen.compiling.pipeline import folder_of, generator_digest
 from symgen.errors import InputError
-from symgen.lower.looped.instances import instances
-from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
 from symgen.store.entries import Entries
 
 if TYPE_CHECKING:
@@ -26,11 +23,11 @@ if TYPE_CHECKING:
 
 #: Seconds to derive, emit and compile a mechanism straight: at least, and for each coordinate (in the plane 0.009, in
 #: space 0.024).
-STRAIGHT_LEAST, STRAIGHT_EACH = 0.6, 0.013
+STRAIGHT_LEAST, STRAIGHT_EACH = 0.4, 0.013
 #: The same for each coordinate with the Jacobian for implicit integrators (0.009 and 0.035).
 STRAIGHT_EACH_IMPLICIT = 0.02
 #: Seconds to compile what the looped shape shares: generic code, a law, a kernel, a kernel's part of a descriptor form.
-LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL, LOOPED_FORM = 5.0, 1.5, 0.45, 0.6
+LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL, LOOPED_FORM = 7.0, 1.7, 0.45, 0.6
 #: Part of these seconds that counts: other mechanisms and later runs will not pay them again.
 SHARED_PART = 0.4
 #: Seconds of an evaluation for each coordinate; looped ones cost something whatever the size.
@@ -80,6 +77,13 @@ def choose_shape(
         If there is no such shape, or the method cannot have it at this size.
     """
     coordinates = sum(len(b.coordinates) for b in mechanism.bodies)
+    store = Entries() if entries is None else entries
+    compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
+    if compiled and coordinates <= LARGEST_STRAIGHT:
+        return ShapeChoice("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
+    # what only looped code asks for is not loaded where straight code is there to be run
+    from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
+
     dense = not is_loopable(choice.method, choice.options, choice.implicit)
     if asked == "looped":
         refuse_dense(choice.method, choice.options, choice.implicit)
@@ -95,20 +99,19 @@ def choose_shape(
         return ShapeChoice("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
         return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take long to compile")
-    return _shorter(mechanism, choice, coordinates, evaluations, Entries() if entries is None else entries)
+    return _shorter(mechanism, choice, coordinates, evaluations, store)
 
 
 def _shorter(
     mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
 ) -> ShapeChoice:
     """Return the shape that is expected to be done sooner."""
-    looped_run = evaluations * (LOOPED_CALL + coordinates * LOOPED_EVALUATION)
-    straight_run = looped_run if choice.implicit else evaluations * coordinates * STRAIGHT_EVALUATION
-    each = STRAIGHT_EACH_IMPLICIT if choice.implicit else STRAIGHT_EACH
-    folder = folder_of(mechanism)
-    compiled = _known(store, folder, "model") and _known(store, folder, choice.stem)
-    straight = straight_run + (0.0 if compiled else STRAIGHT_LEAST + each * coordinates)
-    looped = looped_run
+    from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
+    from symgen.lower.looped.instances import instances
+
+    looped = evaluations * (LOOPED_CALL + coordinates * LOOPED_EVALUATION)
+    straight = looped if choice.implicit else evaluations * coordinates * STRAIGHT_EVALUATION
+    straight += STRAIGHT_LEAST + (STRAIGHT_EACH_IMPLICIT if choice.implicit else STRAIGHT_EACH) * coordinates
     if looped < straight:  # what is missing is looked up only where it can matter
         shared = shared_folder(generator_digest())
         missing = 0.0 if _known(store, shared, "model") else LOOPED_GENERIC
@@ -118,11 +121,19 @@ def _shorter(
         forms = form_stems(elements, choice.method, choice.options, choice.implicit)
         missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())
         looped += SHARED_PART * missing
-    size = f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
     if looped < straight:
-        return ShapeChoice("looped", f"compilation would outweigh faster runs ({size})")
-    why = "it is compiled already" if compiled else "faster runs outweigh compilation"
-    return ShapeChoice("straight", f"{why} ({size})")
+        return ShapeChoice("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
+    return ShapeChoice("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
+
+
+def _size(coordinates: int, evaluations: float) -> str:
+    return f"{coordinates} coordinates, about {evaluations:.2g} evaluations"
+
+
+def _is_compiled(mechanism: Mechanism, choice: MethodChoice, store: Entries) -> bool:
+    """Whether straight code of a mechanism for a method is in the cache."""
+    folder = folder_of(mechanism)
+    return _known(store, folder, "model") and _known(store, folder, choice.stem)
 
 
 def _known(store: Entries, folder: str, stem: str) -> bool:

@@ -3,7 +3,8 @@
     mechanism --formulate--> equations --lower--> program --emit--> source --load--> compiled model
 
 `generate` gives the source of everything asked for; `compile_model` puts it into the cache, or finds it there, and
-loads it. SymPy and Jinja2 are imported only when something has to be generated.
+loads it. SymPy and Jinja2 are imported only when something has to be generated, and what belongs to looped
+code only where that is asked for.
 """
 
 from __future__ import annotations
@@ -17,7 +18,6 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from symgen.compiling.looped import compile_looped, generate_looped, shared_folder
 from symgen.compiling.straight_model import law_info, load_compiled, model_info
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
@@ -134,6 +134,8 @@ def generate(
     if target != "cpu":
         _refuse_target(target, choices, shape)
     if shape == "looped":
+        from symgen.compiling.looped import generate_looped, shared_folder
+
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
@@ -205,6 +207,8 @@ def compile_model(
     store, choice = Entries() if entries is None else entries, for_coordinates(mechanism, choice)
     arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
     if choice.shape == "looped" and target == "cpu":
+        from symgen.compiling.looped import compile_looped
+
         found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
         return replace(found, origin=(compile_again, arguments))
     folder = folder_of(mechanism)

@@ -116,7 +116,9 @@ def numbers(kind: Any, value: Any) -> Iterator[int | float]:
         yield from addresses(value, kind)
 
 
-def trampoline(returned: Any, arguments: tuple[Any, ...]) -> Callable[[int], int] | None:
+def trampoline(
+    returned: Any, arguments: tuple[Any, ...], made: Callable[[str, str], bytes] = compiled
+) -> Callable[[int], int] | None:
     """Return what calls a function with arguments from a block of slots, None where Numba calls it otherwise.
 
     Parameters
@@ -125,6 +127,8 @@ def trampoline(returned: Any, arguments: tuple[Any, ...]) -> Callable[[int], int
         Of the result; a number of eight bytes.
     arguments : tuple of Numba types
         Of the function.
+    made : callable
+        Gives the object file of a module in LLVM's language with the function of a name.
 
     Returns
     -------
@@ -142,7 +146,7 @@ def trampoline(returned: Any, arguments: tuple[Any, ...]) -> Callable[[int], int
     asked = [_plain(kind) for kind in convention.args[2:]]
     if returned not in _NUMBERS or asked != [*kinds] or str(convention.return_type) != "i32":
         return None
-    return _compiled(kinds)
+    return _compiled(kinds, made)
 
 
 def _plain(kind: Any) -> str:
@@ -151,10 +155,10 @@ def _plain(kind: Any) -> str:
 
 
 @functools.cache
-def _compiled(kinds: tuple[str, ...]) -> Callable[[int], int] | None:
+def _compiled(kinds: tuple[str, ...], made: Callable[[str, str], bytes]) -> Callable[[int], int] | None:
     name = "symgen.trampoline." + hashlib.sha256(" ".join(kinds).encode()).hexdigest()[:32]
     try:
-        address = load(compiled(text(name, kinds), name), [name])[name]
+        address = load(made(text(name, kinds), name), [name])[name]
     except RuntimeError:  # an LLVM that does not know the language any more
         return None
     return ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)(address)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from symgen.errors import SimulationError
 from symgen.native import trampoline as ways
 from symgen.native.trampoline import BYTES, COPY, FIRST, FUNCTION, RESULT, SOURCE, numbers, slots
+from symgen.store.objects import made
 
 Array = NDArray[np.float64]
 #: A trampoline.
@@ -167,7 +168,7 @@ def _layout(result: Any) -> tuple[Call | None, tuple[Any, ...], list[int]]:
     """Return the trampoline of a compiled function, the kinds of its arguments, and where their slots begin."""
     if id(result) not in _KNOWN:
         returned, kinds = result.signature.return_type, result.signature.args
-        call = ways.trampoline(returned, kinds)
+        call = ways.trampoline(returned, kinds, made)
         sizes = () if call is None else tuple(sum(1 for _ in slots(kind)) for kind in kinds)
         _KNOWN[id(result)] = result, (call, kinds, np.cumsum([FIRST, *sizes]).tolist())
     return _KNOWN[id(result)][1]

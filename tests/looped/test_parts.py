@@ -176,9 +176,9 @@ def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(
     small, large_one = load("four-bar").mechanism, load("n-four-bar:150").mechanism
     assert choose_shape(small, choice, "auto", 1e9, entries).shape == "straight"
     assert choose_shape(large_one, choice, "auto", 1.0, entries).shape == "looped"
-    chosen = choose_shape(load("n-four-bar:40").mechanism, choice, "auto", 1e4, entries)
+    chosen = choose_shape(load("n-four-bar:60").mechanism, choice, "auto", 1e4, entries)
     assert chosen.shape == "looped"
-    assert "243 coordinates" in chosen.reason
+    assert "363 coordinates" in chosen.reason
 
 
 def test_short_runs_are_looped_once_the_shared_code_is_there(tmp_path):
