@@ -18,6 +18,7 @@ from typing import Any
 import click
 
 from symgen import __version__
+from symgen.cli._garbage import sparing
 from symgen.errors import SymgenError, nearest, printable
 
 OK, FAILURE, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
@@ -97,6 +98,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     arguments : sequence of str, optional
         Words after ``symgen``; by default those of this process.
     """
+    if arguments is None:  # this process is there for nothing else
+        sparing()
     # who ends a run from outside keeps what it has, as with Ctrl-C; only the main thread may say so
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)

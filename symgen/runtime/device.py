@@ -22,7 +22,7 @@ from numba import config, cuda, float64, int64, types
 
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.instances import Instances
+from symgen.runtime.instances import Instances, viewing
 from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
 from symgen.runtime.schemes import explicit
@@ -61,8 +61,10 @@ class Results(NamedTuple):
 
 
 #: Types of a kernel's arguments; see `make_kernel`.
-STARTS = types.NamedTuple((_M, _M, _M, _A, _A, _K, _A), Starts)
-RESULTS = types.NamedTuple((_T, _T, _T, _T, _T, _M, _M), Results)
+STARTS = types.NamedTuple(Starts(ys=_M, ps=_M, ws=_M, limits=_A, share=_A, metric=_A, picks=_K, times=_A), Starts)
+RESULTS = types.NamedTuple(
+    Results(states=_T, status=_T, accelerations=_T, multipliers=_T, rows=_T, values=_M, summary=_M), Results
+)
 SIGNATURE = types.void(TABLEAU, SIZES, SPAN, STARTS, RESULTS)
 
 
@@ -74,11 +76,13 @@ def simulated() -> bool:
 # -- what is different on a device -------------------------------------------------------------------------------------
 
 
+@viewing
 def same(value: Any) -> Any:
     """Stand in for `symgen.runtime.bare.bare`: CUDA counts no references."""
     return value
 
 
+@viewing
 def cut(array: Any, first: int, size: int) -> Any:
     """Stand in for `symgen.runtime.bare.part`."""
     return array[first : first + size]
@@ -139,8 +143,7 @@ def on_device(function: Any, **meanings: Any) -> Any:
 
 
 def _compiled(copy: python.FunctionType, original: Any) -> Any:
-    # a function that returns a view must be copied into its callers before types are inferred
-    return cuda.jit(device=True, inline="always" if copy.__name__ in ("same", "cut", "opened") else "never")(copy)
+    return cuda.jit(device=True, inline="always" if hasattr(original, "viewing") else "never")(copy)
 
 
 # -- kernels -----------------------------------------------------------------------------------------------------------

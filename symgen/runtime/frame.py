@@ -27,6 +27,7 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.bare import bare, part
 from symgen.runtime.instances import loop as compiled_loop
+from symgen.runtime.instances import viewing
 from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, System
 from symgen.runtime.redundancy import rows_fell
 from symgen.runtime.scales import settle
@@ -120,6 +121,7 @@ def recall(system: Any, run: Any) -> None:
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
 
 
+@viewing
 def opened(sizes: Any, state: Any) -> Any:
     """Return what a run keeps, its working memory in parts."""
     s, width = bare(state), sizes.width

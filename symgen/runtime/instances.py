@@ -30,6 +30,12 @@ def called(function: Function) -> Function:
     return function
 
 
+def viewing(function: Function) -> Function:
+    """Mark a part that returns arrays: devices have it copied into its callers before types are inferred."""
+    function.viewing = True  # type: ignore[attr-defined]  # a mark of our own
+    return function
+
+
 def part(copy: python.FunctionType, original: Any) -> Any:
     """Return a part of a loop, compiled for processors, and for other parts only."""
     return njit(

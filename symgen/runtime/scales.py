@@ -12,6 +12,7 @@ from typing import Any
 
 from symgen.runtime import abi
 from symgen.runtime.exact import exact
+from symgen.runtime.instances import viewing
 
 #: Bodies count as at least this part of the longest one: their rounding shall not decide.
 LEAST_LENGTH = 1e-2
@@ -147,6 +148,7 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
         run.scales[nq + j] = run.metric[nq + j] / speed
 
 
+@viewing
 def weights_of(span: Any, run: Any) -> Any:
     """Return by what the elements of a state are multiplied where tolerances are asked of them."""
     return run.scales if span.relative != 0.0 else run.share

@@ -60,6 +60,56 @@ def dirty_memory() -> None:
     cuda.device_array = lambda shape, dtype: cuda.to_device(nonsense(shape, dtype))
 
 
+def as_a_device_asks() -> None:
+    """Refuse what the simulator lets pass and no device takes: other types than announced, an array as result."""
+    import numba
+    from numba import cuda
+
+    from symgen.runtime import device
+
+    def kind(value, expected):
+        if isinstance(value, tuple):
+            assert len(value) == len(expected.types) and type(value) is expected.instance_class, expected
+            return expected if all(kind(v, e) == e for v, e in zip(value, expected.types, strict=True)) else value
+        found = numba.typeof(value.copy_to_host() if hasattr(value, "copy_to_host") else value)
+        # whole numbers and arrays that are only read are converted
+        return expected if found == expected or (found.cast_python_value and found == numba.int64) else found
+
+    class Checked:
+        def __init__(self, kernel, signature):
+            self.kernel, self.signature = kernel, signature
+
+        def __getitem__(self, configuration):
+            def launch(*arguments):
+                for value, expected in zip(arguments, self.signature.args, strict=True):
+                    assert kind(value, expected) == expected, (kind(value, expected), expected)
+                self.kernel[configuration](*arguments)
+
+            return launch
+
+    plain_jit, compiled = cuda.jit, device._compiled
+
+    def jit(*words, **options):
+        if words and isinstance(words[0], numba.core.typing.Signature):
+            return lambda function: Checked(plain_jit(*words, **options)(function), words[0])
+        return plain_jit(*words, **options)
+
+    class Strict:
+        def __init__(self, function, name):
+            self.function, self.name = function, name
+
+        def __call__(self, *arguments):
+            result = self.function(*arguments)
+            assert getattr(result, "shape", ()) == (), f"{self.name} returns an array and is not marked as viewing"
+            return result
+
+    def strict(copy, original):
+        made = compiled(copy, original)
+        return made if hasattr(original, "viewing") else Strict(made, copy.__name__)
+
+    cuda.jit, device._compiled = jit, strict
+
+
 def launched(sweep) -> bool:
     """Whether a kernel for a device was made for a sweep."""
     from symgen.ensemble.kernel import kernel_of
@@ -74,6 +124,7 @@ def main(out: str, *names: str) -> None:
     from symgen.ensemble.device import DeviceRuns
 
     dirty_memory()
+    as_a_device_asks()
     DeviceRuns._most = lambda self: 2  # little memory: three runs take two launches
     for name in names:
         model, vary, settings = CASES[name]
