@@ -332,7 +332,7 @@ class Event(msgspec.Struct, frozen=True):
     text: str = ""
 
 
-class Mechanism(msgspec.Struct, frozen=True):
+class Mechanism(msgspec.Struct, frozen=True, weakref=True):
     """A validated mechanism, all of it planar or all of it spatial.
 
     Bodies, joints and forces stand in the order of the file, which is the order of coordinates and multipliers.
