@@ -1,8 +1,10 @@
-"""Kinks of tables that are known beforehand: adaptive runs end a step at each of them."""
+"""Kinks that are known beforehand: adaptive runs end a step at each of them."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -54,8 +56,15 @@ def pushed(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
 
 def moved(times: np.ndarray, rate: float, speed: float = 0.3) -> tuple[np.ndarray, np.ndarray]:
     """Position and speed of 2 kg under the force, piece by piece in closed form."""
-    edges = np.unique(np.concatenate([[0.0], np.array(X) / rate, times]))
-    force = np.interp(rate * edges, X, Y) / 2.0
+    return pushed_by(lambda t: np.interp(rate * t, X, Y), np.array(X) / rate, times, speed)
+
+
+def pushed_by(
+    force_at: Callable[[np.ndarray], np.ndarray], kinks: np.ndarray, times: np.ndarray, speed: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Position and speed of 2 kg under a force that is linear between kinks."""
+    edges = np.unique(np.concatenate([[0.0], kinks, times]))
+    force = force_at(edges) / 2.0
     h, a, b = np.diff(edges), force[:-1], force[1:]
     v = speed + np.concatenate([[0.0], np.cumsum(h * (a + b) / 2.0)])
     x = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h * h * (2.0 * a + b) / 6.0)])
@@ -75,6 +84,22 @@ def test_steps_end_at_points_of_a_table_of_time(pushed: symgen.Model, integrator
         assert result.status == "ok" and result.rejected == 0
         np.testing.assert_allclose(result.q["mass.x"], x, rtol=0.0, atol=1e-13)
         np.testing.assert_allclose(result.v["mass.vx"], v, rtol=0.0, atol=1e-13)
+
+
+def test_steps_end_at_kinks_of_formulas(tmp_path: Path) -> None:
+    file = tmp_path / "kinked.toml"
+    formula = "6*max(pace*t - 0.4137, 0) - abs(1.3 - 2*t) + min(t, 0.9137)"
+    file.write_text(SLIDER.replace("push(pace*t)", formula), encoding="utf-8")
+    times = np.linspace(0.0, 1.0, 51)
+    result = symgen.load(file).simulate(method="lagrange", integrator="dop853", rtol=1e-6, times=times)
+
+    def force(t: np.ndarray) -> np.ndarray:
+        return 6.0 * np.maximum(t - 0.4137, 0.0) - np.abs(1.3 - 2.0 * t) + np.minimum(t, 0.9137)
+
+    x, v = pushed_by(force, np.array([0.4137, 0.65, 0.9137]), times, 0.3)
+    assert result.status == "ok" and result.rejected == 0
+    np.testing.assert_allclose(result.q["mass.x"], x, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(result.v["mass.vx"], v, rtol=0.0, atol=1e-13)
 
 
 def test_constant_steps_keep_their_grid(pushed: symgen.Model) -> None:
@@ -118,8 +143,9 @@ def test_the_follower_of_a_cam_keeps_to_the_spline(integrator: str) -> None:
     np.testing.assert_allclose(result.v["follower.vy"], speed * spline(speed * times, 1), rtol=0.0, atol=1e-9)
 
 
-def test_which_tables_have_kinks_that_are_known() -> None:
-    assert len(kinks_of(symgen.load("cam-follower").mechanism)) == 1
+def test_which_kinks_are_known() -> None:
+    for name in ("cam-follower", "scissor-lift"):  # a table over an angle in time, a ramp that ends
+        assert len(kinks_of(symgen.load(name).mechanism)) == 1
     for name in ("engine", "wiper", "four-bar"):  # over an angle, over a speed, none
         assert kinks_of(symgen.load(name).mechanism) == ()
 
