@@ -98,3 +98,14 @@ def test_rows_kept_at_the_start_differ(settings: dict) -> None:
     assert not result.warnings and not result.rank_events
     assert (result.rank.rows, result.rank.rank) == (20, 17) and len(result.rank.redundant_rows) == 3
     assert off(result, system, q) < 1e-9
+
+
+def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
+    """The compiled start keeps the same rows: the run is the single one, and near no singular position."""
+    settings = {"method": "direct-correction", "integrator": "rk4", "step": 2e-3, "times": [0.2], "until": 0.2}
+    model = symgen.load(DEFECTS / "flat_loop.toml")
+    found = symgen.sweep(model, {"last": [0.6054]}, quantities=("b1.x", "smallest_pivot"), **settings)
+    alone = model.simulate(**settings)
+    assert found.counts["ok"] == 1
+    np.testing.assert_allclose(found.values[0, 0], alone.q["b1.x"], rtol=0, atol=1e-12)
+    assert found.values[0, 1] > 1e-3
