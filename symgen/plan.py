@@ -14,12 +14,15 @@ from symgen.compiling.choose_coordinates import choose_coordinates, weighed
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.pipeline import MethodChoice, choose_method
 from symgen.describe.digest import digest
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
+from symgen.describe.kinks import kinks_of
 from symgen.errors import InputError, nearest
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
+from symgen.runtime.pieces import Piece, kinks_between, pieces_at
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings
 
@@ -119,6 +122,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=math.sqrt(s.max_violation) if method.velocities_follow else None,
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
+        pieces=_pieces(mechanism, s.parameters, until) if adaptive else (),
         # not the end of this run: where it is gone on with, it has to be the same
         duration=None if adaptive else defaults.until,
         integrator_parameters={
@@ -156,6 +160,12 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         coordinates.coordinates,
         coordinates.reason,
     )
+
+
+def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> tuple[Piece, ...]:
+    """Return the pieces of a run between kinks that are known beforehand."""
+    kinks = kinks_of(mechanism)
+    return pieces_at(kinks_between(kinks, parameter_values(mechanism, parameters), until)) if kinks else ()
 
 
 def _asked(s: Settings, option: str) -> bool:

@@ -15,6 +15,8 @@ from benchmarks.verification.runs import Asked, Came
 TOLERANCES = 50.0
 #: A run with constant steps may be off by this many times the error of the reference's own run with the same steps.
 COARSE = 20.0
+#: By so much, at least, the error of a run by `rk4` falls with half the step where it is the step's: 16 in the limit.
+FALLS = 8.0
 #: What is left to rounding, of the size of each group.
 ROUNDING = 1e-10
 #: A run by a method that does not keep to D v' = gamma, or with all chosen automatically, is wrong beyond this [m].
@@ -113,14 +115,42 @@ def _columns(came: Came, table: str, names: list[str]) -> Array:
     return np.column_stack(values) if values else np.zeros((len(came.t), 0))
 
 
-def judge(reference: Reference, asked: Asked, came: Came) -> Verdict:
+def of_the_step(reference: Reference, asked: Asked, came: Came, finer: Came | None) -> dict[str, float]:
+    """Return the groups whose error is the step's own, and how large it may be for that reason.
+
+    On the constraints both sides have the same accelerations. Off them, where the stages of a step are, each has a
+    continuation of its own: by Euler parameters whose length is not 1, and by rows of which one side leaves out those
+    that depend on others and the other takes the mean. So the errors of two Runge-Kutta schemes of one step may differ
+    by any factor, and `COARSE` is no bound for all. What tells an error of the step from any other is that it falls
+    with the step by the scheme's order: a law, a row or a branch that is wrong is as wrong with half of it.
+
+    Parameters
+    ----------
+    finer : Came, optional
+        The same run with half the step.
+    """
+    if finer is None or finer.status != came.status or asked.integrator != "rk4" or asked.rtol is not None:
+        return {}
+    off, half, found = errors(reference, came), errors(reference, finer), {}
+    size = max(1.0, reference.scales["q"])
+    for name in off.keys() & half.keys():
+        disturbed = reference.scales[name] + reference.growth[name] * size
+        if half[name] <= off[name] / FALLS + ROUNDING * disturbed + 10.0 * reference.own[name]:
+            found[name] = WRONG * (size if name == "q" else max(1.0, disturbed))
+    return found
+
+
+def judge(reference: Reference, asked: Asked, came: Came, finer: Came | None = None) -> Verdict:
     """Return what is to be said of a run.
 
-    A run that ended early and says so is right where its outputs are.
+    A run that ended early and says so is right where its outputs are. With a run of half the step, `finer`, one with
+    constant steps may be off by what is shown to be its step's error.
     """
     if came.status in ("refused", "raised"):
         return Verdict(came.status == "refused", None, {}, {}, ())
     allowed, off = bounds(reference, asked), errors(reference, came)
+    for name, bound in of_the_step(reference, asked, came, finer).items():
+        allowed[name] = max(allowed[name], bound)
     wrong = tuple(name for name, size in off.items() if not size <= allowed[name])
     complete = len(came.t) == len(reference.times)
     if came.status == "ok" and (not off or not complete):

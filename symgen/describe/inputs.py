@@ -42,12 +42,15 @@ class Jump:
         The parameter that says which side holds; empty where both are the same there, as at a kink.
     value : Expr
         What the switch is.
+    period : float
+        By which the levels repeat themselves, 0 where they do not.
     """
 
     argument: Expr
     levels: tuple[float, ...] = (0.0,)
     switch: str = ""
     value: Expr = ZERO
+    period: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.describe.derived import derived
-from symgen.runtime.pieces import Piece, pieces_of
+from symgen.describe.evaluate import parameter_values
+from symgen.describe.inputs import Jump
+from symgen.runtime.pieces import Piece, kinks_between, merged, pieces_at, pieces_of
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
@@ -30,25 +32,33 @@ class Driving:
         What varies.
     until : float
         End of the runs [s].
+    kinks : tuple of Jump
+        Of tables of the time, where runs stop at them.
     """
 
     given: Given
     varied: tuple[str, ...]
     until: float
+    kinks: tuple[Jump, ...] = ()
 
     @cached_property
     def own(self) -> bool:
-        """Whether jumps are elsewhere in each run."""
+        """Whether jumps and kinks are elsewhere in each run."""
         driven = self.given.driven
-        if driven is None:
-            return False
-        depends = {*self.varied, *(name for name, _ in derived(driven.mechanism.parameters))}
-        return any(depends & {*names(jump.argument), *names(jump.value)} for jump in driven.jumps)
+        depends = {*self.varied, *(name for name, _ in derived(self.given.mechanism.parameters))}
+        jumps = (*self.kinks, *(() if driven is None else driven.jumps))
+        return any(depends & {*names(jump.argument), *names(jump.value)} for jump in jumps)
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The pieces of all runs, where they are the same."""
+        values = parameter_values(self.given.mechanism, self.given.settings.parameters) if self.kinks else {}
+        return merged(self.given.pieces, pieces_at(kinks_between(self.kinks, values, self.until)))
 
     @property
     def jumps(self) -> bool:
         """Whether runs have pieces."""
-        return self.own or bool(self.given.pieces)
+        return self.own or bool(self.pieces)
 
     @property
     def described(self) -> list[Any]:
@@ -70,14 +80,17 @@ class Driving:
             Their names.
         """
         if not self.own:
-            return replace(rows, pieces=(self.given.pieces,)) if self.given.pieces else rows
+            return replace(rows, pieces=(self.pieces,)) if self.pieces else rows
         driven = self.given.driven
-        assert driven is not None, "something jumps"
         found = list[tuple[Piece, ...]]()
         for row in rows.parameters:
             values = dict(zip(parameters, row.tolist(), strict=True))
             # a row that is not defined fails at its start
-            found.append(pieces_of(driven, values, self.until) if np.all(np.isfinite(row)) else ())
+            pieces: tuple[Piece, ...] = ()
+            if np.all(np.isfinite(row)):
+                pieces = () if driven is None else pieces_of(driven, values, self.until)
+                pieces = merged(pieces, pieces_at(kinks_between(self.kinks, values, self.until)))
+            found.append(pieces)
             _set(row, parameters, found[-1][0].values if found[-1] else {})
         return replace(rows, pieces=tuple(found))
 

@@ -16,6 +16,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD
+from symgen.describe.kinks import kinks_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
@@ -212,7 +213,10 @@ def make_ensemble(
     # before anything is derived
     names.check((*vary, *runs), inputs)
     grid = make_grid(vary, runs, names.starts)
-    driving = Driving(given, grid.names, plan.spec.until)
+    # lanes and devices have nothing between two parts of a run: they go across kinks, as the error estimate lets them
+    kinks = kinks_of(mechanism) if target == "cpu" and plan.spec.adaptive else ()
+    plan = replace(plan, spec=replace(plan.spec, pieces=()))
+    driving = Driving(given, grid.names, plan.spec.until, kinks)
     kept_names, events = _events(mechanism, chosen, plan, quantities)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part
-from symgen.runtime.decisions import is_dependent
+from symgen.runtime.decisions import is_dependent, is_poor
 from symgen.runtime.exact import exact
 from symgen.runtime.least_norm import multiply
 from symgen.runtime.redundancy import choose_rows
@@ -131,7 +131,8 @@ def mask_redundant(
     """Mask as many rows as depend on others at the start and at closed positions near it; return how many these are.
 
     Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
-    others may differ from position to position: then those are kept that are farthest from each other.
+    others may differ from position to position, and those that come last in the order of elimination may leave rows
+    that hardly differ: then those are kept that are farthest from each other.
     """
     m, count, other, same = layout.m, 0, Instant(work.y, now.p, work.w), True
     for i in range(m):
@@ -160,28 +161,42 @@ def mask_redundant(
                 near += 1 if dependent else 0
                 same = same and (now.w[layout.mask + i] != 0.0 or not dependent)
             count = near if near < count else count
-    return int(_masked(layout, now, other, work, count, alone, same))
+    return int(_masked(geometry, layout, now, other, work, count, alone, same))
 
 
 @exact()
-def _masked(layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
+def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
     """Mask `count` rows: of those that depend on others at the start alone, or of all; return their number."""
     m, mask = layout.m, layout.mask
-    if count == alone and same:
-        return count  # the same ones everywhere
-    if count > 0 and not same and layout.sparse == 0:
-        here = now.w if count == alone else other.w  # at a singular position rounding would choose
+    here = now.w if count == alone else other.w  # at a singular position rounding would choose
+    if count > 0 and layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
         places = layout.jacobian, layout.gauge, mask
         choose_rows(m, layout.nv, m - count, layout.entries, layout.constants, *places, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]
+        geometry(layout.t, now.y, now.p, now.w)
+        for i in range(m):  # what is left out may come first, where its pivot says nothing of the rows behind it
+            if now.w[mask + i] != 0.0:
+                now.w[layout.pivot + i] = 0.0
         return count
+    if count == alone and same:
+        return count  # the same ones everywhere
     left = 0
     for i in range(m):
         if now.w[mask + i] != 0.0 and not is_dependent(other.w[layout.pivot + i]):
             now.w[mask + i] = 0.0
         left += 1 if now.w[mask + i] != 0.0 else 0
     return left
+
+
+@exact()
+def _kept_pivot(layout: Any, w: Any) -> float:
+    """Return the smallest pivot of D D^T among the rows that do not depend on others."""
+    smallest = 1.0
+    for i in range(layout.m):
+        pivot = w[layout.pivot + i]
+        smallest = pivot if pivot < smallest and not is_dependent(pivot) else smallest
+    return smallest
 
 
 @exact()

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from symgen.ir.numerics import SKIP
+from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime.exact import exact
 
 #: From this many entries of a dense D on, models with sparse algebra of their own are closed by it.
@@ -58,3 +58,9 @@ LEAST_EFFECT = 1e-9
 def is_dependent(pivot: float) -> bool:
     """Whether a pivot of D D^T (rows scaled) says that its row depends on the others."""
     return not pivot >= SKIP
+
+
+@exact()
+def is_poor(pivot: float) -> bool:
+    """Whether rows whose smallest pivot this is stand badly for those left out: as near a singular position."""
+    return pivot < WARN

@@ -18,6 +18,8 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
 #: Pieces of a run at most.
 MOST_PIECES = 100_000
+#: Kinks of tables that a run stops at, at most: with more of them none, as each costs a step.
+MOST_KINKS = 2000
 #: Instants at which a formula is looked at first, and at most, until it changes sides as often as the time before.
 _FIRST, _MOST = 2048, 65536
 #: Jumps closer than this part of the run are one.
@@ -90,6 +92,61 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
         result.append(Piece(begin, {name: x for name, x in now.items() if before.get(name) != x}))
         before = now
     return tuple(result)
+
+
+def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: float) -> tuple[float, ...]:
+    """Return the times inside a run at which arguments that are straight lines in t pass points of tables.
+
+    Parameters
+    ----------
+    jumps : sequence of Jump
+        From `symgen.describe.kinks.kinks_of`.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
+
+    Returns
+    -------
+    tuple of float
+        In order [s]; empty where they are more than `MOST_KINKS`.
+    """
+    found, apart = set[float](), _SAME * until
+    for jump in jumps:
+        line = _line(jump, values)
+        if line is None or not math.isfinite(sum(line)) or line[1] == 0.0:
+            continue
+        levels: Sequence[float] = jump.levels
+        if jump.period > 0.0:  # the last point is the first one of the next period
+            ends = sorted((line[0], line[0] + line[1] * until))
+            turns = [math.floor((x - levels[0]) / jump.period) for x in ends]
+            if (turns[1] - turns[0] + 1) * (len(levels) - 1) > MOST_KINKS + 2 * len(levels):
+                return ()
+            levels = [x + k * jump.period for k in range(turns[0], turns[1] + 1) for x in levels[:-1]]
+        found.update(crossings(lambda t: t, line, levels, until))
+    times = list[float]()
+    for t in sorted(found):
+        if t - (times[-1] if times else 0.0) > apart and until - t > apart:
+            times.append(t)
+    return tuple(times) if len(times) <= MOST_KINKS else ()
+
+
+def pieces_at(times: Sequence[float]) -> tuple[Piece, ...]:
+    """Return the pieces of a run between times at which nothing but a rate has a kink, none where there is none."""
+    return tuple(Piece(t, {}) for t in (0.0, *times)) if times else ()
+
+
+def merged(pieces: tuple[Piece, ...], kinks: tuple[Piece, ...]) -> tuple[Piece, ...]:
+    """Return pieces of a run that end where others of it do, too, those in which numbers change first named."""
+    if not (pieces and kinks):
+        return pieces or kinks
+    found, apart = list[Piece](), _SAME * kinks[-1].begin
+    for piece in sorted([*pieces, *kinks], key=lambda piece: piece.begin):
+        if found and piece.begin - found[-1].begin <= apart:  # one of the two changes no number
+            found[-1] = Piece(found[-1].begin, {**found[-1].values, **piece.values})
+        else:
+            found.append(piece)
+    return tuple(found)
 
 
 def crossings(

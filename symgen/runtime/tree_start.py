@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.ir.numerics import SKIP
+from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
@@ -23,6 +23,7 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import weigh_rows
+from symgen.runtime.simulation import row_chooser
 from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
@@ -69,8 +70,11 @@ def settle_tree(
         masked = _dependent(compiled, geometry, y, p, w, t)
         compiled.section(w, "mask")[masked] = np.inf
         geometry(t, y, p, w)
+        if masked.any() and w[abi.PIVOT] < WARN and row_chooser(compiled)(w):
+            geometry(t, y, p, w)
+            masked = compiled.section(w, "mask") > 0.0
         plain_form(weigh_rows)(layout, now)
-    rank = int(np.sum(compiled.section(w, "pivot") >= SKIP))
+    rank = int(np.sum((compiled.section(w, "pivot") >= SKIP) & ~masked))
     return w, rank, tuple(info.rows[i].name for i in np.flatnonzero(masked))
 
 

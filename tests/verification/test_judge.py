@@ -71,6 +71,23 @@ def test_a_run_that_ended_early_is_right_where_it_went_and_not_ok(reference: Ref
     assert not judge(reference, ASKED, dataclasses.replace(short, status="ok")).honest
 
 
+def test_an_error_that_falls_with_the_step_is_the_step_s_and_others_are_not(reference: Reference) -> None:
+    """Sixteen times less with half the step: order four. As much with half the step: something else is wrong."""
+    run, finer = came(reference), came(reference)
+    shift = 1e-5 * np.linspace(0.0, 1.0, len(run.t))[:, np.newaxis]
+    run.columns["v"] = run.columns["v"] + shift
+    assert judge(reference, ASKED, run).right is False
+    for part, right in ((16.0, True), (4.0, False), (1.0, False)):
+        finer.columns["v"] = came(reference).columns["v"] + shift / part
+        assert judge(reference, ASKED, run, finer).right is right
+    finer.columns["v"] = came(reference).columns["v"]
+    run.columns["v"] = came(reference).columns["v"] + 1e6 * shift  # of the step, and wrong all the same
+    assert judge(reference, ASKED, run, finer).right is False
+    adaptive = dataclasses.replace(ASKED, rtol=1e-10)
+    run.columns["v"] = came(reference).columns["v"] + shift
+    assert judge(reference, adaptive, run, finer).right is False
+
+
 def test_refusals_are_honest_and_tracebacks_are_not(reference: Reference) -> None:
     assert judge(reference, ASKED, Came("refused", "a sentence")).honest
     assert not judge(reference, ASKED, Came("raised", "ValueError: no")).honest

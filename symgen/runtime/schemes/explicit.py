@@ -26,6 +26,8 @@ _N_STATUS, _IN_ZONE = abi.N_STATUS, abi.IN_ZONE
 #: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
 #: where its error is rounding, and near singular positions.
 _GROWTH, _SETTLED = 1.25, 0.25
+#: What a first step is guessed from is no shorter than this part of a run: more steps than `MAX_STEPS` would follow.
+_SHORTEST = 1e-10
 
 
 def attempt_constant(
@@ -58,7 +60,8 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     d0 = math.sqrt(weigh(width, y, share, y, y, span.rtol, span.atol) / count)
     d1 = math.sqrt(weigh(width, first, share, y, y, span.rtol, span.atol) / count)
     h0 = least if d0 < 1e-5 or d1 * span.duration < 1e-5 else 0.01 * d0 / d1
-    h0 = min(h0, span.until - t)
+    # a state that is rounding beside its tolerance, coordinates of 1e-16 at rest, says nothing of the time
+    h0 = min(max(h0, _SHORTEST * span.duration), span.until - t)
     for i in range(width):
         run.trial[i] = y[i] + h0 * first[i]
     evaluate(system, run, t + h0, run.trial, rate)

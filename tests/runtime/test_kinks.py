@@ -1,0 +1,172 @@
+"""Kinks that are known beforehand: adaptive runs end a step at each of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+import symgen
+from symgen.describe.inputs import Jump
+from symgen.describe.kinks import kinks_of
+from symgen.describe.parser import Names, parse
+from symgen.ensemble.sweep import sweep
+from symgen.runtime import pieces
+from symgen.runtime.pieces import Piece, kinks_between, merged
+
+#: Force over time, linear between points that no step would meet, and beyond them constant.
+X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)
+SLIDER = f"""
+[mechanism]
+name = "pushed"
+[run]
+until = 1.0
+step = 1e-2
+[parameters]
+pace = 1.0
+[tables.push]
+x = {list(X)}
+y = {list(Y)}
+[bodies.mass]
+mass = 2.0
+inertia = 0.1
+velocity = [0.3, 0.0]
+[joints.guide]
+type = "translational"
+between = ["ground", "mass"]
+at = [[0.0, 0.0], "centre"]
+axis = [1.0, 0.0]
+[forces.push]
+type = "force"
+body = "mass"
+force = ["push(pace*t)", 0.0]
+"""
+
+
+@pytest.fixture(scope="module")
+def pushed(tmp_path_factory: pytest.TempPathFactory) -> symgen.Model:
+    file = tmp_path_factory.mktemp("kinks") / "pushed.toml"
+    file.write_text(SLIDER, encoding="utf-8")
+    return symgen.load(file)
+
+
+def moved(times: np.ndarray, rate: float, speed: float = 0.3) -> tuple[np.ndarray, np.ndarray]:
+    """Position and speed of 2 kg under the force, piece by piece in closed form."""
+    return pushed_by(lambda t: np.interp(rate * t, X, Y), np.array(X) / rate, times, speed)
+
+
+def pushed_by(
+    force_at: Callable[[np.ndarray], np.ndarray], kinks: np.ndarray, times: np.ndarray, speed: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Position and speed of 2 kg under a force that is linear between kinks."""
+    edges = np.unique(np.concatenate([[0.0], kinks, times]))
+    force = force_at(edges) / 2.0
+    h, a, b = np.diff(edges), force[:-1], force[1:]
+    v = speed + np.concatenate([[0.0], np.cumsum(h * (a + b) / 2.0)])
+    x = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h * h * (2.0 * a + b) / 6.0)])
+    at = np.searchsorted(edges, times)
+    return x[at], v[at]
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5"])
+def test_steps_end_at_points_of_a_table_of_time(pushed: symgen.Model, integrator: str) -> None:
+    """Between kinks the motion is a polynomial of degree three, which schemes of order five have without error."""
+    times = np.linspace(0.0, 1.0, 101)
+    for rate in (1.0, 1.7):
+        result = pushed.simulate(
+            method="lagrange", integrator=integrator, rtol=1e-6, times=times, parameters={"pace": rate}
+        )
+        x, v = moved(times, rate)
+        assert result.status == "ok" and result.rejected == 0
+        np.testing.assert_allclose(result.q["mass.x"], x, rtol=0.0, atol=1e-13)
+        np.testing.assert_allclose(result.v["mass.vx"], v, rtol=0.0, atol=1e-13)
+
+
+def test_steps_end_at_kinks_of_formulas(tmp_path: Path) -> None:
+    file = tmp_path / "kinked.toml"
+    formula = "6*max(pace*t - 0.4137, 0) - abs(1.3 - 2*t) + min(t, 0.9137)"
+    file.write_text(SLIDER.replace("push(pace*t)", formula), encoding="utf-8")
+    times = np.linspace(0.0, 1.0, 51)
+    result = symgen.load(file).simulate(method="lagrange", integrator="dop853", rtol=1e-6, times=times)
+
+    def force(t: np.ndarray) -> np.ndarray:
+        return 6.0 * np.maximum(t - 0.4137, 0.0) - np.abs(1.3 - 2.0 * t) + np.minimum(t, 0.9137)
+
+    x, v = pushed_by(force, np.array([0.4137, 0.65, 0.9137]), times, 0.3)
+    assert result.status == "ok" and result.rejected == 0
+    np.testing.assert_allclose(result.q["mass.x"], x, rtol=0.0, atol=1e-13)
+    np.testing.assert_allclose(result.v["mass.vx"], v, rtol=0.0, atol=1e-13)
+
+
+def test_constant_steps_keep_their_grid(pushed: symgen.Model) -> None:
+    assert pushed.simulate(method="lagrange", integrator="rk4").steps == 100
+
+
+def test_a_run_that_goes_on_stops_at_the_kinks_ahead(pushed: symgen.Model) -> None:
+    settings = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-6}
+    first = pushed.simulate(until=0.35, times=[0.0, 0.35], **settings)
+    second = pushed.simulate(start=first, times=[0.35, 0.6, 1.0], **settings)
+    x, _ = moved(np.array([0.35, 0.6, 1.0]), 1.0)
+    assert second.rejected == 0
+    np.testing.assert_allclose(second.q["mass.x"], x, rtol=0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("vary", ["pace", "start"])
+def test_rows_of_a_sweep_stop_there_too(pushed: symgen.Model, vary: str) -> None:
+    """To the last bit what single runs are, wherever each row's kinks are."""
+    name = {"pace": "pace", "start": "mass.vx"}[vary]
+    settings = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-6, "times": [0.3, 1.0]}
+    values = [0.5, 1.25]
+    found = sweep(pushed, {name: values}, quantities=("mass.x",), **settings)
+    for i, value in enumerate(values):
+        given = {"parameters": {"pace": value}} if vary == "pace" else {"start": {name: value}}
+        alone = pushed.simulate(**settings, **given)
+        assert np.array_equal(found.values[i, 0], alone.q["mass.x"])
+        x, _ = moved(np.array(settings["times"]), *((value,) if vary == "pace" else (1.0, value)))
+        np.testing.assert_allclose(found.values[i, 0], x, rtol=0.0, atol=1e-13)
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
+def test_the_follower_of_a_cam_keeps_to_the_spline(integrator: str) -> None:
+    """A periodic cubic lift over the angle of a cam that turns evenly twice: 47 kinks of the acceleration."""
+    model = symgen.load("cam-follower")
+    table = next(t for t in model.mechanism.tables if t.name == "lift")
+    spline, speed = CubicSpline(table.x, table.y, bc_type="periodic"), 10.0 * math.pi
+    times = np.linspace(0.0, 0.4, 201)
+    result = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8, atol=1e-10, times=times)
+    assert result.status == "ok" and 10 * result.rejected < result.steps
+    np.testing.assert_allclose(result.q["follower.y"], spline(speed * times), rtol=0.0, atol=1e-10)
+    np.testing.assert_allclose(result.v["follower.vy"], speed * spline(speed * times, 1), rtol=0.0, atol=1e-9)
+
+
+def test_which_kinks_are_known() -> None:
+    for name in ("cam-follower", "scissor-lift"):  # a table over an angle in time, a ramp that ends
+        assert len(kinks_of(symgen.load(name).mechanism)) == 1
+    for name in ("engine", "wiper", "four-bar"):  # over an angle, over a speed, none
+        assert kinks_of(symgen.load(name).mechanism) == ()
+
+
+def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:
+    return Jump(parse(text, Names("a formula", {"w": "w", "t": "t"}, {}, {}), "here"), levels, period=period)
+
+
+def test_times_of_kinks() -> None:
+    values, levels = {"w": -2.0}, (0.0, 1.0, 3.0)
+    assert kinks_between([_jump("3 + w*t", levels)], values, 5.0) == (1.0, 1.5)
+    # period 3: 2, 1, 0, -2, -3, ... are met at (3 - level) / 2
+    found = kinks_between([_jump("2.5 + w*t", levels, 3.0)], values, 4.0)
+    np.testing.assert_allclose(found, [0.75, 1.25, 2.25, 2.75, 3.75])
+    assert kinks_between([_jump("w", levels), _jump("sin(t)", levels)], values, 5.0) == ()
+    assert kinks_between([_jump("1e6*t", levels, 3.0)], values, 5.0) == ()  # each would cost a step
+    assert len(kinks_between([_jump("100*t", levels, 3.0)], values, 5.0)) < pieces.MOST_KINKS
+
+
+def test_kinks_and_jumps_end_pieces_together() -> None:
+    jumps = (Piece(0.0, {"u": 1.0}), Piece(0.5, {"u": 2.0}))
+    kinks = (Piece(0.0, {}), Piece(0.3, {}), Piece(0.5, {}), Piece(0.7, {}))
+    assert merged(jumps, kinks) == (jumps[0], kinks[1], jumps[1], kinks[3])
+    assert merged((), kinks) == kinks and merged(jumps, ()) == jumps
