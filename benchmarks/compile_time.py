@@ -28,7 +28,7 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.probe import Ready
 
-LINKS = (6, 10, 14, 20, 28, 40)
+LINKS = (8, 10, 14, 20, 28, 40, 66)
 REPEATS, TURNS = 3, 15
 
 

@@ -19,7 +19,7 @@ import gc
 import marshal
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -140,13 +140,8 @@ class EmittedFunction(FromSource):
         """
         from symgen.native.read import read
 
-        collecting = gc.isenabled()
-        gc.disable()  # many objects, of which none is garbage
-        try:
+        with _uncollected():
             return read(self, kinds, _definition)
-        finally:
-            if collecting:
-                gc.enable()
 
     def symbol(self, kinds: tuple[Kind, ...]) -> str:
         """Return the name in machine code, which holds a digest of all that the machine code depends on."""
@@ -217,7 +212,8 @@ class EmittedFunction(FromSource):
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
         called = tuple((names[id(f.source)], kinds_of_function(f)) for f in function.called)
         try:
-            code = compiled(module(function, _symbol, _is_short, self._together), _symbol(function))
+            with _uncollected():
+                code = compiled(module(function, _symbol, _is_short, self._together), _symbol(function))
         except RuntimeError as error:  # an LLVM that does not know the language any more
             return self._leave(str(error))
         counters["misses"] += 1
@@ -284,6 +280,18 @@ def explain(name: str, why: str) -> None:
     """Say, if the environment asks for it, why a function is left to Numba."""
     if compiler() == "explain":
         print(f"{name} is left to Numba: {why}", file=sys.stderr)
+
+
+@contextlib.contextmanager
+def _uncollected() -> Iterator[None]:
+    """Look for no garbage where many objects are made, of which none is garbage."""
+    collecting = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if collecting:
+            gc.enable()
 
 
 def _dispatcher(function: Function) -> EmittedFunction:
