@@ -2,7 +2,9 @@
 
 A right-hand side, ``accept`` (which corrects and measures a state) and the run are timed in turns, several times; the
 smallest time of each counts. All times in nanoseconds: of one right-hand side, one ``accept``, one evaluation in a run;
-what is left of a step after its right-hand sides and its ``accept`` is the loop's own.
+what is left of a step after its right-hand sides and its ``accept`` is the loop's own. A right-hand side is timed
+twice: at one state again and again, where a processor works on several at once, and each at a state that the one before
+has to be done for, as in every run: a bare Euler step, whose sum it contains (``waiting``).
 
     python -m benchmarks.loop_cost [MODEL ...]
 """
@@ -46,6 +48,16 @@ def _repeat_accept(accept: Any, y: Any, p: Any, w: Any, iw: Any, count: int) -> 
     return bits
 
 
+@numba.njit(types.int64(abi.RHS, _A, _A, _A, _A, _I, _A, types.int64), error_model="numpy")  # type: ignore[untyped-decorator]  # Numba is untyped
+def _repeat_waiting(rhs: Any, start: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count: int) -> int:
+    bits = 0
+    for _ in range(count):
+        bits |= rhs(0.0, y, p, w, iw, ydot)
+        for i in range(len(start)):
+            y[i] = start[i] + 1e-300 * ydot[i]
+    return bits
+
+
 def fastest(call: Callable[[], object], count: int = 1) -> float:
     """Return the nanoseconds of one of `count` repetitions in a call, the smallest of several calls."""
     best = np.inf
@@ -70,6 +82,8 @@ def cost(name: str, integrator: str, method: str) -> dict[str, float]:
     count = 2000
     law = compiled.law_module
     rhs = fastest(lambda: _repeat_emitted(law.rhs, y, p, w, iw, ydot, count), count)
+    moved = y.copy()
+    waiting = fastest(lambda: _repeat_waiting(law.rhs, y, moved, p, w, iw, ydot, count), count)
     accept = fastest(lambda: _repeat_accept(law.accept, y, p, w, iw, count), count)
     run = last.seconds.run * 1e9
     return {
@@ -77,9 +91,11 @@ def cost(name: str, integrator: str, method: str) -> dict[str, float]:
         "rejected": outcome.rejected,
         "evaluations": outcome.evaluations,
         "rhs": rhs,
+        "waiting": waiting,
         "accept": accept,
         "evaluation": run / outcome.evaluations,
         "ratio": run / (outcome.evaluations * rhs),
+        "to waiting": run / (outcome.evaluations * waiting),
         "left": (run - outcome.evaluations * rhs - outcome.steps * accept) / (outcome.steps + outcome.rejected),
     }
 
@@ -89,16 +105,17 @@ def main(models: list[str]) -> None:
     table = Table()
     for title in ("model", "integrator", "method"):
         table.add_column(title, no_wrap=True)
-    for title in ("steps", "rejected", "rhs", "accept", "evaluation", "ratio", "left"):
+    for title in ("steps", "rejected", "rhs", "waiting", "accept", "evaluation", "ratio", "to waiting", "left"):
         table.add_column(title, justify="right")
     for name in models or MODELS:
         for integrator in INTEGRATORS:
             for method in ("lagrange", "direct-correction"):
                 c = cost(name, integrator, method)
-                numbers = [f"{c['steps']:.0f}", f"{c['rejected']:.0f}", f"{c['rhs']:.1f}", f"{c['accept']:.0f}"]
-                numbers += [f"{c['evaluation']:.1f}", f"{c['ratio']:.2f}", f"{c['left']:.0f}"]
+                numbers = [f"{c['steps']:.0f}", f"{c['rejected']:.0f}", f"{c['rhs']:.1f}"]
+                numbers += [f"{c['waiting']:.1f}", f"{c['accept']:.0f}"]
+                numbers += [f"{c['evaluation']:.1f}", f"{c['ratio']:.2f}", f"{c['to waiting']:.2f}", f"{c['left']:.0f}"]
                 table.add_row(name, integrator, method, *numbers)
-    Console(width=110).print(table)
+    Console(width=150).print(table)
 
 
 if __name__ == "__main__":
