@@ -33,7 +33,8 @@ from symgen.native.library import Library, arguments_of, kinds_of, kinds_of_func
 from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
 from symgen.store.identity import NotDescribable, digest, source_stamp, sources_digest
-from symgen.store.jit import Loading, MachineCode, attach, environment, plain_name, unusable
+from symgen.store.jit import attach, unusable
+from symgen.store.machine_code import Loading, MachineCode, environment, plain_name
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 from symgen.store.upkeep import NATIVE

@@ -21,7 +21,8 @@ from symgen.native.machine import codegen, compiled, load
 from symgen.store import private
 from symgen.store.emitted import FromSource, compiler, explain, syntax_tree
 from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest
-from symgen.store.jit import LazySignatures, Loading, MachineCode, jit
+from symgen.store.jit import LazySignatures, jit
+from symgen.store.machine_code import Loading, MachineCode
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 

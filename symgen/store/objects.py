@@ -5,7 +5,7 @@ from __future__ import annotations
 from symgen.native.machine import codegen, compiled
 from symgen.store import private
 from symgen.store.identity import digest
-from symgen.store.jit import environment, plain_name
+from symgen.store.machine_code import environment, plain_name
 from symgen.store.paths import cache_location
 from symgen.store.upkeep import NATIVE
 

@@ -20,7 +20,7 @@ from symgen.errors import InputError
 from symgen.native import internals
 from symgen.native.library import Library
 from symgen.runtime.kernels import address
-from symgen.store import emitted, jit
+from symgen.store import emitted, machine_code
 from symgen.store.modules import load_module
 from symgen.store.stats import cache_stats
 
@@ -195,15 +195,15 @@ class TestCache:
         function = load_module(law).rhs
         before = function.symbol(KINDS)
         function._symbols.clear()
-        jit.environment.cache_clear()
+        machine_code.environment.cache_clear()
         assert function.symbol(KINDS) == before
         function._symbols.clear()
-        jit.environment.cache_clear()
+        machine_code.environment.cache_clear()
         monkeypatch.setattr(package, "__version__", "0.1")
         try:
             assert function.symbol(KINDS) != before
         finally:
-            jit.environment.cache_clear()
+            machine_code.environment.cache_clear()
 
     def test_works_uncached_where_nothing_can_be_written(self, law, python, tmp_path):
         (tmp_path / "file").write_text("")
