@@ -28,6 +28,7 @@ from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
 from symgen.runtime.redundancy import never
 from symgen.runtime.rows import begin_run, end_run, take
+from symgen.runtime.scales import still
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import combine, copied
 
@@ -39,7 +40,7 @@ _STOP, _STEPS, _EVALUATIONS, _OUTPUTS, _STOPPED = abi.STOP, abi.STEPS, abi.EVALU
 _DONE, _NONE_GOES, _LEFT, _TIME, _N_STATUS = abi.DONE, abi.PAUSED, abi.LEFT, abi.TIME, abi.N_STATUS
 _RUN_ITERATIONS, _N_GAUGES, _N_SUMMARY, _CODE = abi.ITERATIONS, abi.N_GAUGES, e.N_SUMMARY, e.SUMMARY.index("code")
 _PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
-_SHORTEST = abi.SHORTEST_ROW * _L
+_SHORTEST, _MEAN_MASS = abi.SHORTEST_ROW * _L, abi.MEAN_MASS * _L
 _PIVOT, _RANK, _LENGTH, _SPEED = abi.PIVOT * _L, abi.RANK * _L, abi.LENGTH * _L, abi.SPEED * _L
 _STEP_STATUS, _WINDING = abi.STEP_STATUS * _L, abi.WINDING * _L
 _PHI_MEASURE, _DRIFT_MEASURE = abi.PHI_MEASURE * _L, abi.DRIFT_MEASURE * _L
@@ -75,7 +76,10 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
     """Raise the scales of speeds to those of motions that cross the mechanism in the time of the run."""
     for lane in range(_L):
         speed = run.w[_LENGTH + lane] / span.duration
-        run.w[_SPEED + lane] = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
+        speed = speed if speed > run.w[_SPEED + lane] else run.w[_SPEED + lane]
+        run.w[_SPEED + lane] = speed
+        open_speed = still(span, speed)
+        run.gauges[_SCALE + lane] = run.w[_MEAN_MASS + lane] * open_speed * open_speed
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:

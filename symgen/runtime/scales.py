@@ -14,10 +14,15 @@ from symgen.runtime import abi
 from symgen.runtime.exact import exact
 from symgen.runtime.instances import viewing
 
+_ENERGY_SCALE = abi.ENERGY_SCALE
 #: Bodies count as at least this part of the longest one: their rounding shall not decide.
 LEAST_LENGTH = 1e-2
 #: Rows count as at least this part of a usual one, squared.
 LEAST_ROW = 1e-2
+#: Speeds below this part of the scale of speeds are no motion, whatever tolerances are asked for.
+LEAST_SPEED = 1e-9
+#: Speeds are known to so many times their tolerance: the errors of many steps add up.
+_ADDED_UP = 1e3
 
 
 @exact()
@@ -134,7 +139,8 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
 
     `run.metric` makes lengths and speeds of coordinates and velocities (0 for angles, and for all behind the
     velocities); `run.scales` makes numbers of order 1 of them. A motion that begins at rest counts as one that crosses
-    the mechanism in the time `span.duration`.
+    the mechanism in the time `span.duration`. The energy in motion is at least that of speeds that the tolerances leave
+    open: what begins at rest, without a force, has no other energy that errors could be a part of.
     """
     w, nq = run.w, sizes.nq
     for j in range(sizes.nv):
@@ -146,6 +152,14 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
         run.scales[i] = 1.0 / length if run.metric[i] != 0.0 else 1.0
     for j in range(sizes.nv):
         run.scales[nq + j] = run.metric[nq + j] / speed
+    open_speed = still(span, speed)
+    run.gauges[_ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
+
+
+def still(span: Any, speed: float) -> Any:
+    """Return the speed that tolerances leave open [m/s], at a scale of speeds [m/s]."""
+    tolerance = span.atol * speed if span.relative != 0.0 else span.atol
+    return _ADDED_UP * max(tolerance, LEAST_SPEED * speed)
 
 
 @viewing

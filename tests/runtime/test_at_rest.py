@@ -1,0 +1,88 @@
+"""Motions that begin at rest, without any force: no energy is there that errors could be a part of.
+
+A sled on a straight guide is pushed from t = 1/2 s on by a force of a (t - 1/2)^n: speed and way are integrals of that,
+written out here.
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from symgen.api import load
+from symgen.describe.load import parse_toml
+from symgen.describe.validate import validate
+
+SLED = """
+[mechanism]
+name = "sled"
+gravity = [0.0, 0.0]
+[bodies.sled]
+mass = {mass}
+inertia = 1.0
+points = {{ P = [0.0, 0.0] }}
+position = [0.0, 0.0]
+angle = 0.0
+[joints.guide]
+type = "prismatic"
+between = ["ground", "sled"]
+at = [[0.0, 0.0], "P"]
+axis = [1.0, 0.0]
+[forces.push]
+type = "force"
+body = "sled"
+at = "P"
+force = ["{force}", 0.0]
+"""
+MASS, PUSH = 2.0, 6.0
+
+
+def sled(force: str, mass: float = MASS):
+    return load(validate(parse_toml(SLED.format(force=force, mass=mass), "sled.toml"), "sled.toml"))
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5", "sdirk", "abm"])
+@pytest.mark.parametrize("power", [1, 2, 3])
+def test_a_force_that_sets_in_later(integrator, power):
+    force = f"{PUSH} * max(t - 0.5, 0) ** {power}"
+    run = sled(force).simulate(method="lagrange", integrator=integrator, rtol=1e-8, until=1.0)
+    assert (run.status, run.reason) == ("ok", None)
+    speed = PUSH / MASS * 0.5 ** (power + 1) / (power + 1)
+    way = PUSH / MASS * 0.5 ** (power + 2) / ((power + 1) * (power + 2))
+    # a hundred tolerances of way and speed: errors of all steps, of which there are up to some hundred
+    assert run["sled.vx"][-1] == pytest.approx(speed, abs=1e-6 * speed)
+    assert run["sled.x"][-1] == pytest.approx(way, abs=1e-6 * way)
+
+
+def test_constant_steps_from_rest():
+    run = sled(f"{PUSH} * max(t - 0.5, 0) ** 2").simulate(method="lagrange", integrator="rk4", step=1e-3, until=1.0)
+    assert (run.status, run.reason) == ("ok", None)
+
+
+def test_nothing_moves_where_nothing_pushes():
+    run = sled("0 * t").simulate(method="direct-correction", integrator="dop853", rtol=1e-8, until=1.0)
+    assert run.status == "ok" and run["sled.x"][-1] == 0.0 and run.energy_drift_max == 0.0
+
+
+def test_a_wrong_energy_of_a_light_body_still_ends_a_run():
+    # its energy is a billionth of what its speed would give the other, a thousand times what constant steps leave open
+    heavy, light = 1e3, 1e-6
+    text = (
+        SLED.format(force="0 * t", mass=heavy)
+        + f"""
+[bodies.bob]
+mass = {light}
+inertia = 1e-7
+points = {{ A = [0.0, 0.5] }}
+position = [0.0, -0.5]
+angle = 0.0
+angular_velocity = 40.0
+velocity = [20.0, 0.0]
+[joints.pin]
+type = "revolute"
+between = ["sled", "bob"]
+at = ["P", "A"]
+"""
+    )
+    model = load(validate(parse_toml(text, "bob.toml"), "bob.toml"))
+    run = model.simulate(method="direct-correction", integrator="euler", step=2e-3, until=2.0)
+    assert run.status == "failed" and "energy" in str(run.reason)
