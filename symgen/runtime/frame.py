@@ -43,7 +43,7 @@ _FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
 _PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.WINDING, abi.N_STATUS
 _DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
 _NOT_FINITE, _CORRECTION, _TINY_STEP, _NEWTON = abi.NOT_FINITE, abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
-_MET, _NOTED = abi.MET, abi.NOTED
+_MET, _NOTED, _ENERGY = abi.MET, abi.NOTED, abi.ENERGY
 #: Where the step to try stands in what is kept of events (`symgen.runtime.searching`).
 TRY = 0
 _TRY = TRY
@@ -62,6 +62,9 @@ SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 #: Times closer than this part of a constant step are the same.
 _SAME = 1e-9
+#: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
+#: order are off by an n-th of an energy that is only building up.
+_SETTING_OUT = 100
 #: Steps below this part of the time are lost in its rounding.
 _RESOLVED = 4e-16
 #: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
@@ -317,6 +320,8 @@ def integrate(
         # -- it is: the state at `following` is accepted
         control[_STEPS] += 1
         code = watch(sizes, run, run.trial, following)
+        if not ADAPTIVE and code == _ENERGY and control[_STEPS] <= _SETTING_OUT and following < until - tiny:
+            code = _DONE
         if code != _DONE:
             return code
         if EVENTS and hunting == _MEET:

@@ -58,6 +58,22 @@ def test_constant_steps_from_rest():
     assert (run.status, run.reason) == ("ok", None)
 
 
+def test_a_first_order_scheme_falls_from_rest():
+    # Euler's steps: v = g t, way g t (t - h) / 2, so the energy is off by m g^2 t h / 2, all of it after one step
+    step, until, weight = 1e-3, 0.5, 6.0
+    run = sled(f"{weight}").simulate(method="lagrange", integrator="euler", step=step, until=until)
+    assert (run.status, run.reason) == ("ok", None)
+    assert run["sled.vx"][-1] == pytest.approx(weight / MASS * until, rel=1e-12)
+    # the work of the force is integrated by Euler's steps as well, by the speeds at their beginning
+    assert run.energy_drift_max == pytest.approx(weight**2 / MASS * until * step / 2, rel=1e-9)
+
+
+def test_an_energy_that_stays_wrong_ends_a_run_and_so_does_one_at_its_end():
+    for until in (0.05, 0.4):
+        run = load("pendulum").simulate(method="lagrange", integrator="euler", step=1e-2, until=until)
+        assert run.status == "failed"
+
+
 def test_nothing_moves_where_nothing_pushes():
     run = sled("0 * t").simulate(method="direct-correction", integrator="dop853", rtol=1e-8, until=1.0)
     assert run.status == "ok" and run["sled.x"][-1] == 0.0 and run.energy_drift_max == 0.0
