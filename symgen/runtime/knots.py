@@ -120,14 +120,17 @@ def stepped(knots: Knots, rtol: float, state: State, enter: Callable[[float], in
     views: list[Any] = [memoryview(array) for array in arrays]  # read and written faster than arrays are
     clock, control, written = views
     met = knots.met(rtol)
-    with np.errstate(all="ignore"):  # what a formula is not defined for is met by no step
+    with np.errstate(all="ignore"):
         if control[abi.BEGUN] != 1:  # the scheme has to begin before anything is known of its first step
             code = enter(min(pause, control[abi.STEPS]))
             if code != abi.PAUSED:
                 return code
         while control[abi.STEPS] < pause:
-            knots.function(clock[abi.TIME], state.y, state.p, state.w, rate, out)
-            clock[abi.NEXT] = knots.step(written, clock[abi.NEXT], met)
+            try:
+                knots.function(clock[abi.TIME], state.y, state.p, state.w, rate, out)
+                clock[abi.NEXT] = knots.step(written, clock[abi.NEXT], met)
+            except (ArithmeticError, ValueError):
+                pass  # what plain Python refuses to evaluate is nan in compiled code: the step stays as it is
             code = enter(min(pause, control[abi.STEPS] + 1))
             if code != abi.PAUSED:
                 return code

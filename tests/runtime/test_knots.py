@@ -144,6 +144,20 @@ def test_tables_of_many_points_do_not_take_a_step_each(tmp_path: Path) -> None:
     np.testing.assert_allclose(result.q["mass.x"][-1], fine.y[0, -1], rtol=0.0, atol=1e-6)
 
 
+def test_arguments_whose_rate_is_not_defined_stop_no_run(tmp_path: Path) -> None:
+    """The rate of sqrt(x) is infinite where the mass starts."""
+    file = tmp_path / "root.toml"
+    file.write_text(SLIDER.replace("push(mass.x)", "push(sqrt(mass.x))"), encoding="utf-8")
+    result = symgen.load(file).simulate(method="lagrange", integrator="dop853", times=[0.0, 0.5])
+
+    def rates(t: float, z: np.ndarray) -> list[float]:
+        return [z[1], float(np.interp(math.sqrt(z[0]), X, Y)) / MASS]
+
+    fine = solve_ivp(rates, (0.0, 0.5), [0.0, SPEED], rtol=1e-10, atol=1e-10, max_step=1e-3)
+    assert result.status == "ok"
+    np.testing.assert_allclose(result.q["mass.x"][-1], fine.y[0, -1], rtol=0.0, atol=1e-6)
+
+
 def test_constant_steps_keep_their_grid(passing: symgen.Model) -> None:
     assert passing.simulate(method="lagrange", integrator="rk4").steps == 100
 
