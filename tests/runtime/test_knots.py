@@ -46,6 +46,33 @@ type = "force"
 body = "mass"
 force = ["size*push(mass.x)", 0.0]
 """
+#: The same equation in space: 2 kg m^2 about a hinge, and a torque over its angle.
+HINGE = f"""
+[mechanism]
+name = "turning"
+space = "spatial"
+[run]
+until = {UNTIL}
+step = 1e-2
+[tables.push]
+x = {list(X)}
+y = {list(Y)}
+[bodies.rod]
+mass = 1.0
+inertia = [0.1, {MASS}, {MASS - 0.25}]
+position = [0.5, 0.0, 0.0]
+angular_velocity = [0.0, 0.0, {SPEED}]
+points = {{ A = [-0.5, 0.0, 0.0] }}
+[joints.hinge]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0, 0.0], "A"]
+axis = [0.0, 0.0, 1.0]
+[forces.push]
+type = "torsional-spring-damper"
+joint = "hinge"
+actuator = "push(angle)"
+"""
 TIMES = np.linspace(0.0, UNTIL, 201)
 
 
@@ -102,6 +129,16 @@ def test_steps_end_at_points_of_a_table_of_state(passing: symgen.Model, integrat
         assert result.status == "ok" and result.rejected <= 10
         # a tolerance a step at most, in some tens of steps of which few are as bad
         assert max(np.abs(result.q["mass.x"] - x).max(), np.abs(result.v["mass.vx"] - v).max()) < 20.0 * rtol
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_forces_read_angles_of_their_own_in_space(tmp_path: Path, coordinates: str) -> None:
+    file = tmp_path / "turning.toml"
+    file.write_text(HINGE, encoding="utf-8")
+    settings = {"integrator": "dop853", "rtol": 1e-9, "atol": 1e-9, "times": TIMES, "coordinates": coordinates}
+    result = symgen.load(file).simulate(method="lagrange", **settings)
+    assert result.status == "ok" and result.rejected <= 10
+    assert np.abs(result.v["rod.wz"] - passed(TIMES)[1]).max() < 20.0 * 1e-9
 
 
 def test_rows_of_a_sweep_are_single_runs(passing: symgen.Model) -> None:
