@@ -20,7 +20,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, ready, start_of, watching
+from symgen.run_setup import give_inputs, ready, start_of, stopping, watching
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
@@ -319,7 +319,8 @@ class Model(Analysed):
             compiled, start = tree.compiled, tree.start
         else:
             compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
-        plan = watching(mechanism if tree is None else tree.mechanism, plan, compiled, chosen.parameters)
+        run_of = mechanism if tree is None else tree.mechanism
+        plan = stopping(run_of, watching(run_of, plan, compiled, chosen.parameters), compiled)
         start = replace(start, notes=(*reasons, *start.notes))
         runs = timed(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         outcome, spread = runs.outcome, runs.spread

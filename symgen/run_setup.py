@@ -16,8 +16,10 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.events import in_words
 from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.inputs import Driven, driven
+from symgen.describe.kinks import knots_of
 from symgen.describe.moved import moved
 from symgen.describe.start import described_start
+from symgen.integrators._tableau import Tableau
 from symgen.ir.program import FORMAT
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
@@ -308,3 +310,20 @@ def watching(
 
     watched = compile_events(mechanism, compiled, plan.events, parameter_values(mechanism, parameters))
     return replace(plan, spec=replace(plan.spec, events=watched))
+
+
+def stopping(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> Plan:
+    """Return a plan whose run ends steps at points of tables that are read over the state."""
+    if not stops(mechanism, plan):
+        return plan
+    from symgen.compiling.knots import compile_knots
+
+    return replace(plan, spec=replace(plan.spec, knots=compile_knots(mechanism, compiled)))
+
+
+def stops(mechanism: Mechanism, plan: Plan) -> bool:
+    """Whether runs end steps at points of tables that are read over the state.
+
+    They do where steps follow an error estimate and the scheme has the accelerations at the beginning of a step.
+    """
+    return plan.spec.adaptive and isinstance(plan.tableau, Tableau) and bool(knots_of(mechanism))

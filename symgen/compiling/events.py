@@ -47,7 +47,7 @@ def compile_events(
     if not events:
         return None
     conditions = [(f"{event.name}: {event.text}", event.when) for event in events]
-    side = compile_side(mechanism, compiled, "events", "Switching functions of events", conditions, True, entries)
+    side = compile_side(mechanism, compiled, "events", "Switching functions of events", conditions, 1, entries)
     resets = {}
     for i, event in enumerate(events):
         if event.reset:

@@ -74,7 +74,7 @@ def compile_side(
     name: str,
     purpose: str,
     formulas: Sequence[tuple[str, Expr]],
-    rates: bool = False,
+    rates: int = 0,
     entries: Entries | None = None,
 ) -> Side:
     """Return a function that evaluates formulas of a run, generated only if the cache does not have it.
@@ -89,9 +89,9 @@ def compile_side(
         Of the function, which its module is called after.
     formulas : sequence of (str, Expr)
         What each is called, for people, and the formula.
-    rates : bool
-        Whether the derivatives of all formulas along the motion follow behind their values; they take v' from
-        ``ydot``, and q' from the velocities.
+    rates : int
+        How many derivatives of all formulas along the motion follow behind their values; they take v' from ``ydot``,
+        as constant, and q' from the velocities.
     entries : Entries, optional
         The cache; by default the user's.
 
@@ -105,7 +105,7 @@ def compile_side(
     turning = winding_order(mechanism, compiled.shape)
     sections = {section: info.sections[section] for section in READ if section in info.sections}
     rows = {row.name: i for i, row in enumerate(info.rows)}
-    labels = [label for label, _ in formulas] + [f"rate of {label}" for label, _ in formulas if rates]
+    labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
     folder = folder_of(mechanism)
     places = str(sorted(sections.items())), str(sorted(rows.items())), repr(turning), str(list(integrals(mechanism)))
     text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])

@@ -1,14 +1,16 @@
-"""Kinks of a mechanism that are known beforehand: those of formulas and tables of the time."""
+"""Where formulas of joints and forces have kinks: at times known beforehand, or where the state passes points."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import msgspec
 
-from symgen.describe.inputs import MOST_KNOTS, Jump
-from symgen.describe.mechanism import Mechanism
-from symgen.vocabulary.expressions import Call, call, names, table_of
+from symgen.describe.inputs import MOST_KNOTS, Jump, replaced
+from symgen.describe.mechanism import Mechanism, Table
+from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
+from symgen.vocabulary.measures import Effort
 
 #: What is written where a formula has a kink.
 _WORDS = (b"abs", b"min", b"max", b"table:")
@@ -27,7 +29,7 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
     tables = {table.name: table for table in mechanism.tables}
     timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
     found = dict[Jump, None]()
-    for e in _calls(mechanism.joints, mechanism.forces):
+    for e, _ in _calls(mechanism.joints, mechanism.forces):
         jump = None
         if e.function in ("abs", "min", "max"):
             jump = Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
@@ -38,16 +40,42 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
     return tuple(found)
 
 
-def _calls(*parts: Any) -> list[Call]:
-    """Return every function that is called in the formulas of parts of a mechanism."""
-    found, waiting = list[Call](), list(parts)
+def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table], ...]:
+    """Return the tables of joints and forces that are read over the state, each behind its argument.
+
+    Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read of their measures.
+    """
+    if not mechanism.tables or b"table:" not in msgspec.msgpack.encode((mechanism.joints, mechanism.forces)):
+        return ()
+    tables = {table.name: table for table in mechanism.tables}
+    plain = {p.name for p in mechanism.parameters} | {"t"}
+    found = dict[tuple[Expr, Table], None]()
+    for e, effort in _calls(mechanism.joints, mechanism.forces):
+        table = tables.get(table_of(e.function) or "")
+        if table is None or len(table.x) > MOST_KNOTS:
+            continue
+        argument = e.arguments[0] if effort is None else _of_a_run(e.arguments[0], effort)
+        if any(readings(argument)) or not set(names(argument)) <= plain:
+            found[argument, table] = None
+    return tuple(found)
+
+
+def _of_a_run(e: Expr, effort: Effort) -> Expr:
+    """Return a formula of an effort with what it calls its measure and that one's rate as readings."""
+    own = {name: Reading(name, effort.measure, order) for order, name in enumerate(("s", "rate"))}
+    return replaced(e, lambda name: own.get(name.name, name))
+
+
+def _calls(*parts: Any) -> Iterator[tuple[Call, Effort | None]]:
+    """Yield every function that is called in the formulas of parts of a mechanism, and in which effort it is."""
+    waiting: list[tuple[Any, Effort | None]] = [(part, None) for part in parts]
     while waiting:  # in a loop: large mechanisms have tens of thousands of nodes
-        value = waiting.pop()
+        value, effort = waiting.pop()
         if isinstance(value, Call):
-            found.append(value)
-            waiting += value.arguments
+            yield value, effort
+            waiting += [(argument, effort) for argument in value.arguments]
         elif isinstance(value, tuple):
-            waiting += value
+            waiting += [(item, effort) for item in value]
         elif isinstance(value, msgspec.Struct):
-            waiting += [getattr(value, field) for field in value.__struct_fields__]
-    return found
+            own = value if isinstance(value, Effort) else effort
+            waiting += [(getattr(value, field), own) for field in value.__struct_fields__]

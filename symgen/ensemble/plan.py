@@ -32,7 +32,7 @@ from symgen.ensemble.tree_rows import are_plain
 from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
-from symgen.run_setup import give_inputs
+from symgen.run_setup import give_inputs, stops
 from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
@@ -231,10 +231,12 @@ def make_ensemble(
     integrator_of_rows(plan.tableau.name, plan.spec)
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
-    singly = Singly(mechanism, events, ends) if events or driving.jumps or joint else None
+    knots = target == "cpu" and stops(mechanism, plan)
+    parts = bool(events) or driving.jumps or knots  # what Python does something between
+    singly = Singly(mechanism, events, ends, knots) if parts or joint else None
     made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
     recipe = Recipe(
-        **made.modules(target, joint, not events and not driving.jumps and are_plain(kept, compiled.info)),
+        **made.modules(target, joint, not parts and are_plain(kept, compiled.info)),
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),

@@ -1,8 +1,9 @@
 """Runs of an ensemble that a loop over many runs cannot take: each is a single run, by the loops of single runs.
 
-Where events are looked for or an input jumps, Python has something to do between two parts of a run; and what is
-observed of joints' motion as one of bodies is worked out as for single runs. Such runs are done one after the other, in
-the same threads, chunks and folders; ensembles that need none of it know nothing of this module.
+Where events are looked for, an input jumps or a table is read over the state, Python has something to do between two
+parts of a run; and what is observed of joints' motion as one of bodies is worked out as for single runs. Such runs are
+done one after the other, in the same threads, chunks and folders; ensembles that need none of it know nothing of this
+module.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.compiling.events import compile_events, masses_of
+from symgen.compiling.knots import compile_knots
 from symgen.compiling.side import compile_side
 from symgen.describe.digest import identity
 from symgen.describe.events import in_words
@@ -41,6 +43,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
 
 Array = NDArray[np.float64]
@@ -64,11 +67,14 @@ class Singly:
         What is looked for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
+    knots : bool
+        Whether steps end at points of tables that are read over the state.
     """
 
     mechanism: Mechanism
     events: tuple[Event, ...] = ()
     ends: bool = False
+    knots: bool = False
 
     @property
     def width(self) -> int:
@@ -78,7 +84,7 @@ class Singly:
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends]
+        return [identity(self.mechanism), in_words(self.events), self.ends, *(["knots"] if self.knots else [])]
 
 
 @dataclass
@@ -103,9 +109,17 @@ class SingleRuns:
     _lock: threading.Lock = field(default_factory=threading.Lock)
     _warm: bool = False
 
+    @property
+    def _run_of(self) -> tuple[Mechanism, CompiledModel]:
+        return (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
+
+    @cached_property
+    def _knots(self) -> Knots | None:
+        return compile_knots(*self._run_of) if self.singly.knots else None
+
     @cached_property
     def _watched(self) -> Watched | None:
-        mechanism, compiled = (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
+        mechanism, compiled = self._run_of
         values = {q.name: q.value for q in self.singly.mechanism.parameters}
         return compile_events(mechanism, compiled, self.singly.events, values)
 
@@ -157,11 +171,11 @@ class SingleRuns:
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
+        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r), knots=self._knots)
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:
-            if not self._warm:
+            if not self._warm or self._knots is not None:  # which enter the loop at each step, by its address
                 simulation.warm(outputs)
                 self._warm = True
         held, follow = simulation.follower(outputs)
@@ -188,8 +202,7 @@ class SingleRuns:
     def _events(self, rows: Rows, r: int) -> Watched | None:
         if self._watched is None or not self._watched.resets:
             return self._watched
-        mechanism = self.singly.mechanism if self.tree is None else self.tree[0]
-        return replace(self._watched, masses=masses_of(mechanism, self._values(rows, r)))
+        return replace(self._watched, masses=masses_of(self._run_of[0], self._values(rows, r)))
 
     def _values(self, rows: Rows, r: int) -> dict[str, float]:
         """Return the parameters of a row by name."""

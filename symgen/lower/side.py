@@ -121,7 +121,7 @@ def lower_side(
     turning: Sequence[Measure],
     sections: Mapping[str, tuple[int, int]],
     rows: Mapping[str, int],
-    rates: bool = False,
+    rates: int = 0,
 ) -> SideProgram:
     """Lower formulas of a run.
 
@@ -139,8 +139,8 @@ def lower_side(
         Sections of the model's ``w`` that may be read.
     rows : mapping of str to int
         Where the multiplier of each row stands.
-    rates : bool
-        Whether the derivatives of all formulas along the motion follow behind their values.
+    rates : int
+        How many derivatives of all formulas along the motion follow behind their values; v' counts as constant.
 
     Raises
     ------
@@ -150,9 +150,9 @@ def lower_side(
     model = SideModel(mechanism, turning=turning, rows=rows)
     nodes = [model.expression(e) for _, e in formulas]
     labels = [label for label, _ in formulas]
-    if rates:
-        nodes += model.rates(nodes)
-        labels += [f"rate of {label}" for label in labels]
+    for k in range(rates):
+        nodes += model.rates(nodes[k * len(formulas) :])
+        labels += [f"rate of {label}" for label in labels[k * len(formulas) :]]
     graph, images = moved(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))

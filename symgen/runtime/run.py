@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Watched
     from symgen.runtime.integrator import Integrator
+    from symgen.runtime.knots import Knots
     from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
 
@@ -71,6 +72,8 @@ class RunSpec:
         Where inputs jump, and what they are from there on; the first one is what the start has.
     events : Watched or None
         Events that are looked for.
+    knots : Knots or None
+        Points of tables that adaptive steps end at.
     """
 
     until: float
@@ -90,6 +93,7 @@ class RunSpec:
     duration: float | None = None
     pieces: tuple[Piece, ...] = ()
     events: Watched | None = None
+    knots: Knots | None = None
 
     @property
     def scale_time(self) -> float:

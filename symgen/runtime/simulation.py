@@ -15,6 +15,7 @@ from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
 from symgen.runtime.exact import compiled_form
+from symgen.runtime.knots import stepped
 from symgen.runtime.model_arrays import entries_of
 from symgen.runtime.new_state import new_state, sizes_of, span_of
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
@@ -174,16 +175,23 @@ class Simulation:
             If an event asks for velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
-        span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
+        knots, rtol = self.spec.knots, self.spec.rtol
+        if knots is None:
+            return self._entered(outputs, until, pause, most)
+        return stepped(knots, rtol, self.state, lambda pause: self._entered(outputs, until, pause, most), pause)
+
+    def _entered(self, outputs: Outputs, until: float, pause: float, most: float) -> int:
+        """Go on as `enter` does, by steps that look no further than their error estimate."""
         entry = self._prepared[1] if self._prepared is not None and self._prepared[0] is outputs else None
         while True:
             if entry is None:
+                span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
                 arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
                 code = int(self.setup.loop(*arguments))
             else:
                 if not entry.has(self.scheme, self.span):
                     entry.take(self.scheme, self.span)
-                code = entry(span.until, span.pause, span.most)
+                code = entry(float(until), float(pause), float(most))
             if (ended := self._ended(code)) is not None:
                 return ended
 

@@ -45,7 +45,7 @@ def test_values_and_rates_are_those_of_the_formula(shape):
     model = slider_crank()
     compiled = model.compile(shape=shape)
     formulas = [(text, parse(text, names_of(model.mechanism), "test")) for text in (CRANK, "slider.x", "min(t, 2)")]
-    side = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=True)
+    side = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=1)
     info, rng = compiled.info, np.random.default_rng(2)
     q, v = [c.name for c in info.coordinates], [c.name for c in info.velocities]
     y, ydot = rng.standard_normal(info.ny), rng.standard_normal(info.ny)
@@ -83,7 +83,7 @@ def test_nothing_of_the_model_is_made_anew_and_the_module_is_found_again(tmp_pat
     assert [name.partition("_")[0] for name in files] == ["trial"]
     again = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, entries=store)
     assert again.function is first.function
-    other = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=True, entries=store)
+    other = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=1, entries=store)
     assert other.function is not first.function
     assert len(list(tmp_path.rglob("trial_*.py"))) == 2
 

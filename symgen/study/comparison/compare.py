@@ -16,6 +16,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
 from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events
 from symgen.result.points import Points
+from symgen.run_setup import stopping
 from symgen.runtime import abi
 from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
@@ -304,7 +305,8 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
                     of_bodies = (compiled, start) if tree is None else (tree.bodies, tree.body_start)
                     _find_reference(work, *of_bodies, lambda f: say("reference", f))
                 say(f"{s.method}, {s.integrator}", 1.0 + i)
-                runs = timed(compiled, plan.tableau, start, plan.spec, s.repeat, None, AT_LEAST)
+                spec = stopping(work.model.mechanism if tree is None else tree.mechanism, plan, compiled).spec
+                runs = timed(compiled, plan.tableau, start, spec, s.repeat, None, AT_LEAST)
                 interrupted = runs.outcome.interrupted
                 if runs.outcome.code != abi.STOPPED:
                     if tree is not None:

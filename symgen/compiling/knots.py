@@ -1,0 +1,38 @@
+"""Points of tables that a run reads over the state, as a function that gives way and rates of their arguments."""
+
+from __future__ import annotations
+
+from symgen.compiling.side import compile_side
+from symgen.describe.kinks import knots_of
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.printer import to_text
+from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.knots import Knots
+from symgen.store.entries import Entries
+
+#: Which derivative of a table jumps at its points.
+_JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
+
+
+def compile_knots(mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None) -> Knots | None:
+    """Return where steps of a run should end for its tables, None where none is read over the state.
+
+    Parameters
+    ----------
+    mechanism, compiled : Mechanism, CompiledModel
+        The model.
+    entries : Entries, optional
+        The cache; by default the user's.
+    """
+    found = knots_of(mechanism)
+    if not found:
+        return None
+    formulas = [(to_text(argument), argument) for argument, _ in found]
+    side = compile_side(mechanism, compiled, "knots", "Arguments of tables", formulas, 2, entries)
+    tables = [table for _, table in found]
+    return Knots(
+        function=side.plain,
+        levels=tuple(table.x for table in tables),
+        periods=tuple(table.x[-1] - table.x[0] if table.periodic else 0.0 for table in tables),
+        orders=tuple(_JUMPS[table.interpolation] for table in tables),
+    )
