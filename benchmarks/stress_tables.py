@@ -19,6 +19,7 @@ from typing import Any
 
 import msgspec
 
+from benchmarks.gallery import slim
 from symgen.auto import AUTO
 from symgen.study.stress.findings import cause
 from symgen.study.stress.map import map_rows, outcomes_of_models
@@ -111,7 +112,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if given.picture:
         from symgen.report.stress_figures import overview
 
-        given.picture.write_bytes(overview(study).data)
+        given.picture.write_text(slim(overview(study).data.decode()), encoding="utf-8")
 
 
 if __name__ == "__main__":
