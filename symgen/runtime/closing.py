@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import part
 from symgen.runtime.decisions import is_dependent, is_poor
 from symgen.runtime.exact import exact
 from symgen.runtime.least_norm import multiply
-from symgen.runtime.redundancy import choose_rows
+from symgen.runtime.redundancy import choose_rows, farthest
 from symgen.runtime.scales import extent_of, free_scale, larger, row_weight, size_of_change, speed_of
 from symgen.runtime.start_records import Instant
 
@@ -134,12 +135,14 @@ def mask_redundant(
     others may differ from position to position, and those that come last in the order of elimination may leave rows
     that hardly differ: then those are kept that are farthest from each other.
     """
-    m, count, other, same = layout.m, 0, Instant(work.y, now.p, work.w), True
+    m, count, other = layout.m, 0, Instant(work.y, now.p, work.w)
     for i in range(m):
         if is_dependent(now.w[layout.pivot + i]):
             now.w[layout.mask + i] = math.inf
             count += 1
-    alone = count
+    poor = m > 0 and layout.sparse == 0 and is_poor(_kept_pivot(layout, now.w))
+    count = m - _rank(layout, now.w, work) if poor else count
+    alone, same = count, not poor
     for k in range(decisions.PROBES):
         for j in range(layout.nv):
             work.scale[j] = free_scale(layout, now.w, j)
@@ -160,16 +163,29 @@ def mask_redundant(
                 dependent = is_dependent(other.w[layout.pivot + i])
                 near += 1 if dependent else 0
                 same = same and (now.w[layout.mask + i] != 0.0 or not dependent)
+            if layout.sparse == 0 and is_poor(_kept_pivot(layout, other.w)):
+                near, same = m - _rank(layout, other.w, work), False
             count = near if near < count else count
     return int(_masked(geometry, layout, now, other, work, count, alone, same))
+
+
+@exact()
+def _rank(layout: Any, w: Any, work: Any) -> int:
+    """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
+    places, room = (layout.jacobian, layout.gauge), work.numbers
+    return int(farthest(layout.m, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room))
 
 
 @exact()
 def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
     """Mask `count` rows: of those that depend on others at the start alone, or of all; return their number."""
     m, mask = layout.m, layout.mask
+    if count == 0:
+        for i in range(m):
+            now.w[mask + i] = 0.0
+        return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
-    if count > 0 and layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
+    if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
         places = layout.jacobian, layout.gauge, mask
         choose_rows(m, layout.nv, m - count, layout.entries, layout.constants, *places, here, work.numbers)
         for i in range(m):

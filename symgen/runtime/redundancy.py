@@ -24,6 +24,75 @@ FALLEN = 0.25
 LARGEST = 250_000
 
 
+@exact(_N(_N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
+def farthest(
+    m: int,
+    n: int,
+    kept: int,
+    least: float,
+    entries: Any,
+    constants: Any,
+    jacobian: int,
+    gauge: int,
+    w: Any,
+    room: Any,
+) -> int:
+    """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
+
+    Unlike an elimination in a given order this passes no small pivot before it has to, so rounding stays rounding: the
+    number of rows that are farther than `least` is the rank.
+
+    Parameters
+    ----------
+    m, n, kept : int
+        Rows and columns of D, and how many rows are chosen at most.
+    least : float
+        Square of the sine of the angle between a row and those chosen below which it is not chosen.
+    entries, constants : Array
+        D's structural entries, as in `symgen.runtime.start_records.Layout`.
+    jacobian, gauge : int
+        Where these sections of w begin.
+    w : Array
+        Scratch; D is that of the present position.
+    room : Array, shape (m * n + m,)
+        Working memory; of its last m numbers, those of the rows that were chosen are negative.
+    """
+    for i in range(m * n + m):
+        room[i] = 0.0
+    for k in range(constants.shape[0]):
+        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
+        value = constants[k] if slot < 0 else w[jacobian + slot]
+        room[row * n + column] = value * math.sqrt(w[gauge + column])
+    lengths = m * n
+    for i in range(m):
+        square = 0.0
+        for j in range(n):
+            square += room[i * n + j] * room[i * n + j]
+        room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
+    for chosen in range(kept):
+        best, most = -1, -1.0
+        for i in range(m):
+            if room[lengths + i] >= 0.0:  # of the rows that wait
+                square = 0.0
+                for j in range(n):
+                    square += room[i * n + j] * room[i * n + j]
+                if square * room[lengths + i] > most:
+                    best, most = i, square * room[lengths + i]
+        if most < least:
+            return chosen
+        if most > 0.0:
+            square = most / room[lengths + best]
+            for i in range(m):
+                if i != best and room[lengths + i] >= 0.0:
+                    total = 0.0
+                    for j in range(n):
+                        total += room[i * n + j] * room[best * n + j]
+                    for j in range(n):
+                        room[i * n + j] -= total / square * room[best * n + j]
+        room[lengths + best] = -1.0
+    return kept
+
+
 @exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _A, _A))
 def choose_rows(
     m: int,
@@ -57,37 +126,8 @@ def choose_rows(
     int
         1 where other rows are kept than before.
     """
-    for i in range(m * n + m):
-        room[i] = 0.0
-    for k in range(constants.shape[0]):
-        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
-        value = constants[k] if slot < 0 else w[jacobian + slot]
-        room[row * n + column] = value * math.sqrt(w[gauge + column])
+    farthest(m, n, kept, 0.0, entries, constants, jacobian, gauge, w, room)
     lengths, changed = m * n, 0
-    for i in range(m):
-        square = 0.0
-        for j in range(n):
-            square += room[i * n + j] * room[i * n + j]
-        room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
-    for _ in range(kept):
-        best, most = -1, -1.0
-        for i in range(m):
-            if room[lengths + i] >= 0.0:  # of the rows that wait
-                square = 0.0
-                for j in range(n):
-                    square += room[i * n + j] * room[i * n + j]
-                if square * room[lengths + i] > most:
-                    best, most = i, square * room[lengths + i]
-        if most > 0.0:
-            square = most / room[lengths + best]
-            for i in range(m):
-                if i != best and room[lengths + i] >= 0.0:
-                    total = 0.0
-                    for j in range(n):
-                        total += room[i * n + j] * room[best * n + j]
-                    for j in range(n):
-                        room[i * n + j] -= total / square * room[best * n + j]
-        room[lengths + best] = -1.0
     for i in range(m):
         left_out = math.inf if room[lengths + i] >= 0.0 else 0.0
         changed = changed if w[mask + i] == left_out else 1

@@ -68,10 +68,16 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
             square = longest if square == 0.0 else square
             w[layout.gauge + j] = 1.0 / (square if square > least else least)
     w[abi.LENGTH] = larger(math.sqrt(longest), extent)
+    w[abi.MEAN_MASS] = mean_mass(layout, w)
+
+
+@exact()
+def mean_mass(layout: Any, w: Any) -> float:
+    """Return what a velocity has of mass on average, those of angles over the square of a length."""
     total = 0.0
     for j in range(layout.nv):
         total += w[layout.mass + j] * w[layout.gauge + j]
-    w[abi.MEAN_MASS] = total / layout.nv if layout.nv > 0 else 0.0
+    return float(total / max(1, layout.nv))
 
 
 @exact()

@@ -22,7 +22,7 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
-from symgen.runtime.scales import weigh_rows
+from symgen.runtime.scales import mean_mass, weigh_rows
 from symgen.runtime.simulation import row_chooser
 from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
@@ -100,15 +100,6 @@ class Carrying(NamedTuple):
     windings: Any
     gauges: Any
     dependent: Any
-
-
-@exact()
-def mean_mass(layout: Any, w: Any) -> float:
-    """Return what a velocity has of mass on average, those of angles over the square of a length."""
-    total = 0.0
-    for j in range(layout.nv):
-        total += w[layout.mass + j] * w[layout.gauge + j]
-    return float(total / max(1, layout.nv))
 
 
 _I, _A = types.int64[::1], types.float64[::1]

@@ -109,3 +109,20 @@ def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
     assert found.counts["ok"] == 1
     np.testing.assert_allclose(found.values[0, 0], alone.q["b1.x"], rtol=0, atol=1e-12)
     assert found.values[0, 1] > 1e-3
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize(("name", "rank", "until"), [("poor_order", 11, 0.5), ("poor_order_driven", 16, 0.3)])
+def test_the_rank_is_none_of_the_order_of_elimination(name: str, rank: int, until: float, shape: str) -> None:
+    """Rows that depend on others behind a small pivot have pivots of rounding over that pivot, above what is no pivot.
+
+    The motion is the reference's, which takes singular values; nothing is said to be near a singular position.
+    """
+    times = [0.0, until]
+    system, q, _ = reference(raw(name), times)
+    result = symgen.load(DEFECTS / f"{name}.toml").simulate(
+        method="lagrange", integrator="dop853", rtol=1e-10, until=until, times=times, shape=shape
+    )
+    assert (result.status, result.reason, result.rank_events) == ("ok", None, ())
+    assert result.rank.rank == rank and len(result.rank.redundant_rows) == result.rank.rows - rank
+    assert off(result, system, q) < 1e-7
