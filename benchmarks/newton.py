@@ -93,9 +93,7 @@ def measure(model: str, pair: str, shape: str) -> dict[str, Any]:
         return time.process_time() - begin
 
     found = factors(model, pair, shape)
-    count = min(
-        1000, max(50, 200_000 // found["unknowns"])
-    )  # before the first singular passage, where some methods end
+    count = min(600, max(50, 200_000 // found["unknowns"]))  # the first singular passage comes later
     few, many = (min(seconds(steps) for _ in range(5)) for steps in (10, 10 + count))
     return {"compile": ready - began, "step": (many - few) / count, **found}
 
