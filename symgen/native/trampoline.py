@@ -36,6 +36,8 @@ _FIELDS = {
     types.float64[::1]: ("meminfo", "parent", "nitems", "itemsize", "data", "shape", "strides"),
     types.FunctionType(types.float64(types.float64)): ("c_addr", "py_addr", "jit_addr"),
 }
+#: Trampolines by the slots they load: whoever made one, a process has it once, since one name stands for it.
+_known: dict[tuple[str, ...], Callable[[int], int] | None] = {}
 _NUMBERS = {types.float64: "double", types.int64: "i64"}
 _DOUBLE, _WHOLE = np.dtype(np.float64), np.dtype(np.int64)
 
@@ -146,7 +148,9 @@ def trampoline(
     asked = [_plain(kind) for kind in convention.args[2:]]
     if returned not in _NUMBERS or asked != [*kinds] or str(convention.return_type) != "i32":
         return None
-    return _compiled(kinds, made)
+    if kinds not in _known:
+        _known[kinds] = _compiled(kinds, made)
+    return _known[kinds]
 
 
 def _plain(kind: Any) -> str:
@@ -154,7 +158,6 @@ def _plain(kind: Any) -> str:
     return "ptr" if kind.is_pointer else str(kind)
 
 
-@functools.cache
 def _compiled(kinds: tuple[str, ...], made: Callable[[str, str], bytes]) -> Callable[[int], int] | None:
     name = "symgen.trampoline." + hashlib.sha256(" ".join(kinds).encode()).hexdigest()[:32]
     try:

@@ -165,6 +165,13 @@ def test_all_kinds_of_arguments_arrive():
     np.testing.assert_array_equal(target, source)
 
 
+def test_a_process_has_a_trampoline_once_whoever_asks_for_it():
+    f8 = types.float64
+    first = trampoline.trampoline(f8, (f8, f8, f8))
+    assert first is not None
+    assert trampoline.trampoline(f8, (f8, f8, f8), lambda text, name: pytest.fail("made twice")) is first
+
+
 def test_the_internals_of_numba_are_as_expected(monkeypatch):
     problems = trampoline.changed()
     assert not problems, f"Numba {numba.__version__} changed; adapt symgen/native/trampoline.py: " + "; ".join(problems)
