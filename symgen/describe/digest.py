@@ -58,7 +58,7 @@ def digest(mechanism: Mechanism) -> str:
     if which not in _digests:
         found = hashlib.sha256(canonical(mechanism).encode()).hexdigest()
         _digests[which] = found
-        weakref.finalize(mechanism, _digests.pop, which).atexit = False
+        weakref.finalize(mechanism, _digests.pop, which, None).atexit = False  # two threads may have come here
     return _digests[which]
 
 

@@ -16,14 +16,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
     from symgen.runtime.records import State
-
-Array = NDArray[np.float64]
 
 #: A table with more points inside a step than this is not followed: its kinks are smaller than the tolerance, or the
 #: error estimate will say so.

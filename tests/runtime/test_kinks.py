@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
+from support.pushed import pushed_mass
 
 import symgen
 from symgen.describe.inputs import Jump
@@ -20,31 +21,7 @@ from symgen.runtime.pieces import Piece, kinks_between, merged
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
 X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)
-SLIDER = f"""
-[mechanism]
-name = "pushed"
-[run]
-until = 1.0
-step = 1e-2
-[parameters]
-pace = 1.0
-[tables.push]
-x = {list(X)}
-y = {list(Y)}
-[bodies.mass]
-mass = 2.0
-inertia = 0.1
-velocity = [0.3, 0.0]
-[joints.guide]
-type = "translational"
-between = ["ground", "mass"]
-at = [[0.0, 0.0], "centre"]
-axis = [1.0, 0.0]
-[forces.push]
-type = "force"
-body = "mass"
-force = ["push(pace*t)", 0.0]
-"""
+SLIDER = pushed_mass("pushed", "push(pace*t)", X, Y, "pace")
 
 
 @pytest.fixture(scope="module")

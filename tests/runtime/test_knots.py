@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.interpolate import PchipInterpolator
+from support.pushed import pushed_mass
 
 import symgen
 from symgen import catalogue
@@ -21,31 +22,7 @@ from symgen.runtime.knots import Knots
 #: Force over position, linear between points; constant beyond them.
 X, Y = (0.2, 0.37, 0.61, 0.85, 1.1), (1.0, -6.0, 9.0, -8.0, 2.0)
 MASS, SPEED, UNTIL = 2.0, 1.5, 1.0
-SLIDER = f"""
-[mechanism]
-name = "passing"
-[run]
-until = {UNTIL}
-step = 1e-2
-[parameters]
-size = 1.0
-[tables.push]
-x = {list(X)}
-y = {list(Y)}
-[bodies.mass]
-mass = {MASS}
-inertia = 0.1
-velocity = [{SPEED}, 0.0]
-[joints.guide]
-type = "translational"
-between = ["ground", "mass"]
-at = [[0.0, 0.0], "centre"]
-axis = [1.0, 0.0]
-[forces.push]
-type = "force"
-body = "mass"
-force = ["size*push(mass.x)", 0.0]
-"""
+SLIDER = pushed_mass("passing", "size*push(mass.x)", X, Y, "size", MASS, SPEED, UNTIL)
 #: The same equation in space: 2 kg m^2 about a hinge, and a torque over its angle.
 HINGE = f"""
 [mechanism]
