@@ -13,7 +13,7 @@ from symgen.compiling.linearised import GROWTH, compile_growth
 from symgen.integrators import INTEGRATORS
 from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
-from symgen.plan import make_plan
+from symgen.plan import make_plan, refuse_weightless
 from symgen.run_setup import ready
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready
@@ -227,7 +227,13 @@ def resolve(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[s
         What is run.
     settings : Settings
         As asked for.
+
+    Raises
+    ------
+    InputError
+        If nothing in it has a mass: joints and drivers alone say how it moves.
     """
+    refuse_weightless(mechanism)
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
     facts = gather(mechanism, settings.parameters, settings.shape, settings.start, settings.until)

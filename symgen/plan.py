@@ -218,6 +218,13 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
             raise InputError(where, expected, f"the event '{event.name}', which {does}", hint)
 
 
+def refuse_weightless(mechanism: Mechanism) -> None:
+    """Refuse to simulate a mechanism in which nothing has a mass: joints and drivers alone say how it moves."""
+    if mechanism.bodies and all(body.weightless for body in mechanism.bodies):
+        hint = "symgen kinematics and symgen inverse do without"
+        raise InputError("bodies", "one that has a mass", "a mechanism in which nothing has one", hint)
+
+
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:
     """Return about how many evaluations a run takes, to choose the shape of its code by."""
     if adaptive or step is None:

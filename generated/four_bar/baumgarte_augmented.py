@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 000571b96973e3d2
 option solver = augmented
 p[26] alpha (default 5.0)
 p[27] beta (default 5.0)
@@ -10,6 +10,6 @@ p[27] beta (default 5.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_a2ffe5108d8ad66f import prepare
-from .rhs_iterated_5c2c6389d86bf390 import rhs
+from .rhs_iterated_66412b244de0c9ad import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -10,6 +10,6 @@ parameter 1: a (default 1.0)
 
 from .accept_measured_ab971c7af7dbf312 import accept
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_2489c85558b39526 import rhs
+from .rhs_iterated_fa984c3daeaaacc5 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -11,6 +11,6 @@ parameter 3: iteration_tolerance (default 1e-13)
 
 from .accept_measured_ab971c7af7dbf312 import accept
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_c778075fee4c6977 import rhs
+from .rhs_iterated_03db069826113ad6 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -10,6 +10,6 @@ parameter 1: beta (default 5.0)
 
 from .accept_measured_ab971c7af7dbf312 import accept
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_cfd09ea682f6afeb import rhs
+from .rhs_iterated_eb5c20f620d9d181 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

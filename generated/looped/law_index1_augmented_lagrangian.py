@@ -11,6 +11,6 @@ parameter 2: tolerance (default 1e-13)
 from .accept_augmented_a68e55f09167ed54 import accept
 from .metric_augmented_8359d8fa0786ce5c import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_186c5e5466d0b67b import rhs
+from .rhs_iterated_c17aa93eae110c6d import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

@@ -8,6 +8,6 @@ option solver = augmented
 
 from .accept_measured_ab971c7af7dbf312 import accept
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_5a627e152f52c5b5 import rhs
+from .rhs_iterated_647ee94490eb9244 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -11,6 +11,6 @@ parameter 1: tolerance (default 1e-13)
 from .accept_augmented_62e33386f098b1f6 import accept
 from .metric_augmented_8359d8fa0786ce5c import geometry, spread
 from .prepare_a037fc2ae027d686 import prepare
-from .rhs_iterated_5a627e152f52c5b5 import rhs
+from .rhs_iterated_647ee94490eb9244 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

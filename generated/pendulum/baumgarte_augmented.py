@@ -2,7 +2,7 @@
 
 violations decay like a damped oscillator with gains alpha, beta
 Baumgarte, Comput. Methods Appl. Mech. Eng. 1 (1972) 1-16, doi 10.1016/0045-7825(72)90018-7
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 000571b96973e3d2
 option solver = augmented
 p[7] alpha (default 5.0)
 p[8] beta (default 5.0)
@@ -10,6 +10,6 @@ p[8] beta (default 5.0)
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_3ee45839ee80d674 import prepare
-from .rhs_iterated_11b5fde2c34f4af0 import rhs
+from .rhs_iterated_c7177826698974b3 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -122,6 +122,11 @@ class Body(msgspec.Struct, frozen=True):
         """Whether mass or inertia is the number 0."""
         return ZERO in (self.mass, self.inertia)
 
+    @property
+    def weightless(self) -> bool:
+        """Whether nothing of it has a mass: mass and inertia are the number 0."""
+        return {self.mass, self.inertia} <= {ZERO, None}
+
 
 class SpatialBody(msgspec.Struct, frozen=True):
     """A spatial rigid body or point mass.
@@ -160,6 +165,11 @@ class SpatialBody(msgspec.Struct, frozen=True):
     def massless(self) -> bool:
         """Whether a mass or moment of inertia is the number 0."""
         return ZERO in (self.mass, *(self.inertia or ())[:3])
+
+    @property
+    def weightless(self) -> bool:
+        """Whether nothing of it has a mass: mass and moments of inertia are the number 0."""
+        return {self.mass, *(self.inertia or ())[:3]} == {ZERO}
 
 
 AnyBody = Body | SpatialBody

@@ -73,11 +73,14 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
 
 @exact()
 def mean_mass(layout: Any, w: Any) -> float:
-    """Return what a velocity has of mass on average, those of angles over the square of a length."""
+    """Return what a velocity has of mass on average, those of angles over the square of a length.
+
+    Where nothing has a mass, any will do: it weighs rows beside M, which is 0.
+    """
     total = 0.0
     for j in range(layout.nv):
         total += w[layout.mass + j] * w[layout.gauge + j]
-    return float(total / max(1, layout.nv))
+    return float(total / max(1, layout.nv)) if total != 0.0 else 1.0
 
 
 @exact()

@@ -7,7 +7,10 @@ from benchmarks import robustness
 from benchmarks.motions import run
 from symgen.api import Model, load
 from symgen.describe import MechanismBuilder
+from symgen.errors import InputError
+from symgen.ir.program import COUNTERS
 from symgen.methods import METHODS
+from symgen.study.comparison.compare import compare
 
 FEW = ("lagrange", "direct-correction", "augmented-lagrangian", "ggl")
 #: Method -> largest error [m] where it is not 1e-6: a penalty is an error of its own, M^-1/2 loses digits and says so.
@@ -147,10 +150,41 @@ def test_a_massless_coupler_moves_as_a_distance_joint(method):
 
 
 def test_methods_that_invert_the_mass_matrix_refuse_a_massless_body():
-    from symgen.errors import InputError
-
     with pytest.raises(InputError, match="massless bodies"):
         two_links(True).simulate(method="udwadia-kalaba", until=0.01)
+
+
+def test_a_massless_arm_follows_its_motor_beside_a_body_that_rests():
+    """Iterations end by changes in the metric of M: the arm shows in none, and the body beside it never moves."""
+    raw = MechanismBuilder("arm", gravity=(0.0, 0.0))
+    raw.body("still", mass=1.0, inertia=1.0)
+    raw.body("arm", mass=0.0, inertia=0.0, position=(0.5, 0.0))
+    raw.joint("pin", "revolute", between=("arm", "ground"), at=((-0.5, 0.0), (0.0, 0.0)))
+    raw.joint("motor", "driver", body="arm", coordinate="theta", value="sin(t)")
+    raw.force("load", "torque", body="arm", torque="2 + angle")
+    model = Model(raw.build())
+    compiled = model.compile("lagrange", options={"solver": "augmented"})
+    start = model.assemble(compiled)
+    rate = np.zeros_like(start.y)
+    compiled.law_module.rhs(0.0, start.y, start.p, start.w, np.zeros(len(COUNTERS), dtype=np.int64), rate)
+    # x = cos(sin(t)) / 2 and y = sin(sin(t)) / 2 at t = 0; rounding of 1e5 times the mean mass is let in
+    np.testing.assert_allclose(rate[9:12], [-0.5, 0.0, 0.0], rtol=0.0, atol=1e-9)
+
+
+def test_where_nothing_has_a_mass_there_is_kinematics_but_no_run():
+    raw = MechanismBuilder("arm", gravity=(0.0, 0.0))
+    raw.body("arm", mass=0.0, inertia=0.0, position=(0.5, 0.0))
+    raw.joint("pin", "revolute", between=("arm", "ground"), at=((-0.5, 0.0), (0.0, 0.0)))
+    raw.joint("motor", "driver", body="arm", coordinate="theta", value="sin(t)")
+    raw.force("load", "torque", body="arm", torque="2 + angle")
+    model = Model(raw.build())
+    runs = [model.simulate, model.start, lambda: compare(model)]
+    for refused in runs:
+        with pytest.raises(InputError, match="bodies: expected one that has a mass"):
+            refused()
+    times = np.linspace(0.0, 1.0, 5)
+    found = model.kinematics(times)
+    np.testing.assert_allclose(found.efforts["motor"], -2.0 - np.sin(times), rtol=0.0, atol=1e-9)
 
 
 def test_a_light_coupler_costs_no_accuracy_against_a_massless_one():

@@ -202,7 +202,11 @@ def test_a_massless_body_that_nothing_holds_is_refused(shape):
 
 def test_a_massless_body_that_nothing_holds_is_a_failed_row():
     bob = {"type": "point", "mass": 0.0, "position": ["k", 0.0]}
-    description = {"mechanism": {"name": "bob"}, "parameters": {"k": 1.0}, "bodies": {"bob": bob}}
+    description = {
+        "mechanism": {"name": "bob"},
+        "parameters": {"k": 1.0},
+        "bodies": {"bob": bob, "bead": {"type": "point", "mass": 1.0}},
+    }
     found = symgen.sweep(load(mechanism_of(description)), {"k": [0.0, 1.0]}, until=0.01)
     assert list(found.status) == ["failed", "failed"]
     assert "body 'bob': expected a mass, or joints that hold it" in found.reason[0]

@@ -10,8 +10,10 @@ import symgen
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
 from symgen.study.references.independent import IndependentEquations
+from symgen.study.references.motion import CompiledEquations
 from symgen.study.references.reference import CLOSED, reference
 from symgen.study.references.solvers import SOLVERS
+from tests.methods.test_hard_cases import two_links
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -183,3 +185,17 @@ def test_distances_count_the_far_end():
     assert points.distance(a, a) == 0.0
     b[0, 5] = 2.0 * np.pi
     assert points.distance(a, b) < 1e-14
+
+
+def test_a_massless_coupler_has_references_and_they_are_those_of_a_distance_joint():
+    """Both routes to a reference: SciPy's of comparisons, and the compiled one of stress studies."""
+    times, found, rates = np.linspace(0.0, 1.0, 5), [], []
+    for massless in (True, False):
+        model = two_links(massless)
+        start = start_of(model)
+        found.append(reference(model.mechanism, {}, *start, times).q[:, :6])
+        y = np.concatenate(start)
+        by_scipy, compiled = (kind(model.mechanism, {}) for kind in (IndependentEquations, CompiledEquations))
+        rates.append(by_scipy.rate(0.0, y))
+        np.testing.assert_allclose(compiled.rate(0.0, y), rates[-1], rtol=0.0, atol=1e-11)
+    assert np.abs(found[0] - found[1]).max() < 1e-10

@@ -14,7 +14,7 @@ from symgen.api import Model, load
 from symgen.describe.digest import digest
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import SimulationError
-from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events
+from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events, refuse_weightless
 from symgen.result.points import Points
 from symgen.run_setup import stopping
 from symgen.runtime import abi
@@ -227,6 +227,7 @@ def compare_all(
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         refuse_events("compare", chosen.mechanism, asked)
+        refuse_weightless(chosen.mechanism)
         works.append(
             _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
         )

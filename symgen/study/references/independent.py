@@ -65,8 +65,7 @@ class IndependentEquations:
         self.q, self.v = list[Any](), list[Any]()
         self._declare()
         self.n = len(self.q)
-        self.mass = self._masses()
-        self.root = 1.0 / np.sqrt(self.mass)
+        self._weigh()
         rows = self._rows()
         self.m = len(rows)
         self._entries = [(i, j) for i, row in enumerate(rows) for j in row[1]]
@@ -80,6 +79,13 @@ class IndependentEquations:
             *self._forces(),
         ]
         self._function = self._compile(outputs)
+
+    def _weigh(self) -> None:
+        """Set M, and its inverse root by which projections are shortest; massless bodies count there as usual ones."""
+        self.mass = self._masses()
+        heavy = self.mass[self.mass > 0.0]
+        self.usual = float(heavy.mean()) if len(heavy) else 1.0
+        self.root = 1.0 / np.sqrt(np.where(self.mass > 0.0, self.mass, self.usual))
 
     def _declare(self) -> None:
         """Make the symbols of coordinates and their rates, and what formulas call them."""
@@ -106,9 +112,18 @@ class IndependentEquations:
         return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
 
     def rate(self, t: float, y: Array) -> Array:
-        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss)."""
+        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss).
+
+        With massless bodies, for which there is no M^-1 f, v' and multipliers are the solution of M v' + D^T l = f and
+        D v' = gamma, the shortest where rows depend.
+        """
         q, v = y[: self.n], y[self.n :]
         _, d, _, gamma, f = self.evaluate(t, q, v)
+        if not np.all(self.mass > 0.0):
+            rows = self.usual * d
+            system = np.block([[np.diag(self.mass), rows.T], [rows, np.zeros((self.m, self.m))]])
+            found = np.linalg.lstsq(system, np.concatenate([f, self.usual * gamma]), rcond=CUTOFF)[0]
+            return np.concatenate([v, found[: self.n]])
         free = self.root * f
         scaled = d * self.root
         change = np.linalg.lstsq(scaled, gamma - scaled @ free, rcond=CUTOFF)[0]

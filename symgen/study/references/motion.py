@@ -74,8 +74,7 @@ class CompiledEquations(IndependentEquations):
         """Take other values of the parameters; compiles nothing."""
         self.parameters = parameters
         self.values = np.array([parameters[p.name] for p in self.mechanism.parameters] or [0.0])
-        self.mass = self._masses()
-        self.root = 1.0 / np.sqrt(self.mass)
+        self._weigh()
 
     def evaluate(self, t: float, q: Array, v: Array) -> tuple[Array, Array, Array, Array, Array]:
         """Return Phi, D, nu, gamma and f at a state."""
@@ -87,14 +86,14 @@ class CompiledEquations(IndependentEquations):
         return flat[:m], d, flat[m + k : 2 * m + k], flat[2 * m + k : 3 * m + k], flat[3 * m + k :]
 
     def rate(self, t: float, y: Array) -> Array:
-        """Return (v, v'): of all v' with ``D v' = gamma`` the one nearest to M^-1 f in the metric of M (Gauss)."""
+        """Return (v, v'), as `IndependentEquations.rate` does."""
         found = np.empty(2 * self.n)
         _rate(
             self._function,
             self._index,
             self.m,
             self.n,
-            self.root,
+            self.mass,
             self.values,
             float(t),
             np.ascontiguousarray(y),
@@ -132,7 +131,7 @@ class CompiledEquations(IndependentEquations):
         """
         y = y.copy()
         code = _extrapolate(
-            *(self._function, self._index, self.m, self.n, self.root, self.values, t, y, until, rtol, scale, state),
+            *(self._function, self._index, self.m, self.n, self.mass, self.values, t, y, until, rtol, scale, state),
             *(self.budget, used),
         )
         if code == 1:
@@ -190,35 +189,68 @@ def _shortest(a: Any, b: Any) -> Any:
     return np.linalg.lstsq(a, b, CUTOFF)[0]
 
 
-@jit(types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A))
-def _rate(function: Any, index: Any, m: int, n: int, root: Any, p: Any, t: float, y: Any, rate: Any) -> None:
-    """Set ``rate`` to (v, v'), v' by least squares in the metric of M."""
-    k = index.shape[0] // 2
-    out = np.zeros(3 * m + k + n)
-    q, v = y[:n].copy(), y[n:].copy()
-    function(t, q, v, p, out)
+@jit(types.void(types.Array(_F8, 2, "C"), _A, _A, _A, _A))
+def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
+    """Set `found` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
+    m, n = d.shape
+    root = 1.0 / np.sqrt(mass)
     free = np.zeros(n)
     for j in range(n):
-        rate[j] = v[j]
-        free[j] = root[j] * out[3 * m + k + j]
+        free[j] = root[j] * f[j]
     if m > 0:
         scaled = np.zeros((m, n))
-        for e in range(k):
-            scaled[index[e], index[k + e]] = out[m + e] * root[index[k + e]]
         missing = np.zeros(m)
-        for i in range(m):
-            missing[i] = out[2 * m + k + i]
-            for j in range(n):
-                missing[i] -= scaled[i, j] * free[j]
         finite = True
         for i in range(m):
+            missing[i] = gamma[i]
+            for j in range(n):
+                scaled[i, j] = d[i, j] * root[j]
+                missing[i] -= scaled[i, j] * free[j]
             finite = finite and math.isfinite(missing[i])
         if finite:
             free += _shortest(scaled, missing)
         else:
             free[:] = np.nan
     for j in range(n):
-        rate[n + j] = root[j] * free[j]
+        found[j] = root[j] * free[j]
+
+
+@jit(types.void(types.Array(_F8, 2, "C"), _A, _A, _A, _A))
+def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
+    """Set `found` to the v' of M v' + D^T l = f and D v' = gamma."""
+    m, n = d.shape
+    heavy, usual = 0, 0.0
+    for j in range(n):
+        heavy, usual = heavy + int(mass[j] > 0.0), usual + mass[j]
+    usual = usual / heavy if heavy > 0 else 1.0
+    system, given = np.zeros((n + m, n + m)), np.zeros(n + m)
+    for j in range(n):
+        system[j, j], given[j] = mass[j], f[j]
+    for i in range(m):
+        given[n + i] = usual * gamma[i]
+        for j in range(n):
+            system[j, n + i] = system[n + i, j] = usual * d[i, j]
+    found[:] = np.nan
+    if np.all(np.isfinite(system)) and np.all(np.isfinite(given)):
+        found[:] = _shortest(system, given)[:n]
+
+
+@jit(types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A))
+def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float, y: Any, rate: Any) -> None:
+    """Set ``rate`` to (v, v'), v' by least squares in the metric of M, or with multipliers where M has no inverse."""
+    k = index.shape[0] // 2
+    out = np.zeros(3 * m + k + n)
+    q, v = y[:n].copy(), y[n:].copy()
+    function(t, q, v, p, out)
+    d, gamma, f = np.zeros((m, n)), out[2 * m + k : 3 * m + k], out[3 * m + k :]
+    for e in range(k):
+        d[index[e], index[k + e]] = out[m + e]
+    for j in range(n):
+        rate[j] = v[j]
+    if np.min(mass) > 0.0:
+        _by_gauss(d, gamma, f, mass, rate[n:])
+    else:
+        _with_multipliers(d, gamma, f, mass, rate[n:])
 
 
 @jit(types.int64(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _F8, _F8, _A, _A, _I8, _I))
@@ -227,7 +259,7 @@ def _extrapolate(
     index: Any,
     m: int,
     n: int,
-    root: Any,
+    mass: Any,
     p: Any,
     t: float,
     y: Any,
@@ -247,7 +279,7 @@ def _extrapolate(
     while t < until:
         last = step >= until - t
         h = until - t if last else step
-        _rate(function, index, m, n, root, p, t, y, first)
+        _rate(function, index, m, n, mass, p, t, y, first)
         used[0] += 1
         for row in range(COLUMNS):
             count = 2 * (row + 1)
@@ -255,9 +287,9 @@ def _extrapolate(
             before = y.copy()
             now = y + small * first
             for i in range(1, count):
-                _rate(function, index, m, n, root, p, t + i * small, now, rate)
+                _rate(function, index, m, n, mass, p, t + i * small, now, rate)
                 now, before = before + 2.0 * small * rate, now
-            _rate(function, index, m, n, root, p, t + h, now, rate)
+            _rate(function, index, m, n, mass, p, t + h, now, rate)
             used[0] += count
             # the smoothing that keeps the expansion in even powers of the small step
             value = 0.5 * (now + before + small * rate)

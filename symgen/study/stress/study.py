@@ -14,7 +14,7 @@ from symgen.auto import AUTO
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.plan import refuse_events
+from symgen.plan import refuse_events, refuse_weightless
 from symgen.settings import Settings
 from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mechanism_identity
 from symgen.study.runner import Cell, Status, run_cells
@@ -133,6 +133,7 @@ def stress(
     bases = [Base.of(model) for model in models or (DEFAULT_MODEL,)]
     for base in bases:
         refuse_events("stress", base.mechanism, asked)
+        refuse_weightless(base.mechanism)
     chosen = tuple(dict.fromkeys(CASES.canonical(name, "--cases") for name in cases or CASES.names))
     wanted = tuple(dict.fromkeys(methods or (*METHODS.names, AUTO)))
     for name in wanted:

@@ -1,6 +1,6 @@
 """Right-hand side, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 000571b96973e3d2
 """
 
 import math
@@ -246,8 +246,9 @@ def rhs(t, y, p, w, iw, ydot):
         iterate(p, w)
         iw[6] += 1
         increment = w[13]
+        # increments in the metric of M do not show massless bodies, which the second iteration sets right if no other moves;
         # at the floor of rounding another iteration gains nothing
-        if increment <= 1e-13 or (increment > 0.5 * last and increment < 1e-6):
+        if last < math.inf and (increment <= 1e-13 or (increment > 0.5 * last and increment < 1e-6)):
             break
         last = increment
     finish(t, y, p, w, ydot)

@@ -56,8 +56,9 @@ def rhs(t, y, p, w, iw, ydot):
         iterate(p, w)
         iw[6] += 1
         increment = w[13]
+        # increments in the metric of M do not show massless bodies, which the second iteration sets right if no other moves;
         # at the floor of rounding another iteration gains nothing
-        if increment <= 1e-13 or (increment > 0.5 * last and increment < 1e-6):
+        if last < math.inf and (increment <= 1e-13 or (increment > 0.5 * last and increment < 1e-6)):
             break
         last = increment
     finish(t, y, p, w, ydot)

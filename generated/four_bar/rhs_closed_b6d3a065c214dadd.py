@@ -1,12 +1,12 @@
 """Right-hand side behind the closure of dependent coordinates, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a694aa875a452a90
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 000571b96973e3d2
 """
 
 from numba import njit
 
 from .accept_independent_4d28ae4d49729615 import close
-from .rhs_iterated_45bf092af6868e4a import rhs as accelerate
+from .rhs_iterated_c3fb399e1ddeaa14 import rhs as accelerate
 
 
 @njit(error_model="numpy", fastmath={"contract"})

@@ -1,12 +1,12 @@
 """Right-hand side behind the closure of dependent coordinates, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates a694aa875a452a90
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 000571b96973e3d2
 """
 
 from numba import njit
 
 from .accept_independent_94fc29cdbd4a0bff import close
-from .rhs_iterated_fd332ef120ab3c35 import rhs as accelerate
+from .rhs_iterated_84cff5a6e0165ad9 import rhs as accelerate
 
 
 @njit(error_model="numpy", fastmath={"contract"})
