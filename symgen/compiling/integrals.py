@@ -6,6 +6,7 @@ The law's own module stays what it is: another one beside it calls its right-han
 from __future__ import annotations
 
 import hashlib
+import inspect
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -52,7 +53,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entri
     sections = {name: info.sections[name] for name in READ if name in info.sections} | {"auxiliary": auxiliary}
     rows = {row.name: i for i, row in enumerate(info.rows)}
     turning = winding_order(mechanism, compiled.shape)
-    names = sorted(name for name, value in vars(law).items() if hasattr(value, "py_func"))
+    names = sorted(name for name, value in vars(law).items() if _is_emitted(value, law.__name__.rpartition(".")[0]))
     path = Path(str(law.__file__))
     places = folder_of(mechanism), str(sorted(sections.items())), str(sorted(rows.items())), repr(turning)
     text = "\n".join([*places, generator_digest(), path.stem, *names, *(to_text(integral.of) for integral in found)])
@@ -77,3 +78,9 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entri
         ),
         law_module=load_module(store.path(folder, stem)),
     )
+
+
+def _is_emitted(value: Any, package: str) -> bool:
+    """Whether it is a function of a module of this package, compiled or not."""
+    function = getattr(value, "py_func", value)
+    return inspect.isfunction(function) and function.__module__.startswith(f"{package}.")

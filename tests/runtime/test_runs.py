@@ -238,6 +238,8 @@ from symgen.api import load
 for integrator in ("rk4", "dopri5", "dop853"):
     r = load("pendulum").simulate(until=0.05, step=1e-3, integrator=integrator)
     print(r.status, *r.outcome.states[-1].tolist())
+r = load("scissor-lift").simulate(until=3e-3, step=1e-3, integrator="rk4")  # an output of it is an integral
+print(r.status, *r.outcome.states[-1].tolist())
 """
 
 
