@@ -9,8 +9,9 @@ import difflib
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-#: Characters at most of a part of a message, such as what was found, and of a text that it repeats in quotes.
-LONGEST_PART, LONGEST_QUOTE = 1000, 60
+#: Characters at most of a part of a message, such as what was found, of the place it begins with, whose names come from
+#: files, and of a text that it repeats in quotes.
+LONGEST_PART, LONGEST_PLACE, LONGEST_QUOTE = 1000, 240, 60
 #: Known names that a hint lists at most, that it compares a word with at most, and the length of such a word.
 MOST_LISTED, MOST_COMPARED, LONGEST_COMPARED = 60, 2000, 64
 #: Share of letters that two spellings of one word have in common.
@@ -44,8 +45,9 @@ class InputError(SymgenError):
     exit_code = 2
 
     def __init__(self, where: str, expected: str, got: str, hint: str = "") -> None:
-        self.where, self.expected, self.got, self.hint = (
-            text if len(text) <= LONGEST_PART else f"{text[:LONGEST_PART]}..." for text in (where, expected, got, hint)
+        self.where = where if len(where) <= LONGEST_PLACE else f"{where[:160]}...{where[-60:]}"
+        self.expected, self.got, self.hint = (
+            text if len(text) <= LONGEST_PART else f"{text[:LONGEST_PART]}..." for text in (expected, got, hint)
         )
         super().__init__(f"{self.where}: expected {self.expected}, got {self.got}" + (f"; {self.hint}" if hint else ""))
 

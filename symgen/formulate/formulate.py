@@ -17,6 +17,7 @@ from symgen.formulate.efforts import exertion
 from symgen.formulate.equations import ConstraintRow, Equations, JointCoordinate, MassBlock, Omission
 from symgen.formulate.measures import Model
 from symgen.formulate.of_time import time_function
+from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
 from symgen.vocabulary.quantities import Quantity
@@ -58,6 +59,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         mass, forces, driving = model.tree.dynamics(forces)
     joint_coordinates = _joint_coordinates(model)
     coordinates, velocities = quantities(mechanism)
+    read = {of_table(o.payload)[0] for o in model.graph.nodes if o.op == "table"}
     return Equations(
         name=mechanism.name,
         graph=model.graph,
@@ -75,7 +77,7 @@ def formulate(mechanism: Mechanism) -> Equations:
         joint_coordinates=tuple(joint_coordinates),
         windings=tuple(model.windings),
         spins=_spins(model),
-        tables=tuple(t.interpolated for t in mechanism.tables),
+        tables=tuple(t.interpolated for t in mechanism.tables if t.name in read),
         omissions=(
             *(Omission(f"row {row}", f"it repeats row {other} for all q") for row, other in repeats),
             *_omissions(mechanism),

@@ -176,5 +176,7 @@ def test_words_of_messages():
 
     assert quoted(Unspeakable()) == "an object of type 'Unspeakable'"
     assert str(InputError("a", "b", "c" * 10_000)) == "a: expected b, got " + "c" * LONGEST_PART + "..."
+    place = str(InputError("crane.toml: bodies." + "b" * 10_000 + ".mass", "b", "c"))
+    assert len(place) < 300 and place.startswith("crane.toml: bodies.b") and "b.mass: expected b" in place
     assert nearest("q", [f"name{i}" for i in range(100)]).endswith(", name61, name62 and 40 more")
     assert nearest("name7x", [f"name{i}" for i in range(3000)]) == "did you mean 'name7'?"

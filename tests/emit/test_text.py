@@ -232,6 +232,14 @@ def test_tables_of_any_names_are_kept_apart_in_every_route(tmp_path):
     assert checked == {"straight", "looped", "lanes"}
 
 
+def test_a_table_that_nothing_reads_is_in_no_module():
+    raw = with_tables()
+    raw["tables"]["idle"] = {"x": [0.0, 1.0], "y": [4711.0, 4712.0]}
+    sources = emitted(mechanism_of(raw))
+    assert {name.split()[0] for name in sources} >= {"straight", "looped", "lanes"}
+    assert not any("4711" in source or "table_idle" in source for source in sources.values())
+
+
 def test_forces_from_tables_of_any_names_are_right():
     raw = with_tables()
     expected = sum((i + 1) * (1000.0 + i) for i in range(len(NAMES)))

@@ -7,7 +7,6 @@ from support.emitted import Emitted, mechanism_of
 from support.random_space import make
 
 from symgen.describe.evaluate import evaluate
-from symgen.errors import SimulationError
 from symgen.study.references.independent import IndependentEquations
 from symgen.study.references.independent_space import SpatialEquations, independent_equations
 
@@ -104,13 +103,6 @@ def test_angles_begin_with_the_turns_that_drivers_ask_for():
     y[10:14] = [np.cos(turned / 2), 0.0, 0.0, np.sin(turned / 2)]
     phi = equations.evaluate(0.0, y[: equations.n], y[equations.n :])[0]
     close(phi, np.zeros(len(phi)), "Phi")
-
-
-def test_bodies_without_inertia_are_refused():
-    body = {"mass": 1.0, "inertia": [0.0, 1.0, 1.0]}
-    raw = {"mechanism": {"name": "x", "space": "spatial"}, "bodies": {"b": body}}
-    with pytest.raises(SimulationError, match="moments of inertia of body 'b'"):
-        independent_equations(mechanism_of(raw), {})
 
 
 def test_planar_mechanisms_keep_theirs():

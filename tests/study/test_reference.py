@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import symgen
+from symgen.describe import MechanismBuilder
 from symgen.errors import InputError
 from symgen.result.points import Points, own_length
 from symgen.study.references.independent import IndependentEquations
@@ -199,3 +200,25 @@ def test_a_massless_coupler_has_references_and_they_are_those_of_a_distance_join
         rates.append(by_scipy.rate(0.0, y))
         np.testing.assert_allclose(compiled.rate(0.0, y), rates[-1], rtol=0.0, atol=1e-11)
     assert np.abs(found[0] - found[1]).max() < 1e-10
+
+
+def test_a_bob_on_a_massless_rod_in_space_has_the_reference_of_one_at_a_distance():
+    found, times = [], np.linspace(0.0, 1.0, 5)
+    for rod in (True, False):
+        raw = MechanismBuilder("bob", space="spatial", gravity=(0.0, 0.0, -9.81))
+        raw.body("bob", mass=2.0, inertia=(0.1, 0.1, 0.1), position=(1.0, 0.0, 0.0), velocity=(0.0, 0.5, 0.0))
+        if rod:
+            raw.body("rod", mass=0.0, inertia=(0.0, 0.0, 0.0), position=(0.5, 0.0, 0.0))
+            raw.joint(
+                "foot",
+                "universal",
+                between=("ground", "rod"),
+                at=((0, 0, 0), (-0.5, 0, 0)),
+                axes=((0, 0, 1), (0, 1, 0)),
+            )
+            raw.joint("head", "spherical", between=("rod", "bob"), at=((0.5, 0, 0), (0, 0, 0)))
+        else:
+            raw.joint("link", "distance", between=("ground", "bob"), at=((0, 0, 0), (0, 0, 0)), length=1.0)
+        model = symgen.Model(raw.build())
+        found.append(reference(model.mechanism, {}, *start_of(model), times).q[:, :3])
+    assert np.abs(found[0] - found[1]).max() < 1e-10 and np.abs(found[0][-1, 1]) > 0.1

@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism, SpatialBody
-from symgen.errors import SimulationError
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
 from symgen.vocabulary.expressions import ZERO, names
@@ -61,14 +60,9 @@ class SpatialEquations(IndependentEquations):
     Parameters
     ----------
     mechanism : Mechanism
-        A validated spatial mechanism without massless bodies.
+        A validated spatial mechanism.
     parameters : mapping
         Values of all its parameters; they become numbers in the formulas.
-
-    Raises
-    ------
-    SimulationError
-        If a body has no mass or no moment of inertia.
     """
 
     def __init__(self, mechanism: Mechanism, parameters: Mapping[str, float]) -> None:
@@ -139,6 +133,8 @@ class SpatialEquations(IndependentEquations):
         n = self.n
         q, v = y[:n], y[n:]
         _, d, _, gamma, f = self.evaluate(t, q, v)
+        if not self.regular:
+            return np.concatenate([v, self._with_multipliers(q, d, gamma, f)])
         root = self._root(q)
         free = root.T @ f
         scaled = d @ root
@@ -156,15 +152,30 @@ class SpatialEquations(IndependentEquations):
         """Return R with M^-1 = R R^T, the mass matrix of the rates completed along e."""
         root = np.zeros((self.n, self.n))
         root[self._straight, self._straight] = self.root[self._straight]
-        if len(self._first_e):
-            e = q[self._first_e[:, None] + np.arange(4)]
-            turning = np.array([_turning(row) for row in e])
-            along = np.trace(self._tensors, axis1=1, axis2=2)[:, None, None] * e[:, :, None] * e[:, None, :]
-            mass = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
-            blocks = np.linalg.inv(np.linalg.cholesky(mass))
-            for i, block in zip(self._first_e, blocks, strict=True):
-                root[i : i + 4, i : i + 4] = block.T
+        for i, block in zip(self._first_e, np.linalg.inv(np.linalg.cholesky(self._inertia(q))), strict=True):
+            root[i : i + 4, i : i + 4] = block.T
         return root
+
+    def _with_multipliers(self, q: Array, d: Array, gamma: Array, f: Array) -> Array:
+        """Return q'' of M q'' + D^T l = f and D q'' = gamma, D by its independent rows: M may have no inverse."""
+        mass = np.diag(self.mass)
+        for i, block in zip(self._first_e, self._inertia(q), strict=True):
+            mass[i : i + 4, i : i + 4] = block
+        u, values, w = np.linalg.svd(d, full_matrices=False)
+        rank = self.rank if self.rank is not None else int(np.sum(values > CUTOFF * values[0]))
+        rows = self.usual * w[:rank]
+        system = np.block([[mass, rows.T], [rows, np.zeros((rank, rank))]])
+        asked = self.usual * (u[:, :rank].T @ gamma) / values[:rank]
+        found: Array = np.linalg.solve(system, np.concatenate([f, asked]))[: self.n]
+        return found
+
+    def _inertia(self, q: Array) -> Array:
+        """Return the mass matrices of the rates of Euler parameters, completed along e; shape (bodies, 4, 4)."""
+        e = q[self._first_e[:, None] + np.arange(4)]
+        turning = np.array([_turning(row) for row in e]).reshape(-1, 3, 4)
+        along = np.trace(self._tensors, axis1=1, axis2=2)[:, None, None] * e[:, :, None] * e[:, None, :]
+        found: Array = 4.0 * np.swapaxes(turning, 1, 2) @ self._tensors @ turning + along
+        return found
 
     def _compile(self, outputs: list[Any]) -> Callable[..., Any]:
         tables: dict[str, Callable[[float], float]] = {}
@@ -208,7 +219,7 @@ class SpatialEquations(IndependentEquations):
 
     def _masses(self) -> Array:
         """Return the masses, and for Euler parameters a moment of inertia: the metric of projections."""
-        values = list[float]()
+        values, self.regular = list[float](), True
         for body in self.mechanism.bodies:
             mass = evaluate(body.mass, self.parameters, body.name)
             values += [mass] * 3
@@ -217,9 +228,9 @@ class SpatialEquations(IndependentEquations):
                 tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
                 self.spins.append((len(values), tensor))
                 values += [4.0 * max(xx, yy, zz)] * 4
-                mass = min(mass, *np.linalg.eigvalsh(tensor).tolist())
-            if not mass > 0.0:
-                raise SimulationError(f"the reference needs a mass and moments of inertia of body '{body.name}'")
+                principal = np.linalg.eigvalsh(tensor)
+                mass = mass if principal[0] > CUTOFF * principal[-1] else 0.0
+            self.regular = self.regular and mass > 0.0
         return np.array(values)
 
     def _forces(self) -> list[Any]:
