@@ -19,6 +19,8 @@ from symgen.vocabulary.quantities import Quantity
 
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000
+#: Numbers from which on an array is written as one text.
+_MANY_NUMBERS = 4096
 
 
 def emit_model(program: ModelProgram, equations: Equations, target: str = "cpu") -> str:
@@ -184,6 +186,7 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
     for found in tables:
         x, y = (found.starts, sum(found.pieces, ())) if found.pieces else (found.x, found.y)
         table: dict[str, Any] = {"name": found.name, "abscissae": list(x), "ordinates": list(y)}
+        table |= {"points": array_text(x), "numbers": array_text(y)}
         table |= {what: table_name(found.name, what) for what in ("value", "slope", "x", "y")}
         values: dict[str, Any] = {"table": table, "cuda": target == "cuda", "decorator": PLATFORMS[target].decorator}
         if found.pieces:
@@ -195,6 +198,13 @@ def table_codes(tables: Sequence[Interpolation], target: str = "cpu", slopes: bo
         libraries = frozenset(("numpy", "math") if found.period else ("numpy",))
         codes.append(Code(table["value"], text, libraries=libraries, also=also))
     return codes
+
+
+def array_text(values: Sequence[float]) -> str:
+    """Return the array of some numbers as Python; very many as one text, since Python takes a kilobyte to read each."""
+    if len(values) <= _MANY_NUMBERS:
+        return f"np.array({list(values)})"
+    return f'np.array("{" ".join(map(repr, values))}".split(), dtype=float)'
 
 
 class Named(Protocol):

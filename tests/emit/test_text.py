@@ -6,6 +6,7 @@ import ast
 import builtins
 import copy
 import itertools
+import math
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
@@ -238,6 +239,23 @@ def test_a_table_that_nothing_reads_is_in_no_module():
     sources = emitted(mechanism_of(raw))
     assert {name.split()[0] for name in sources} >= {"straight", "looped", "lanes"}
     assert not any("4711" in source or "table_idle" in source for source in sources.values())
+
+
+@pytest.mark.parametrize("count", [3, 5000])
+def test_long_tables_hold_the_numbers_of_the_file(count):
+    """Arrays of many numbers are written in another way; beside a sum in plain Python."""
+    x = [0.1 * k for k in range(count)]
+    y = [math.sin(k) * 10.0 ** (k % 40 - 20) for k in range(count)]
+    raw = {
+        "mechanism": {"name": "long", "gravity": [0.0, 0.0]},
+        "tables": {"push": {"x": x, "y": y}},
+        "bodies": {"bob": {"type": "point", "mass": 1.0}},
+        "forces": {"f": {"type": "force", "body": "bob", "force": ["push(t)", 0.0]}},
+    }
+    found = Emitted(mechanism_of(raw), "lagrange")
+    for k in (0, 1, count // 2, count - 1):
+        at = found.at(x[k], [0.0, 0.0], [0.0, 0.0], found.parameters({}))
+        assert at.acceleration[0] == y[k]
 
 
 def test_forces_from_tables_of_any_names_are_right():
