@@ -50,11 +50,12 @@ class TableValues(Values):
         """Return an element of an array."""
         return _integer(super().element(node))
 
-    def binary(self, node: ast.BinOp) -> lang.Expression:
-        """Return an operation on two values."""
-        if self.is_unsigned(node) and not isinstance(node.op, ast.Add | ast.Mult):
+    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+        """Return what an operation is called."""
+        values = (node.left, node.right) if isinstance(node, ast.BinOp) else (node.target, node.value)
+        if not isinstance(node.op, ast.Add | ast.Mult) and all(self.is_unsigned(x) for x in values):
             raise Foreign("an operation without sign", node)
-        return super().binary(node)
+        return super().sign(node)
 
     def call(self, node: ast.Call) -> Any:
         """Return what a function gives."""
@@ -112,9 +113,12 @@ class TableValues(Values):
             return lang.Operation("int", "bits", (as_type("float", self.expression(node.args[0])),))
         if called._name not in ("_compiled_kernel", "_compiled_code"):
             raise Foreign(f"the function '{called._name}'", node)
-        signature, _ = called._defn(None, *(None for _ in node.args))
-        if len(signature.args) != len(node.args) or signature.return_type is not types.int64:
+        taken = called._defn.__code__.co_argcount - 1  # but for the first one, which is the compiler's
+        if len(node.args) != taken:
             raise Foreign("a function with other arguments", node)
+        signature, _ = called._defn(None, *(None for _ in node.args))
+        if len(signature.args) != taken or signature.return_type is not types.int64:
+            raise Foreign("a function with other results", node)
         address, *others = (self.handed(kind, x) for kind, x in zip(signature.args, node.args, strict=True))
         return lang.Invoke("int", address, tuple(others))
 
