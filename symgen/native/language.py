@@ -1,6 +1,7 @@
 """The language of emitted functions after checking: numbers, elements of arrays, loops and choices, each with its type.
 
 A value is a ``float`` (64 bits), an ``int`` (64 bits, signed) or a ``bool``; arrays are one-dimensional and contiguous.
+Tables of looped code hold ``unsigned`` numbers of 32 bits, which become ``int`` where they are read.
 Nothing here knows Python's syntax or a target: `symgen.native.read` makes these values, `symgen.native.llvm` prints
 them.
 """
@@ -11,17 +12,21 @@ from typing import Literal
 
 import msgspec
 
-Scalar = Literal["float", "int", "bool"]
+Scalar = Literal["float", "int", "bool", "unsigned"]
 
 
 class Parameter(msgspec.Struct, frozen=True, gc=False):
-    """An argument of a function: a number, an array of numbers, or of loops a function by its address."""
+    """An argument of a function: a number, an array of numbers, or of loops a function by its address.
+
+    Of a `sized` array of an emitted function callers say the length as well.
+    """
 
     name: str
     type: Scalar
     array: bool = False
     rank: int = 1
     address: bool = False
+    sized: bool = False
 
 
 class Constant(msgspec.Struct, frozen=True, gc=False):
@@ -50,8 +55,9 @@ class Operation(msgspec.Struct, frozen=True, gc=False):
     """An operation on values: arithmetic, a comparison, a mathematical function or a conversion.
 
     Arithmetic: ``add sub mul div floordiv mod pow neg abs min max``; on booleans ``and or not``, without skipping what
-    stands right; comparisons: ``lt le gt ge eq ne``; conversions: ``float``, ``int``, ``bool``; functions are called
-    ``math.sin`` and the like. Arguments of arithmetic and comparisons have one type.
+    stands right; comparisons: ``lt le gt ge eq ne``; conversions: ``float``, ``int``, ``bool``, ``unsigned``;
+    ``low`` is what 32 bits hold of an integer, ``bits`` the integer that stands in the place of a float; functions are
+    called ``math.sin`` and the like. Arguments of arithmetic and comparisons have one type.
     """
 
     type: Scalar
@@ -94,10 +100,10 @@ class Shape(msgspec.Struct, frozen=True, gc=False):
 
 
 class Invoke(msgspec.Struct, frozen=True, gc=False):
-    """A call of a function that is known by its address; arrays are handed on by name."""
+    """A call of a function that is known by its address, a name or a number; arrays are handed on by name."""
 
     type: Scalar
-    function: str
+    function: Expression | str
     arguments: tuple[Expression | str, ...]
 
 
@@ -179,13 +185,17 @@ class Block(msgspec.Struct, frozen=True, gc=False):
 
 
 class View(msgspec.Struct, frozen=True, gc=False):
-    """Give a name to elements of an array from one on: so many rows, or what stands behind some of its indices."""
+    """Give a name to elements of an array from one on: so many rows, or what stands behind some of its indices.
+
+    Where the type is ``unsigned``, what stands there are numbers of that kind.
+    """
 
     name: str
     array: str
     first: Expression
     size: Expression | None
     indices: int = 0
+    type: Scalar = "float"
 
 
 class Pick(msgspec.Struct, frozen=True, gc=False):

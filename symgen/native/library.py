@@ -27,8 +27,8 @@ if TYPE_CHECKING:  # what compiles is not loaded by runs that find everything in
     from symgen.native.language import Function, Scalar
     from symgen.native.read import Kind
 
-_NUMBERS: dict[Scalar, Any] = {"float": types.float64, "int": types.int64}
-_CTYPES: dict[Any, Any] = {types.float64: ctypes.c_double, types.int64: ctypes.c_int64}
+_NUMBERS: dict[Scalar, Any] = {"float": types.float64, "int": types.int64, "unsigned": types.uint32}
+_CTYPES: dict[Any, Any] = {types.float64: ctypes.c_double, types.int64: ctypes.c_int64, types.uint32: ctypes.c_uint32}
 _KINDS: dict[Any, Kind] = {number: (kind, False) for kind, number in _NUMBERS.items()}
 _KINDS |= {types.Array(number, 1, "C"): (kind, True) for kind, number in _NUMBERS.items()}
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, TYPES, Values, handed, literal, slot
+from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Values, handed, literal, slot
 
 #: The same as one value, as functions in C's convention get it.
 _STRUCT = "{ptr, ptr, i64, i64, ptr, [1 x i64], [1 x i64]}"
@@ -42,7 +42,10 @@ def module(
     """
     functions, declared = _reached(function, inlined)
     others = "linkonce_odr " if alone else "available_externally "
-    texts = [Printer(f, symbol, "" if f is function else others, together).text() for f in functions]
+    texts = []
+    for f in functions:
+        linkage = "" if f is function else "internal " if is_copied(f) else others
+        texts.append(Printer(f, symbol, linkage, together).text())
     texts.extend(
         sines.definition(n) for n in (sines.width(1), sines.MOST) if any(sines.name(n) in text for text in texts)
     )
@@ -58,12 +61,17 @@ def _reached(
     functions, declared, waiting = {_key(function): function}, dict[object, lang.Function](), list(function.called)
     while waiting:
         each = waiting.pop(0)
-        if _key(each) not in functions and inlined(each):
+        if _key(each) not in functions and (is_copied(each) or inlined(each)):
             functions[_key(each)] = each
             waiting.extend(each.called)
         elif _key(each) not in functions:
             declared[_key(each)] = each
     return list(functions.values()), list(declared.values())
+
+
+def is_copied(function: lang.Function) -> bool:
+    """Whether a function has no machine code of its own where it is called: it is handed tables of looped code."""
+    return any(p.type == "unsigned" for p in function.parameters) and all(is_copied(f) for f in function.called)
 
 
 def _key(function: lang.Function) -> object:
@@ -106,7 +114,10 @@ def _c_function(function: lang.Function, name: str) -> str:
     for p in function.parameters:
         if p.array:
             lines.append(f"  %{p.name}.{DATA} = extractvalue {_STRUCT} %{p.name}, {DATA}")
-        arguments += handed(p, f"%{p.name}.{DATA}" if p.array else f"%{p.name}")
+        if p.sized:
+            lines.append(f"  %{p.name}.{LENGTH} = extractvalue {_STRUCT} %{p.name}, {LENGTH}, 0")
+        length = f"%{p.name}.{LENGTH}" if p.sized else ""
+        arguments += handed(p, f"%{p.name}.{DATA}" if p.array else f"%{p.name}", length)
     parameters = ", ".join(f"{_STRUCT if p.array else TYPES[p.type]} %{p.name}" for p in function.parameters)
     return "\n".join(
         [
@@ -157,6 +168,8 @@ class Printer(Values):
         for p in self.function.parameters:
             if not p.array:
                 self.take(p.name, p.type, f"%{p.name}")
+            elif p.sized:
+                self.views[p.name] = f"%{p.name}.{DATA}", (f"%{p.name}.{LENGTH}",)
 
     def take(self, name: str, kind: lang.Scalar, value: str) -> None:
         """Give an argument that is a number its name."""
@@ -187,6 +200,8 @@ class Printer(Values):
                 self.repeat(statement)
             elif isinstance(statement, lang.For):
                 self.count_through(statement)
+            elif isinstance(statement, lang.View):
+                self.view(statement)
             elif isinstance(statement, lang.Leave):
                 self.leave(statement)
                 return False
@@ -198,6 +213,18 @@ class Printer(Values):
             elif not self.other(statement):
                 return False
         return True
+
+    def view(self, statement: lang.View) -> None:
+        """Give a part of an array a name."""
+        data, first = self.base(statement.array), self.value(statement.first)
+        if statement.size is None:
+            lengths = self.views[statement.array][1][statement.indices :]
+        else:
+            rest = self.views[statement.array][1][1:] if statement.array in self.views else ()
+            lengths = (self.value(statement.size), *rest)
+        self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), lengths
+        if statement.type == "unsigned":
+            self.small.add(statement.name)
 
     def other(self, statement: lang.Statement) -> bool:
         """Print a statement that only loops have; return whether what follows it can be reached."""

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from symgen.native import language as lang
 from symgen.native import sines
 
-TYPES = {"float": "double", "int": "i64", "bool": "i1"}
+TYPES = {"float": "double", "int": "i64", "bool": "i1", "unsigned": "i32"}
 #: An array: owner, parent, size, size of an element, data, shape, stride; and where data stand.
 ARRAY = ("ptr", "ptr", "i64", "i64", "ptr", "i64", "i64")
-DATA = 4
+DATA, LENGTH = 4, 5
 _FLOATS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 _INTS = {"add": "add nsw", "sub": "sub nsw", "mul": "mul nsw", "and": "and", "or": "or"}
 _COMPARED = {
@@ -38,6 +38,10 @@ class Values:
         What operations on floats may be.
     label : str
         Of the block that is being printed.
+    views : dict of str to tuple
+        Address and lengths of arrays that are no arguments, or whose lengths are known.
+    small : set of str
+        Arrays of `unsigned` numbers.
     """
 
     def __init__(self, function: lang.Function, symbol: Callable[[lang.Function], str]) -> None:
@@ -49,6 +53,8 @@ class Values:
         self.count = 0
         self.flag = " contract"
         self.label = ".entry"
+        self.views: dict[str, tuple[str, tuple[str, ...]]] = {}
+        self.small = {p.name for p in function.parameters if p.array and p.type == "unsigned"}
 
     def put(self, text: str) -> str:
         """Print an instruction and return its value."""
@@ -87,6 +93,10 @@ class Values:
             return self.operation(e.type, e.name, e.arguments)
         if isinstance(e, lang.Call):
             return self.call(e)
+        if isinstance(e, lang.Shape):
+            return self.views[e.array][1][e.axis]
+        if isinstance(e, lang.Invoke):
+            return self.invoke(e)
         if isinstance(e, lang.Logic):
             return self.decide(e)
         assert isinstance(e, lang.Choice), "all kinds of expressions are known"
@@ -94,10 +104,13 @@ class Values:
 
     def place(self, array: str, index: lang.Expression) -> str:
         """Return the address of an element."""
-        return self.put(f"getelementptr double, ptr {self.base(array)}, i64 {self.value(index)}")
+        size = "i32" if array in self.small else "double"
+        return self.put(f"getelementptr {size}, ptr {self.base(array)}, i64 {self.value(index)}")
 
     def base(self, array: str) -> str:
         """Return the address of an array."""
+        if array in self.views:
+            return self.views[array][0]
         constant = array in self.function.tables
         return f'@"{self.symbol(self.function)}.{array}"' if constant else f"%{array}.{DATA}"
 
@@ -121,8 +134,12 @@ class Values:
             return self.put(f"{_FLOATS[name]}{self.flag} double {values[0]}, {values[1]}")
         if name in _INTS:
             return self.put(f"{_INTS[name]} {TYPES[kind]} {values[0]}, {values[1]}")
-        if name in ("float", "int", "bool"):
+        if name in ("float", "int", "bool", "unsigned"):
             return self.converted(first, name, values[0])
+        if name == "low":
+            return self.put(f"and i64 {values[0]}, {2**32 - 1}")
+        if name == "bits":
+            return self.put(f"bitcast double {values[0]} to i64")
         if name == "not":
             return self.put(f"xor i1 {values[0]}, true")
         if name == "neg":
@@ -177,6 +194,10 @@ class Values:
 
     def converted(self, before: lang.Scalar, after: str, value: str) -> str:
         """Print a conversion."""
+        if before == "unsigned":
+            return self.put(f"zext i32 {value} to i64")
+        if after == "unsigned":
+            return self.put(f"trunc i64 {value} to i32")
         if after == "bool":
             test = f"fcmp{self.flag} une double {value}, 0.0" if before == "float" else f"icmp ne i64 {value}, 0"
             return self.put(test)
@@ -214,9 +235,41 @@ class Values:
         self.slots.append(f"  {result} = alloca {kind}")
         parts = [f"ptr {result}", "ptr null"]
         for p, argument in zip(f.parameters, e.arguments, strict=True):
-            parts += handed(p, f"%{argument}.{DATA}" if isinstance(argument, str) else self.value(argument))
+            if isinstance(argument, str):
+                parts += handed(p, self.base(argument), self.views[argument][1][0] if p.sized else "")
+            else:
+                parts += handed(p, self.value(argument))
         self.put(f'call i32 @"{self.symbol(f)}"({", ".join(parts)}) nounwind')
         return self.put(f"load {kind}, ptr {result}")
+
+    def invoke(self, e: lang.Invoke) -> str:
+        """Print a call of a function by its address, which says nothing about errors."""
+        assert not isinstance(e.function, str), "emitted functions know addresses as numbers"
+        parts = [part for argument in e.arguments for part in self.handed_on(argument)]
+        address = self.put(f"inttoptr i64 {self.value(e.function)} to ptr")
+        self.count += 1
+        result = f"%.result{self.count}"
+        self.slots.append(f"  {result} = alloca {TYPES[e.type]}")
+        self.put(f"call i32 {address}({', '.join((f'ptr {result}', 'ptr %.exception', *parts))})")
+        return self.put(f"load {TYPES[e.type]}, ptr {result}")
+
+    def handed_on(self, argument: lang.Expression | str) -> list[str]:
+        """Return an argument of a function that is known by its address."""
+        if isinstance(argument, str):
+            return self.whole(argument)
+        return [f"{TYPES[argument.type]} {self.value(argument)}"]
+
+    def whole(self, array: str) -> list[str]:
+        """Return an array as Numba hands it on, without an owner."""
+        (data, lengths), item = self.views[array], "4" if array in self.small else "8"
+        strides = [item]
+        for n in reversed(lengths[1:]):
+            strides.insert(0, self.put(f"mul i64 {n}, {strides[0]}"))
+        size = lengths[0]
+        for n in lengths[1:]:
+            size = self.put(f"mul i64 {size}, {n}")
+        shape = (f"i64 {n}" for n in (*lengths, *strides))
+        return ["ptr null", "ptr null", f"i64 {size}", f"i64 {item}", f"ptr {data}", *shape]
 
     def decide(self, e: lang.Logic) -> str:
         """Print `and` or `or`."""
@@ -245,11 +298,12 @@ class Values:
         return self.put(f"phi {TYPES[e.type]} {', '.join(parts)}")
 
 
-def handed(parameter: lang.Parameter, value: str) -> list[str]:
-    """Return an argument of a call; of an array the address of its elements, the rest being unused."""
+def handed(parameter: lang.Parameter, value: str, length: str = "") -> list[str]:
+    """Return an argument of a call; of an array address of its elements and, if given, length: the rest is unused."""
     if not parameter.array:
         return [f"{TYPES[parameter.type]} {value}"]
-    return [f"{kind} {value if i == DATA else 'undef'}" for i, kind in enumerate(ARRAY)]
+    used = {DATA: value} | ({LENGTH: length} if length else {})
+    return [f"{kind} {used.get(i, 'undef')}" for i, kind in enumerate(ARRAY)]
 
 
 def slot(name: str) -> str:

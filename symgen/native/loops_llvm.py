@@ -110,7 +110,6 @@ class LoopPrinter(Printer):
         self.outermost = outermost
         source: Any = function.source
         self.flag = " contract" if source.targetoptions.get("fastmath") else ""
-        self.views: dict[str, tuple[str, tuple[str, ...]]] = {}  # address and lengths of arrays
         self.blocks: dict[int, str] = {}  # labels behind blocks
         self.inserted: dict[str, str] = {}
         for p in function.parameters:
@@ -155,15 +154,6 @@ class LoopPrinter(Printer):
                 self.jump(end)
             self.begin(end)
             return True
-        if isinstance(statement, lang.View):
-            data, lengths = self.views[statement.array]
-            first = self.value(statement.first)
-            if statement.size is None:
-                lengths = lengths[statement.indices :]
-            else:
-                lengths = (self.value(statement.size), *lengths[1:])
-            self.views[statement.name] = self.put(f"getelementptr double, ptr {data}, i64 {first}"), lengths
-            return True
         assert isinstance(statement, lang.Pick), "all kinds of statements are known"
         test, (a, m), (b, n) = self.value(statement.test), self.views[statement.chosen], self.views[statement.otherwise]
         data = self.put(f"select i1 {test}, ptr {a}, ptr {b}")
@@ -179,16 +169,8 @@ class LoopPrinter(Printer):
 
     # -- values
 
-    def base(self, array: str) -> str:
-        """Return the address of an array."""
-        return self.views[array][0] if array in self.views else super().base(array)
-
     def value(self, e: lang.Expression) -> str:
         """Print what an expression needs and return its value."""
-        if isinstance(e, lang.Shape):
-            return self.views[e.array][1][e.axis]
-        if isinstance(e, lang.Invoke):
-            return self.invoke(e)
         if isinstance(e, lang.Insert):
             return self.insert(e)
         return super().value(e)
@@ -210,33 +192,14 @@ class LoopPrinter(Printer):
 
     def invoke(self, e: lang.Invoke) -> str:
         """Print a call of a function by its address."""
-        parts = []
-        for argument in e.arguments:
-            if not isinstance(argument, str):
-                parts.append(f"{TYPES[argument.type]} {self.value(argument)}")
-            elif argument in self.views:
-                parts += self.whole(argument)
-            else:
-                parts += [f'{k} %"{argument}.{i}"' for i, k in enumerate(_ADDRESS)]
+        parts = [part for argument in e.arguments for part in self.handed_on(argument)]
         return self.called(f'%"{e.function}.{_JIT}"', e.type, parts)
 
-    def whole(self, array: str) -> list[str]:
-        """Return an array as Numba hands it on, without an owner."""
-        data, lengths = self.views[array]
-        strides = ["8"]
-        for n in reversed(lengths[1:]):
-            strides.insert(0, self.put(f"mul i64 {n}, {strides[0]}"))
-        size = lengths[0]
-        for n in lengths[1:]:
-            size = self.put(f"mul i64 {size}, {n}")
-        return [
-            "ptr null",
-            "ptr null",
-            f"i64 {size}",
-            "i64 8",
-            f"ptr {data}",
-            *(f"i64 {n}" for n in (*lengths, *strides)),
-        ]
+    def handed_on(self, argument: lang.Expression | str) -> list[str]:
+        """Return an argument of a function that is known by its address."""
+        if isinstance(argument, str) and argument not in self.views:
+            return [f'{k} %"{argument}.{i}"' for i, k in enumerate(_ADDRESS)]
+        return super().handed_on(argument)
 
     def call(self, e: lang.Call) -> str:
         """Print a call of a part."""

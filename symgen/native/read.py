@@ -11,8 +11,11 @@ import ast
 from collections.abc import Callable
 from typing import Any
 
+import msgspec
+
 from symgen.native import language as lang
-from symgen.native.read_values import Foreign, Kind, Values, as_type
+from symgen.native.read_tables import TableValues
+from symgen.native.read_values import Foreign, Kind, as_type
 
 __all__ = ["Definition", "Foreign", "Kind", "read"]
 
@@ -48,7 +51,7 @@ def read(
     return Reader(function, tree, kinds, definition, (*reading, function)).function()
 
 
-class Reader(Values):
+class Reader(TableValues):
     """Reads one function."""
 
     def __init__(
@@ -68,7 +71,6 @@ class Reader(Values):
         self.source, self.tree, self.definition, self.reading = function, tree, definition, reading
         self.assigned: dict[str, int] = {}  # how often; assignments below the body itself count twice
         self.returned: set[lang.Scalar] = set()
-        self.depth = 0
         self.loops = 0
 
     def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
@@ -81,6 +83,10 @@ class Reader(Values):
         if body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
             body = body[1:]  # the docstring
         statements = self.statements(body)
+        if not self.returned and any(p.type == "unsigned" for p in self.parameters):
+            # looped code calls functions that return nothing: a 0 that nobody asks for
+            self.returned.add("int")
+            statements = (*statements, lang.Return(lang.Constant("int", 0)))
         if not returns(statements) or len(self.returned) != 1:
             raise Foreign("paths that return nothing, or different types", self.tree)
         if "bool" in self.returned:
@@ -93,7 +99,7 @@ class Reader(Values):
         fixed = {name for name, count in self.assigned.items() if count == 1 and name in self.variables}
         return lang.Function(
             name=self.source.__name__,
-            parameters=self.parameters,
+            parameters=tuple(msgspec.structs.replace(p, sized=p.name in self.sized) for p in self.parameters),
             returned=returned,
             body=statements,
             variables=self.variables,
@@ -124,6 +130,7 @@ class Reader(Values):
         if isinstance(node, ast.Assign):
             return self.assignment(node)
         if isinstance(node, ast.AugAssign):
+            self.note_sign(node.target, ast.BinOp(_loaded(node.target), node.op, node.value))
             before = self.expression(_loaded(node.target))
             return [
                 self.store(node.target, self.arithmetic(self.sign(node), before, self.expression(node.value), node))
@@ -145,7 +152,7 @@ class Reader(Values):
             return [lang.Leave("break" if isinstance(node, ast.Break) else "continue")]
         if isinstance(node, ast.Expr):
             call = self.expression(node.value)
-            if isinstance(call, lang.Call):
+            if isinstance(call, lang.Call | lang.Invoke):
                 return [lang.Evaluate(call)]
         if isinstance(node, ast.Pass):
             return []
@@ -153,24 +160,32 @@ class Reader(Values):
 
     def assignment(self, node: ast.Assign) -> list[lang.Statement]:
         """Return what an assignment does; all values are worked out before the first of them is stored."""
-        first = node.targets[0]
+        first, found = node.targets[0], list[lang.Statement]()
+        self.note_signs(node)
         if isinstance(first, ast.Tuple) and isinstance(node.value, ast.Tuple) and len(node.targets) == 1:
             targets, values = first.elts, [self.expression(x) for x in node.value.elts]
             if len(targets) != len(values):
                 raise Foreign("an assignment of unequal lengths", node)
             if all(isinstance(v, lang.Constant) for v in values):
                 return [self.store(t, v) for t, v in zip(targets, values, strict=True)]
-            found: list[lang.Statement] = []
             for i, value in enumerate(values):
-                name = f"{len(self.variables)}.{i}"  # no name of Python's
-                self.give(name, value.type, node)
-                found.append(lang.Assign(name, value))
-                values[i] = lang.Variable(value.type, name)
+                values[i] = self.kept_as(f"{len(self.variables)}.{i}", value, found, node)
             return found + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
+        view = self.view(node)
+        if view:
+            return view
         value = self.expression(node.value)
         if len(node.targets) > 1 and not isinstance(value, lang.Constant):
-            raise Foreign("a chain of assignments", node)
-        return [self.store(target, value) for target in node.targets]
+            value = self.kept_as(f"{len(self.variables)}.0", value, found, node)
+        return found + [self.store(target, value) for target in node.targets]
+
+    def kept_as(
+        self, name: str, value: lang.Expression, before: list[lang.Statement], node: ast.AST
+    ) -> lang.Expression:
+        """Return a value under a name, which is no name of Python's, so that what follows does not change it."""
+        self.give(name, value.type, node)
+        before.append(lang.Assign(name, value))
+        return lang.Variable(value.type, name)
 
     def store(self, target: ast.expr, value: lang.Expression) -> lang.Statement:
         """Return the assignment of a value to a name or an element."""
@@ -180,7 +195,7 @@ class Reader(Values):
         if isinstance(target, ast.Subscript):
             array, index = self.place(target)
             kind = self.arrays.get(array)
-            if kind is None:
+            if kind is None or kind == "unsigned":
                 raise Foreign("an element of a constant", target)
             if kind == "int" and value.type == "float":
                 raise Foreign("a float in an array of integers", target)
@@ -203,7 +218,12 @@ class Reader(Values):
         ):
             raise Foreign("a loop over something else than a range", node)
         bounds = [self.expression(x) for x in call.args]
-        if not 1 <= len(bounds) <= 3 or call.keywords or any(b.type != "int" for b in bounds):
+        if (
+            not 1 <= len(bounds) <= 3
+            or call.keywords
+            or any(b.type != "int" for b in bounds)
+            or any(self.is_unsigned(x) for x in call.args)
+        ):
             raise Foreign("a range", node)
         start, stop = (lang.Constant("int", 0), bounds[0]) if len(bounds) == 1 else bounds[:2]
         step = bounds[2] if len(bounds) == 3 else lang.Constant("int", 1)

@@ -10,6 +10,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, cast
 
+import numpy as np
+
 from symgen.native import language as lang
 
 #: Functions of ``math``: number of arguments. All take floats and return one, but for ``floor`` and ``ceil``.
@@ -48,6 +50,8 @@ class Values(ABC):
         Types of the local variables that have been given a value so far.
     tables, called : dict
         Constant arrays and functions that have been met.
+    sized : set of str
+        Arrays whose lengths are wanted.
     """
 
     def __init__(self, function: Any, parameters: tuple[lang.Parameter, ...]) -> None:
@@ -59,6 +63,7 @@ class Values(ABC):
         self.variables: dict[str, lang.Scalar] = {}
         self.tables: dict[str, tuple[float, ...]] = {}
         self.called: dict[tuple[object, tuple[Kind, ...]], lang.Function] = {}
+        self.sized: set[str] = set()
 
     @abstractmethod
     def read(self, called: Any, kinds: tuple[Kind, ...]) -> lang.Function:
@@ -215,7 +220,10 @@ class Values(ABC):
         key = (called, kinds)
         if key not in self.called:
             self.called[key] = self.read(called, kinds)
-        return lang.Call(self.called[key].returned, self.called[key], arguments)
+        function = self.called[key]
+        pairs = zip(function.parameters, arguments, strict=True)
+        self.sized.update(x for p, x in pairs if p.sized and isinstance(x, str))
+        return lang.Call(function.returned, function, arguments)
 
     def call_builtin(self, name: str, values: list[lang.Expression], node: ast.Call) -> lang.Expression:
         """Return what a function of Python gives."""
@@ -265,8 +273,8 @@ def number(value: object, node: ast.AST) -> lang.Constant:
         return lang.Constant("bool", value)
     if isinstance(value, float):
         return lang.Constant("float", float(value))
-    if isinstance(value, int) and -(2**63) <= value < 2**63:
-        return lang.Constant("int", value)
+    if isinstance(value, int | np.int64) and -(2**63) <= value < 2**63:
+        return lang.Constant("int", int(value))
     raise Foreign(f"a value of type '{type(value).__name__}'", node)
 
 

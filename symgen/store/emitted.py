@@ -198,7 +198,7 @@ class EmittedFunction(FromSource):
     def _made(self, kinds: tuple[Kind, ...]) -> _Entry | None:
         """Return machine code made from the source, with everything in memory that it calls; None if it is foreign."""
         from symgen.native import internals
-        from symgen.native.llvm import module
+        from symgen.native.llvm import is_copied, module
         from symgen.native.read import Foreign
 
         if not internals.usable():
@@ -207,11 +207,12 @@ class EmittedFunction(FromSource):
             function = self.read(kinds)
         except Foreign as foreign:
             return self._leave(str(foreign))
-        for f in function.called:
+        apart = [f for f in function.called if not is_copied(f)]
+        for f in apart:
             if not _dispatcher(f).is_direct(kinds_of_function(f)):
                 return self._leave(f"it calls '{f.name}', which is")
         names = {id(value): name for name, value in self.py_func.__globals__.items()}
-        called = tuple((names[id(f.source)], kinds_of_function(f)) for f in function.called)
+        called = tuple((names[id(f.source)], kinds_of_function(f)) for f in apart)
         try:
             with _uncollected():
                 code = compiled(module(function, _symbol, _is_short, self._together), _symbol(function))
@@ -305,7 +306,8 @@ def _symbol(function: Function) -> str:
 
 
 def _is_short(function: Function) -> bool:
-    return len(function.body) <= _SHORT
+    # of looped code there is machine code already: loops and starts call its functions
+    return len(function.body) <= _SHORT and not any(p.sized for p in function.parameters)
 
 
 def _definition(function: Any) -> ast.FunctionDef | None:

@@ -10,14 +10,13 @@ import sys
 
 import numpy as np
 
-from symgen.api import load
+from symgen.api import Model, load
 from symgen.native.library import Library
 
 
-def digest(model: str, method: str, integrator: str) -> str:
+def digest_of(model: Model, method: str, integrator: str, **changes: object) -> str:
     """Return what a run gives, and what made its loop."""
-    loaded = load(model)
-    result = loaded.simulate(method=method, integrator=integrator, until=0.5, output_step=0.07)
+    result = model.simulate(method=method, integrator=integrator, until=0.5, output_step=0.07, **changes)
     arrays = (result.t, result.q.values, result.v.values, result.kinetic, result.smallest_pivot)
     counts = (result.steps, result.rejected, result.evaluations, result.iterations)
     found = hashlib.sha256(b"".join(np.asarray(a).tobytes() for a in (*arrays, counts)))
@@ -35,6 +34,6 @@ def makers() -> set[bool]:
 if __name__ == "__main__":
     words = sys.argv[1:]
     for i in range(0, len(words), 3):
-        print(*words[i : i + 3], digest(*words[i : i + 3]))
+        print(*words[i : i + 3], digest_of(load(words[i]), *words[i + 1 : i + 3]))
     (from_source,) = makers()
     print("from the source" if from_source else "by Numba", file=sys.stderr)

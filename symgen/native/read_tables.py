@@ -1,0 +1,160 @@
+"""What looped code has beside code of one mechanism: tables of unsigned numbers, and calls by addresses in them.
+
+Tables stand at the end of an array of floats, as unsigned numbers of 32 bits. Here they become integers of 64 bits
+where they are read: sums and products of places have the bits that they have where Numba counts without sign. What
+could differ, such as a difference of two of them, is `Foreign`. Pieces of Numba's compiler that find tables and call
+what stands in them are known by their names (`symgen/templates/looped/machine.py.j2`).
+"""
+
+from __future__ import annotations
+
+import ast
+from abc import abstractmethod
+from typing import Any
+
+import numpy as np
+from numba import types
+from numba.extending import _Intrinsic as Intrinsic
+
+from symgen.native import language as lang
+from symgen.native.read_values import Foreign, Values, as_type
+
+_ELEMENTS: dict[Any, lang.Scalar] = {types.float64: "float", types.int64: "int", types.uint32: "unsigned"}
+
+
+class TableValues(Values):
+    """Reads expressions in which there are tables.
+
+    Attributes
+    ----------
+    depth : int
+        How many choices and loops stand around what is read.
+    unsigned : dict of str to bool
+        Local integers, and whether Numba counts them without sign.
+    """
+
+    def __init__(self, function: Any, parameters: tuple[lang.Parameter, ...]) -> None:
+        super().__init__(function, parameters)
+        self.depth = 0
+        self.unsigned: dict[str, bool] = {}
+
+    @abstractmethod
+    def give(self, name: str, kind: lang.Scalar, node: ast.AST) -> None:
+        """Note that a variable is given a value of a type."""
+
+    def name(self, node: ast.Name) -> Any:
+        """Return a variable, an argument, or a number of the module."""
+        return _integer(super().name(node))
+
+    def element(self, node: ast.Subscript) -> Any:
+        """Return an element of an array."""
+        return _integer(super().element(node))
+
+    def sign(self, node: ast.BinOp | ast.AugAssign) -> str:
+        """Return what an operation is called."""
+        values = (node.left, node.right) if isinstance(node, ast.BinOp) else (node.target, node.value)
+        if not isinstance(node.op, ast.Add | ast.Mult) and all(self.is_unsigned(x) for x in values):
+            raise Foreign("an operation without sign", node)
+        return super().sign(node)
+
+    def call(self, node: ast.Call) -> Any:
+        """Return what a function gives."""
+        called = self.of_module(node.func)
+        if called is np.int64 or called is np.uint32:
+            if len(node.args) != 1 or node.keywords:
+                raise Foreign("an integer of other than one value", node)
+            value = as_type("int", self.expression(node.args[0]))
+            return value if called is np.int64 else lang.Operation("int", "low", (value,))
+        if isinstance(called, Intrinsic) and not node.keywords:
+            return self.piece(called, node)
+        if any(self.is_unsigned(x) for x in node.args):
+            raise Foreign("an argument without sign", node)
+        return super().call(node)
+
+    def is_unsigned(self, node: ast.expr) -> bool:
+        """Whether Numba counts an integer without sign."""
+        if isinstance(node, ast.Subscript):
+            return isinstance(node.value, ast.Name) and self.arrays.get(node.value.id) == "unsigned"
+        if isinstance(node, ast.Name):
+            return self.numbers.get(node.id) == "unsigned" or self.unsigned.get(node.id, False)
+        if isinstance(node, ast.BinOp):
+            return self.is_unsigned(node.left) and self.is_unsigned(node.right)
+        if isinstance(node, ast.IfExp):
+            return self.is_unsigned(node.body) or self.is_unsigned(node.orelse)
+        return isinstance(node, ast.Call) and self.of_module(node.func) is np.uint32
+
+    def note_signs(self, node: ast.Assign) -> None:
+        """Note whether Numba counts the integers without sign that are given names."""
+        for target in node.targets:
+            if not isinstance(target, ast.Tuple) or not isinstance(node.value, ast.Tuple):
+                self.note_sign(target, node.value)
+                continue
+            for each, value in zip(target.elts, node.value.elts, strict=False):
+                self.note_sign(each, value)
+
+    def note_sign(self, target: ast.expr, value: ast.expr) -> None:
+        """Note whether Numba counts a local integer without sign: of two kinds it would make a third one."""
+        if isinstance(target, ast.Name):
+            found = self.is_unsigned(value)
+            if self.unsigned.setdefault(target.id, found) != found:
+                raise Foreign(f"variable '{target.id}' has two types", target)
+
+    def of_module(self, node: ast.expr) -> Any:
+        """Return what a name stands for that is none of the function, or one of NumPy; None for all else."""
+        if isinstance(node, ast.Name):
+            return None if node.id in self.locals else self.globals.get(node.id)
+        if isinstance(node, ast.Attribute) and self.of_module(node.value) is np:
+            return getattr(np, node.attr, None)
+        return None
+
+    def piece(self, called: Any, node: ast.Call) -> lang.Expression:
+        """Return what a piece of Numba's compiler gives."""
+        if called._name == "_compiled_bits" and len(node.args) == 1:
+            return lang.Operation("int", "bits", (as_type("float", self.expression(node.args[0])),))
+        if called._name not in ("_compiled_kernel", "_compiled_code"):
+            raise Foreign(f"the function '{called._name}'", node)
+        taken = called._defn.__code__.co_argcount - 1  # but for the first one, which is the compiler's
+        if len(node.args) != taken:
+            raise Foreign("a function with other arguments", node)
+        signature, _ = called._defn(None, *(None for _ in node.args))
+        if len(signature.args) != taken or signature.return_type is not types.int64:
+            raise Foreign("a function with other results", node)
+        address, *others = (self.handed(kind, x) for kind, x in zip(signature.args, node.args, strict=True))
+        return lang.Invoke("int", address, tuple(others))
+
+    def handed(self, kind: Any, node: ast.expr) -> lang.Expression | str:
+        """Return what an argument of a function is handed on as that is known by its address."""
+        if not isinstance(kind, types.Array):
+            return as_type(_ELEMENTS[kind], self.expression(node))
+        if not isinstance(node, ast.Name) or self.arrays.get(node.id) != _ELEMENTS[kind.dtype]:
+            raise Foreign("an array of another kind", node)
+        self.sized.add(node.id)  # whoever has compiled what is called may count indices from the end
+        return node.id
+
+    def view(self, node: ast.Assign) -> list[lang.Statement]:
+        """Return how an array of tables comes to its name; empty for any other assignment."""
+        value = node.value
+        if not isinstance(value, ast.Call) or getattr(self.of_module(value.func), "_name", "") != "_compiled_tables":
+            return []
+        names = [x.id for x in (*node.targets, *value.args) if isinstance(x, ast.Name)]
+        if self.depth or len(names) != 2 or len(node.targets) != 1 or self.arrays.get(names[1]) != "float":
+            raise Foreign("tables in another place", node)
+        name, owner = names
+        if name in self.arrays or name in self.variables or name in self.numbers:
+            raise Foreign(f"variable '{name}' has two types", node)
+        self.sized.add(owner)
+        self.arrays[name] = "unsigned"
+        count, start = lang.Shape(owner), f"{name}.start"  # no name of Python's
+        self.give(start, "int", node)
+        last = lang.Element("float", owner, lang.Operation("int", "sub", (count, lang.Constant("int", 1))))
+        first = lang.Variable("int", start)
+        size = lang.Operation("int", "mul", (lang.Operation("int", "sub", (count, first)), lang.Constant("int", 2)))
+        return [
+            lang.Assign(start, lang.Operation("int", "bits", (last,))),
+            lang.View(name, owner, first, size, type="unsigned"),
+        ]
+
+
+def _integer(value: Any) -> Any:
+    """Return a number of a table as an integer, anything else as it is."""
+    return as_type("int", value) if getattr(value, "type", None) == "unsigned" else value
