@@ -15,6 +15,7 @@ from symgen.analyses.actuators import WHERE, actuated
 from symgen.analyses.balancing import balance, checked_weights
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
+from symgen.describe.input_data import are_words_of_data
 from symgen.errors import InputError
 from symgen.result.derived import OfForces
 from symgen.result.labelled import Labelled, labelled
@@ -146,7 +147,8 @@ def inverse(
         moved = kinematics(mechanism, settings, times, where="inverse")
         if set(names or drivers) == set(drivers) and not weights:
             return _of_drivers(moved, names or drivers)
-        found, settings = recorded(moved), _with_known(settings, mechanism, recorded(moved))
+        found = recorded(moved)
+        settings = _with_known(settings, mechanism, found, names or drivers)
         return replace(_of_record(mechanism, settings, found, names or drivers, weights), ended=moved.ended)
     if times is not None:
         raise InputError("inverse: times", "the times of the motion that is given", "others")
@@ -154,11 +156,16 @@ def inverse(
         found = read_recorded("inverse: motion", Path(motion))
     else:
         found = recorded(motion)
-    return _of_record(mechanism, _with_known(settings, mechanism, found), found, names or drivers, weights)
+    sought = names or drivers
+    return _of_record(mechanism, _with_known(settings, mechanism, found, sought), found, sought, weights)
 
 
-def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded) -> Settings:
+def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded, sought: Sequence[str]) -> Settings:
     """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
+    for name, told in found.inputs.items():
+        if name in mechanism.inputs and name not in (*settings.inputs, *sought) and are_words_of_data(told):
+            expected = "the data of the recorded motion once more, of which it keeps no more than their number or file"
+            raise InputError(f"inverse: input '{name}'", expected, str(told))
     known = {p.name for p in mechanism.parameters if not p.input}
     parameters = {name: x for name, x in found.parameters.items() if name in known}
     inputs = {name: x for name, x in found.inputs.items() if name in mechanism.inputs}

@@ -257,4 +257,4 @@ def rates_of_joints(found: Prescribed, basis: Array) -> Array:
         return out[info.m + 1 :: 2]
 
     still = rates(np.zeros(info.nv))
-    return np.column_stack([rates(v) - still for v in basis.T]).reshape(len(info.joint_coordinates), -1)
+    return np.column_stack([rates(v) - still for v in basis.T]).reshape(len(info.joint_coordinates), basis.shape[1])

@@ -18,6 +18,7 @@ INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
 #: Bytes of a file of data.
 LARGEST_FILE = 50_000_000
 _FILE = re.compile(r"(?P<file>.+\.csv):(?P<column>[^:]+)(?::(?P<how>[^:]*))?", re.IGNORECASE)
+_WORDS = re.compile(rf".* \(({'|'.join(INTERPOLATIONS)})\)", re.DOTALL)
 _HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:\[[^\]]*\]\s*)?")
 
 
@@ -143,3 +144,8 @@ def _checked(where: str, t: object, u: object, how: str, source: str) -> Data:
         if not before < after:
             raise InputError(f"{where} times", "increasing times", f"{after!r} after {before!r}")
     return Data(times, values, how, f"{source or f'{len(times)} samples'} ({how})")
+
+
+def are_words_of_data(told: str | float) -> bool:
+    """Return whether what is told of an input are the words of data, which are no formula."""
+    return isinstance(told, str) and _WORDS.fullmatch(told) is not None

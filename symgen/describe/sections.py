@@ -49,13 +49,13 @@ class RunSection(msgspec.Struct, frozen=True, kw_only=True, forbid_unknown_field
     Parameters
     ----------
     until, step, output_step : float
-        End, step size and distance between outputs.
+        End, step size and distance between outputs; without a step a millisecond, or a hundredth of a shorter end.
     predictable_until : float
         How long a chaotic motion can be predicted; absent where it is not chaotic.
     """
 
     until: PositiveNumber = 10.0
-    step: PositiveNumber = 1e-3
+    step: PositiveNumber | None = None
     output_step: PositiveNumber | None = None
     predictable_until: PositiveNumber | None = None
 

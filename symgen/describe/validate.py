@@ -163,9 +163,11 @@ class _Validator:
             value = getattr(run, key)
             if value is not None and not math.isfinite(value):
                 raise InputError(f"{where}.{key}", "a finite number", str(value))
-        if run.step > run.until:
-            raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(run.step))
-        return Defaults(run.until, run.step, run.output_step, run.predictable_until, source)
+        usual = Defaults().step
+        step = run.step or (usual if run.until >= usual else 0.01 * run.until)
+        if step > run.until:
+            raise InputError(f"{where}.step", f"at most until = {run.until!r}", repr(step))
+        return Defaults(run.until, step, run.output_step, run.predictable_until, source)
 
     def parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters in the order of the file, then the inputs, formulas worked out with the defaults."""

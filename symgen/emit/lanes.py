@@ -105,7 +105,9 @@ def _over_lanes(block: Block, access: LaneAccess) -> Code:
     lines, alone = print_block(block, access), block.name == "rhs"
     counted = [f"z[SUSPECTS + lane] += 1.0*{lines.flag}"] if lines.flag and alone else []
     loop = [f"    {line}" for line in (*lines.inputs, *lines.terms, *lines.outputs, *counted)]
-    body = [*(["lanes = len(z) // NUMBERS"] if alone else []), "for lane in range(lanes):", *loop, "return 0"]
+    # nothing is left of a factorisation that parameters decide alone
+    over = ["for lane in range(lanes):", *loop] if loop else []
+    body = [*(["lanes = len(z) // NUMBERS"] if alone else []), *over, "return 0"]
     purpose = f"{block.purpose}: {block.operations} operations a lane."
     sections = [*(["numbers"] if alone else []), *(["suspects"] if counted else [])]
     arguments = "t, z" if alone else "t, z, lanes"

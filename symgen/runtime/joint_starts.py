@@ -88,8 +88,8 @@ class _Rows:
         self._geometry = Ready(self.compiled.model.geometry, abi.MEASURE)
 
     def scratch(self, w: Array) -> Array:
-        """Return scratch that has room for the rows, and begins as `w`."""
-        return np.concatenate([w, np.zeros(self.at - self.nw + len(self.chosen) * self.base.nv)])
+        """Return scratch that has room for the rows, and begins and ends as `w`: there looped code finds its tables."""
+        return np.concatenate([w, np.zeros(self.at - self.nw + len(self.chosen) * self.base.nv), w[-1:]])
 
     def geometry(self, t: float, y: Array, p: Array, w: Array) -> int:
         """Fill Phi, D and nu of all rows."""

@@ -32,9 +32,9 @@ HEAD = (
 )
 #: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
 #: step, 1 where it has just happened, 1 where g is on the other side by rounding alone, side at the lower end of the
-#: bracket; g and g' at the beginning and at the end of the step and of the bracket.
+#: bracket, how large g was in the step before; g and g' at the beginning and at the end of the step and of the bracket.
 COLUMNS = (
-    *("direction", "leaves", "side", "fired", "grazing", "local"),
+    *("direction", "leaves", "side", "fired", "grazing", "local", "size"),
     *("g_start", "d_start", "g_end", "d_end", "g_low", "d_low", "g_high", "d_high"),
 )
 N_HEAD, N_COLUMNS = len(HEAD), len(COLUMNS)
@@ -61,6 +61,7 @@ N_HEAD, N_COLUMNS = len(HEAD), len(COLUMNS)
     FIRED,
     GRAZING,
     LOCAL,
+    SIZE,
     G_START,
     D_START,
     G_END,
@@ -79,6 +80,8 @@ _COUNTERS = abi.N_COUNTERS
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 #: Notes that there is room for; a loop is left where half of it is taken.
 NOTES = 256
+#: A reset changes g by rounding alone below this part of its size in the step before.
+_SAME = 1e-6
 #: Times closer than this part of the time are the same.
 _RESOLVED = 4e-16
 #: Attempts at extrema, rounds in a bracket and events in a single step, at most.
@@ -160,6 +163,7 @@ def settle(hunt: A, n: int, ends: int) -> int:
         hunt[at + FIRED * n + k] = 1.0 if ends == 0 and fired == 1 else 0.0
         hunt[at + GRAZING * n + k] *= 1.0 if side * hunt[N_HEAD + N_COLUMNS * n + k] < 0.0 else 0.0
         hunt[at + SIDE * n + k] = side
+        hunt[at + SIZE * n + k] = max(abs(hunt[at + G_START * n + k]), abs(hunt[at + G_END * n + k]))
         hunt[at + G_START * n + k] = hunt[at + g * n + k]
         hunt[at + D_START * n + k] = hunt[at + d * n + k]
     return 0
@@ -212,6 +216,14 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
 
 
 @plain
+def away(hunt: A, n: int, k: int, g: float) -> int:
+    """Return 1 where the change of velocities at an event has taken its own g away from zero, else 0."""
+    at = N_HEAD
+    before, size = hunt[at + G_START * n + k], hunt[at + SIZE * n + k]
+    return 1 if abs(g - before) > max(_SAME * size, 16.0 * abs(before)) else 0
+
+
+@plain
 def look(hunt: A, n: int) -> int:
     """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
@@ -219,13 +231,14 @@ def look(hunt: A, n: int) -> int:
         g, rate, side = hunt[out + k], hunt[out + n + k], hunt[at + SIDE * n + k]
         if side == 0.0:  # not known yet: the run begins
             hunt[at + SIDE * n + k] = side_of(g, side_of(rate, -1.0))
-        elif hunt[at + FIRED * n + k] != 0.0:
+        elif hunt[at + FIRED * n + k] != 0.0 and away(hunt, n, k, g) == 0:
             # the state lies on the event up to rounding, so the rate says where it goes to; at rest it may happen again
             side = side_of(rate, -side)
             hunt[at + SIDE * n + k] = side
             hunt[at + GRAZING * n + k] = 1.0 if side * g < 0.0 and rate != 0.0 else 0.0
-        elif asked(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
+        elif hunt[at + FIRED * n + k] != 0.0 or asked(hunt[at + DIRECTION * n + k], side, side_of(g, side)) == 0:
             hunt[at + SIDE * n + k] = side_of(g, side)  # what velocities jump to is no event
+            hunt[at + GRAZING * n + k] = 0.0
         hunt[at + G_START * n + k], hunt[at + D_START * n + k] = g, rate
     return 0
 

@@ -236,6 +236,19 @@ def test_a_motion_that_the_actuators_cannot_give_is_said(pendulum):
     assert found.missing.max() > 0.1
 
 
+def test_data_of_a_recorded_motion_are_asked_for_again(pendulum):
+    """Not taken for a formula, and not for the default: with the same data the spring is what it was."""
+    t = np.linspace(0.0, 0.5, 6)
+    data = {"t": t, "u": 3.0 * np.sin(4.0 * t), "interpolation": "cubic"}
+    run = pendulum.simulate(until=0.5, step=1e-3, output_step=0.1, inputs={"push": data})
+    with pytest.raises(InputError, match=r"input 'push': expected the data .* once more, .* got 6 samples \(cubic\)$"):
+        pendulum.inverse(run, actuators=["held"])
+    found = pendulum.inverse(run, actuators=["push"])
+    assert np.abs(found.efforts["push"] - data["u"]).max() < 1e-9
+    again = pendulum.inverse(run, actuators=["held"], inputs={"push": data})
+    assert np.abs(again.efforts["held"] - run["held.torque"]).max() < 1e-9
+
+
 def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     """A double pendulum whose first rod is driven: the motor's torque is what the run reports."""
     raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))

@@ -183,3 +183,11 @@ def test_load_takes_other_values_for_parameters():
     assert [p.value for p in changed.parameters] == [3.0, 8.0, 5.0]
     assert changed.parameters[0].unit == "kg"
     assert changed.bodies == load("four-bar").bodies
+
+
+@pytest.mark.parametrize(("until", "step"), [(10.0, 1e-3), (2e-3, 1e-3), (1e-3, 1e-3), (5e-4, 5e-6), (2e-9, 2e-11)])
+def test_a_file_of_a_short_motion_need_not_say_its_step(until, step):
+    raw = tomllib.loads(PENDULUM) | {"run": {"until": until}}
+    assert validate(raw, "").defaults.step == pytest.approx(step, rel=1e-15)
+    with pytest.raises(InputError, match=r"run\.step: expected at most until"):
+        validate(raw | {"run": {"until": until, "step": 2.0 * until}}, "")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.emitted import mechanism_of
 
 import symgen
 from symgen.compiling.pipeline import choose_method, compile_model, generate
@@ -81,6 +82,18 @@ def test_spatial_rows_are_those_of_single_runs(method):
     )
     assert lanes.counts == single.counts
     np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-9 * scale(single.values))
+
+
+def test_a_slider_whose_factorisation_is_that_of_constants():
+    """Nothing is left to be factorised for each run; x = 1 - cos(t/sqrt(m))."""
+    body = {"mass": "m", "inertia": 0.1}
+    guide = {"type": "translational", "between": ["ground", "b"], "at": [[0.0, 0.0], "centre"], "axis": [1.0, 0.0]}
+    raw = {"mechanism": {"name": "slider"}, "parameters": {"m": 1.0}, "bodies": {"b": body}, "joints": {"guide": guide}}
+    raw["forces"] = {"spring": {"type": "force", "body": "b", "force": ["1 - b.x", "0"]}}
+    masses = np.array([1.0, 2.0])
+    settings = {"integrator": "rk4", "step": 1e-3, "until": 1.0, "target": "lanes"}
+    found = symgen.sweep(mechanism_of(raw), {"m": masses}, method="direct-correction", **settings)
+    np.testing.assert_allclose(found["b.x"][:, -1], 1.0 - np.cos(1.0 / np.sqrt(masses)), rtol=0.0, atol=1e-12)
 
 
 def test_runs_that_do_not_go_well_are_left_to_single_runs():

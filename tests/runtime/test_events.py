@@ -59,6 +59,19 @@ def test_a_ball_bounces_until_its_impacts_accumulate(integrator, step):
     assert result.end < end and end - result.end < 1e-8 and result.t[-1] == result.end
 
 
+@pytest.mark.parametrize("settings", [{"integrator": "rk4", "step": 0.03}, {"integrator": "dop853"}], ids=str)
+@pytest.mark.parametrize("when", ["ball.vy + 2.5", "ball.vy < -2.5", "2.5 + ball.vy < 0 and t > 0.1"])
+def test_a_speed_that_is_set_back_where_it_is_met_is_met_again_and_again(when, settings):
+    """A falling ball is slowed to 1 m/s whenever it has 2.5: the reset takes the event's function away from zero."""
+    model = ball(brake={"when": when, "reset": {"ball.vy": "-1"}}, felt={"when": when, "action": "record"})
+    result = model.simulate(method="lagrange", until=1.0, **settings)
+    expected = np.arange(2.5, 1.0 * G, 1.5) / G
+    assert result.ok and len(expected) == 5
+    for name in ("brake", "felt"):
+        np.testing.assert_allclose(times_of(result, name), expected, rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(result["ball.vy"][-1], 1.5 * len(expected) - G, rtol=0.0, atol=1e-11)
+
+
 def test_energy_that_impacts_take_is_work():
     result = ball(**BOUNCE).simulate(method="lagrange", until=2.0)
     assert result.ok and len(result.events) == 4

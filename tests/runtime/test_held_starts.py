@@ -28,10 +28,10 @@ def model(tables):
     return symgen.load(mechanism_of(tables))
 
 
-def started(tables, held=None, method="lagrange"):
+def started(tables, held=None, method="lagrange", shape="straight"):
     """The values that a start has, by name."""
     found = model(tables)
-    compiled = found.compile(method)
+    compiled = found.compile(method, shape=shape)
     start = found.assemble(compiled, held=held)
     names = [q.name for q in (*compiled.info.coordinates, *compiled.info.velocities)]
     return dict(zip(names, start.y.tolist(), strict=False)), start
@@ -196,12 +196,14 @@ def turn(axis: int, angle: float):
     return m
 
 
-@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
-def test_revolute_joints_in_space(method):
+@pytest.mark.parametrize(
+    ("method", "shape"), [("lagrange", "straight"), ("direct-correction", "straight"), ("lagrange", "looped")]
+)
+def test_revolute_joints_in_space(method, shape):
     """Two pins one behind the other, one of them more than half a turn from where it is described."""
     hub, pin, rates = 4.0, -0.7, (1.5, -2.0)
     held = {"hub.angle": hub, "pin.angle": pin, "hub.rate": rates[0], "pin.angle.rate": rates[1]}
-    q, _ = started(copy.deepcopy(SWING), held, method)
+    q, _ = started(copy.deepcopy(SWING), held, method, shape)
     first = turn(2, hub)
     second = first @ turn(1, pin)
     place = first @ [0.4, 0.0, 0.0] + second @ [0.3, 0.0, 0.0]
@@ -210,7 +212,7 @@ def test_revolute_joints_in_space(method):
     np.testing.assert_allclose([q["rod.wx"], q["rod.wy"], q["rod.wz"]], second.T @ spin, atol=1e-13)
     speed = np.cross([0.0, 0.0, rates[0]], first @ [0.4, 0.0, 0.0]) + np.cross(spin, second @ [0.3, 0.0, 0.0])
     np.testing.assert_allclose([q["rod.vx"], q["rod.vy"], q["rod.vz"]], speed, atol=1e-13)
-    found = model(copy.deepcopy(SWING)).simulate(start=held, method=method, until=0.01, step=1e-3)
+    found = model(copy.deepcopy(SWING)).simulate(start=held, method=method, until=0.01, step=1e-3, shape=shape)
     assert found["hub.angle"][0] == pytest.approx(hub, abs=1e-14), "turns are counted from there"
     assert found["pin.angle.rate"][0] == pytest.approx(rates[1], abs=1e-13)
 
