@@ -8,7 +8,7 @@ from typing import Any, Protocol
 from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import Parts, accept_kind
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
@@ -225,7 +225,7 @@ def straight(
     observed = of_observed(equations) if isinstance(equations, Equations) else {}
     codes = []
     for block in blocks:
-        lines = print_block(block, ElementAccess(layout, names | observed if block.name == "observe" else names))
+        lines = Printer(block, ElementAccess(layout, names | observed if block.name == "observe" else names)).lines()
         body: list[str] = []
         for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
             body += [f"# {title}", *part] if part else []

@@ -171,8 +171,7 @@ def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[st
     model = SideModel(mechanism, turning=turning, rows=rows)
     for force in mechanism.forces:
         totals = [exertion(model, effort).total for effort in force.efforts]
-        found = (model.graph.nodes[n] for n in model.graph.needed(totals))
-        if any(o.op == "input" and isinstance(o.payload, tuple) and o.payload[0] == "v" for o in found):
+        if any(space == "v" for space, _ in model.graph.keys(totals)):
             return True
     return False
 
@@ -183,11 +182,7 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     wanted = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
     wanted += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
     wanted += [n for row in e.rows for _, n in row.entries]
-    keys = {
-        key: g.input(*key)
-        for n in e.graph.needed(wanted)
-        if e.graph.nodes[n].op == "input" and isinstance(key := e.graph.nodes[n].payload, tuple)
-    }
+    keys = {key: g.input(*key) for key in e.graph.keys(wanted)}
     image = dict(zip(wanted, g.inline(e.graph, wanted, keys), strict=True))
     velocities = [g.input("v", i) for i in range(e.nv)]
     rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]
@@ -231,15 +226,14 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
         for label, measure in joint.coordinates
     ]
     if model.tree is not None:  # where bodies are carried their coordinates are quantities of the state as well
-        bodies = mechanism_bodies(model)
-        named += [(name, "", model.names[name]) for name in bodies]
+        named += [
+            (f"{b.name}.{c}", "", model.names[f"{b.name}.{c}"])
+            for b in model.mechanism.bodies
+            for c in (*b.coordinates, *b.speeds)
+        ]
     named += [(o.name, o.unit, model.expression(o.value)) for o in model.mechanism.outputs]
     for name, unit, value in named:
-        spaces = {
-            key[0]
-            for n in model.graph.needed([value])
-            if model.graph.nodes[n].op == "input" and isinstance(key := model.graph.nodes[n].payload, tuple)
-        }
+        spaces = {space for space, _ in model.graph.keys([value])}
         if spaces & {"z", "status"}:
             continue  # an integral has a history, not a value of the state
         chain = [value]
@@ -252,11 +246,6 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
         found.append(Function(name, unit, len(chain)))
         nodes += chain
     return tuple(found), nodes
-
-
-def mechanism_bodies(model: SideModel) -> list[str]:
-    """Return the names of coordinates and velocities of all bodies."""
-    return [f"{b.name}.{c}" for b in model.mechanism.bodies for c in (*b.coordinates, *b.speeds)]
 
 
 def _has_second_slopes(model: SideModel, node: int) -> bool:

@@ -40,9 +40,8 @@ class SideProgram:
     @property
     def reads(self) -> tuple[str, ...]:
         """What the function reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
-        graph = self.blocks[0].graph
-        found = (graph.nodes[n] for n in graph.needed(self.blocks[0].nodes))
-        return tuple(sorted({str(o.payload[0]) for o in found if o.op == "input" and isinstance(o.payload, tuple)}))
+        first = self.blocks[0]
+        return tuple(sorted({space for space, _ in first.graph.keys(first.nodes)}))
 
 
 @dataclass
@@ -105,12 +104,7 @@ def moved(
 ) -> tuple[Graph, list[int]]:
     """Return a graph of its own for some nodes, inputs renamed."""
     graph = Graph()
-    keys = {
-        key: graph.input(*renamed(key))
-        for n in source.needed(nodes)
-        if source.nodes[n].op == "input" and isinstance(key := source.nodes[n].payload, tuple)
-    }
-    return graph, graph.inline(source, nodes, keys)
+    return graph, graph.inline(source, nodes, {key: graph.input(*renamed(key)) for key in source.keys(nodes)})
 
 
 def lower_side(
