@@ -19,7 +19,8 @@ from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
-from symgen.vocabulary.measures import Holonomic, Measure
+from symgen.lower.windings import Beside
+from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
@@ -71,9 +72,7 @@ class LinearisedProgram:
 def lower_linearised(
     mechanism: Mechanism,
     by: Sequence[str],
-    turning: Sequence[Measure],
-    sections: Mapping[str, tuple[int, int]],
-    rows: Mapping[str, int],
+    beside: Beside,
     groups: Sequence[str] = (),
 ) -> LinearisedProgram:
     """Lower the descriptor form with its derivatives.
@@ -85,8 +84,8 @@ def lower_linearised(
     by : sequence of str
         Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
         the description follows them here too.
-    turning, sections, rows
-        As for `symgen.lower.side.lower_side`.
+    beside : Beside
+        What may be read of the compiled model.
     groups : sequence of str
         Groups that are wanted, with derivatives by state, v' and multipliers alone; by default everything.
 
@@ -96,7 +95,7 @@ def lower_linearised(
         If numbers that meet in a formula overflow.
     """
     equations = formulate(mechanism)
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     g = model.graph
     values = {name: nodes for name, nodes in _descriptor(model, equations).items() if not groups or name in groups}
     elements, parts = ((), []) if groups else _elements(model)
@@ -127,7 +126,7 @@ def lower_linearised(
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
     labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
-    side = side_program(mechanism, (block,), sections, labels)
+    side = side_program(mechanism, (block,), beside, labels)
     return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
 
 
@@ -164,11 +163,11 @@ def _followed(
     return found
 
 
-def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[str, int]) -> bool:
+def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
     """Whether a force depends on velocities, or a joint is a condition on them: else motions at rest only oscillate."""
     if any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
         return True
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     for force in mechanism.forces:
         totals = [exertion(model, effort).total for effort in force.efforts]
         if any(space == "v" for space, _ in model.graph.keys(totals)):
