@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime import abi, hunting
+from symgen.runtime import abi, hunting, searching
 from symgen.runtime.hunting_records import HuntingState
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
@@ -77,8 +77,13 @@ class Watched:
 
     def hunting_state(self, sizes: Sizes, state: State) -> HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
-        leaves = [action != RECORD for action in self.actions]
-        hunt = hunting.new_hunt(sizes, len(state.w), self.directions, leaves, self.needs_rates)
+        n = len(self.names)
+        first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
+        hunt = np.zeros(first + searching.NOTES * (2 + sizes.width))
+        hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
+        columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
+        columns[searching.DIRECTION] = self.directions
+        columns[searching.LEAVES] = [action != RECORD for action in self.actions]
         return HuntingState(*state, hunt)
 
 

@@ -23,7 +23,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime import watch as watching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import integrate
-from symgen.runtime.instances import instance
+from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
 from symgen.runtime.redundancy import never
@@ -320,5 +320,5 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
 _FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
 lane_runs = compiled_loop(
     *(__name__, "lane_runs", run_lanes, types.int64(*_FUNCTIONS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
-    integrate=instance(integrate, _MEANINGS),
+    integrate=Instances(_MEANINGS).of(integrate),
 )
