@@ -19,15 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CoordinateChoice:
-    """Coordinates, and why.
-
-    Attributes
-    ----------
-    coordinates : {"absolute", "joint"}
-        What the state is made of.
-    reason : str
-        One sentence.
-    """
+    """Coordinates, ``absolute`` or ``joint``, and why in one sentence."""
 
     coordinates: str
     reason: str
@@ -47,14 +39,7 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
 def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:
     """Decide the coordinates of a run.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is run.
-    asked : str
-        One of `symgen.settings.COORDINATES`.
-    shape : str
-        The shape of code that was asked for, or that bodies' own coordinates would have.
+    `shape` is that of the code that was asked for, or that bodies' own coordinates would have.
 
     Raises
     ------

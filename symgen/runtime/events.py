@@ -59,16 +59,9 @@ class Watched:
     masses: Masses | None = None
 
     def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Return what resets at one time do to a state; see `symgen.runtime.resets.impact_of`.
+        """Return what resets at one time, by `numbers` of events, do to a state; the geometry of `w` is written.
 
-        Parameters
-        ----------
-        compiled : CompiledModel
-            Model and method.
-        numbers : sequence of int
-            Which events.
-        t, y, p, w
-            Time, state, parameters and scratch, whose geometry is written.
+        See `symgen.runtime.resets.impact_of`.
         """
         assert self.masses is not None, "where there are resets, it is known what they are the shortest in"
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
@@ -122,15 +115,6 @@ class Happening:
 class Events:
     """What happens in a run.
 
-    Parameters
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    watched : Watched
-        Its events.
-    until : float
-        End of the run [s].
-
     Attributes
     ----------
     happened : list of Happening
@@ -160,14 +144,7 @@ class Events:
         return found
 
     def meet(self, state: HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
-        """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
-
-        Parameters
-        ----------
-        state : State
-            At the events; changed by resets.
-        found : sequence of (int, Happening)
-            From `take`.
+        """Do what the events `found` by `take` ask for, at which a loop was left; return `DONE` where it may go on.
 
         Raises
         ------

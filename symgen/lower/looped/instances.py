@@ -63,13 +63,7 @@ class Instance:
 
 
 def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
-    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A validated mechanism.
-    """
+    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out."""
     mechanism, _ = without_repeats(mechanism)
     known = _Known(
         mechanism,

@@ -100,15 +100,7 @@ def kernel_stem(instance: Instance) -> str:
 
 
 def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
-    """Lower the kernel of an element.
-
-    Parameters
-    ----------
-    element : Element
-        The derived element.
-    instance : Instance
-        Any instance of it.
-    """
+    """Lower the kernel of an element, of which `instance` may be any."""
     return _Kernel(element, instance).program()
 
 
