@@ -104,7 +104,8 @@ class TreeRun:
         for i in range(info.windings):
             w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
-        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": self._noted(outcome)}
+        start = replace(self.body_start, notes=outcome.start.notes)
+        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
         values |= {"p": self._parameters(outcome.p), "w": w, "happened": self._happened(outcome)}
         values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
         last = outcome.simulation.state.y
@@ -158,10 +159,6 @@ class TreeRun:
         y[: info.work] = state
         blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
         return after, blow.impulses
-
-    def _noted(self, outcome: Outcome) -> Start:
-        """Return the start of bodies with what was said of that of the run."""
-        return replace(self.body_start, notes=outcome.start.notes)
 
     def _parameters(self, numbers: Array) -> Array:
         """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""

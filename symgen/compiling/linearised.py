@@ -32,15 +32,7 @@ NAME = "linearised"
 
 @dataclass(frozen=True)
 class Evaluated:
-    """Values and derivatives at one state, by group.
-
-    Attributes
-    ----------
-    form : DescriptorForm
-        What was evaluated.
-    out : Array
-        All numbers.
-    """
+    """All values and derivatives of a descriptor form at one state, by group."""
 
     form: DescriptorForm
     out: Array

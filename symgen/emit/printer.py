@@ -91,12 +91,7 @@ class ElementAccess(Access):
 class LaneAccess(ElementAccess):
     """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
 
-    Parameters
-    ----------
-    bases : mapping of str to int
-        Where each array of a single run begins.
-    lanes : int
-        How many runs.
+    `bases` say where each array of a single run begins.
     """
 
     bases: Mapping[str, int]

@@ -70,10 +70,7 @@ class LinearisedProgram:
 
 
 def lower_linearised(
-    mechanism: Mechanism,
-    by: Sequence[str],
-    beside: Beside,
-    groups: Sequence[str] = (),
+    mechanism: Mechanism, by: Sequence[str], beside: Beside, groups: Sequence[str] = ()
 ) -> LinearisedProgram:
     """Lower the descriptor form with its derivatives.
 

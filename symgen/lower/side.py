@@ -106,12 +106,7 @@ def moved(
 
 
 def lower_side(
-    mechanism: Mechanism,
-    name: str,
-    purpose: str,
-    formulas: Sequence[tuple[str, Expr]],
-    beside: Beside,
-    rates: int = 0,
+    mechanism: Mechanism, name: str, purpose: str, formulas: Sequence[tuple[str, Expr]], beside: Beside, rates: int = 0
 ) -> SideProgram:
     """Lower formulas of a run.
 

@@ -32,17 +32,7 @@ Integers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Assembly:
-    """The one start of a compiled model.
-
-    Attributes
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    layout : Layout
-        See `symgen.runtime.start_records`.
-    strict : bool
-        Whether a start that has to be changed is refused.
-    """
+    """The one start of a compiled model; where it is `strict`, one that has to be changed is refused."""
 
     compiled: CompiledModel
     layout: Layout

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi, hunting, searching
-from symgen.runtime.hunting_records import HuntingState
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ class Watched:
         where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
         return impact_of(compiled, [self.resets[n] for n in numbers], self.masses, where, t, y, p, w)
 
-    def hunting_state(self, sizes: Sizes, state: State) -> HuntingState:
+    def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
         n = len(self.names)
         first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
@@ -77,7 +76,7 @@ class Watched:
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
         columns[searching.DIRECTION] = self.directions
         columns[searching.LEAVES] = [action != RECORD for action in self.actions]
-        return HuntingState(*state, hunt)
+        return hunting.HuntingState(*state, hunt)
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ class Events:
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
 
-    def take(self, state: HuntingState) -> list[tuple[int, Happening]]:
+    def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Return what a loop has noted since it was last asked, with numbers of events, and remember it."""
         info, found = self.compiled.info, []
         for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w)):
@@ -143,7 +142,7 @@ class Events:
             self.happened.append(event)
         return found
 
-    def meet(self, state: HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
+    def meet(self, state: hunting.HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
         """Do what the events `found` by `take` ask for, at which a loop was left; return `DONE` where it may go on.
 
         Raises
@@ -164,7 +163,7 @@ class Events:
 
     # -- resets --------------------------------------------------------------------------------------------------------
 
-    def _reset(self, state: HuntingState, numbers: Sequence[int]) -> None:
+    def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
         info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
         y, w = state.y[: info.ny].copy(), state.w.copy()
         found = watched.impact(self.compiled, numbers, now, y, state.p, w)

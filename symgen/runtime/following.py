@@ -96,16 +96,7 @@ def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) ->
 
 @jit()
 def attempt(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    spread: Any,
-    observe: Any,
-    course: Any,
-    h: float,
-    p: Any,
-    w: Any,
-    stand: Any,
+    geometry: Any, measure: Any, move: Any, spread: Any, observe: Any, course: Any, h: float, p: Any, w: Any, stand: Any
 ) -> int:
     """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
@@ -226,10 +217,7 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
 
 
 @from_its_source(
-    _I8(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE),
-        *(f.COURSE, _A, _A, _A, f.STAND, f.FOLLOWED, _K),
-    )
+    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(f.COURSE, _A, _A, _A, f.STAND, f.FOLLOWED, _K))
 )
 def follow(
     geometry: Any,

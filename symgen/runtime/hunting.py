@@ -9,7 +9,7 @@ as if nothing had been.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -18,13 +18,33 @@ from numpy.typing import NDArray
 from symgen.runtime import abi, frame, searching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import evaluate, integrate
-from symgen.runtime.hunting_records import HUNTING_STATE, HuntingRun, HuntingScheme, HuntingSystem
+from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, State, System, record
 from symgen.runtime.vectors import copied
 
 Array = NDArray[np.float64]
+
+
+#: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
+HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
+#: A `Run` with what is kept of events.
+HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
+#: A `System` with the functions of events.
+HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", module=__name__)
+
+
+class HuntingScheme(NamedTuple):
+    """A scheme's record with the functions of events: switching functions with their rates, and what decides."""
+
+    scheme: Any
+    happens: Any
+    decide: Any
+
+
+#: How compiled loops see what a run keeps.
+HUNTING_STATE = types.NamedTuple((*STATE.types, STATE.types[0]), HuntingState)
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
@@ -32,10 +52,7 @@ Array = NDArray[np.float64]
 
 def opened(sizes: Any, state: Any) -> Any:
     """Return what a run keeps, its working memory in parts, and what it keeps of events."""
-    s, width = bare(state), sizes.width
-    trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
-    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
-    return HuntingRun(*kept, s.share, s.metric, s.scales, room, s.hunt)
+    return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
 
 
 def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:

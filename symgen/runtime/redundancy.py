@@ -25,16 +25,7 @@ LARGEST = 250_000
 
 @exact(_N(_N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
 def farthest(
-    m: int,
-    n: int,
-    kept: int,
-    least: float,
-    entries: Any,
-    constants: Any,
-    jacobian: int,
-    gauge: int,
-    w: Any,
-    room: Any,
+    m: int, n: int, kept: int, least: float, entries: Any, constants: Any, jacobian: int, gauge: int, w: Any, room: Any
 ) -> int:
     """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
 
@@ -94,16 +85,7 @@ def farthest(
 
 @exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _A, _A))
 def choose_rows(
-    m: int,
-    n: int,
-    kept: int,
-    entries: Any,
-    constants: Any,
-    jacobian: int,
-    gauge: int,
-    mask: int,
-    w: Any,
-    room: Any,
+    m: int, n: int, kept: int, entries: Any, constants: Any, jacobian: int, gauge: int, mask: int, w: Any, room: Any
 ) -> int:
     """Mask all rows but `kept` ones, chosen by `farthest`, which says what the arguments are.
 

@@ -28,15 +28,7 @@ _TOLD = 6
 
 @dataclass(frozen=True)
 class Change:
-    """A coordinate or given velocity that was changed to make a start consistent.
-
-    Attributes
-    ----------
-    name, unit : str
-        What it is.
-    before, after : float
-        As described, and at the start.
-    """
+    """A coordinate or given velocity that was changed to make a start consistent: as described, and at the start."""
 
     name: str
     unit: str

@@ -23,10 +23,7 @@ _A, _I = types.float64[::1], types.int64[::1]
 
 
 @exact(
-    types.int64(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS),
-        *(LAYOUT, INSTANT, ASKED, WORK),
-    )
+    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK))
 )
 def close_row(
     geometry: Any,
@@ -150,10 +147,7 @@ def _reach(
 
 
 @exact(
-    types.int64(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS),
-        *(LAYOUT, INSTANT, ASKED, WORK, _I, _I),
-    )
+    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK, _I, _I))
 )
 def close_rows(
     geometry: Any,

@@ -120,10 +120,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         elif not near and control[abi.IN_ZONE] == 1:
             gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
         k = control[abi.EVENTS] - 1
-        fresh = (near and control[abi.IN_ZONE] == 0) or (
-            not near and control[abi.IN_ZONE] == 0 and rank != control[abi.LAST_RANK]
-        )
-        if fresh:
+        if control[abi.IN_ZONE] == 0:
             k += 1
             control[abi.EVENTS] += 1
             if k < _MAX_EVENTS:
