@@ -95,18 +95,12 @@ def start_of(
     ask_light: bool = False,
     near: NDArray[np.float64] | None = None,
 ) -> Start:
-    """Return the consistent start of a run.
+    """Return the consistent start of a run; see `symgen.runtime.assembly.assemble`.
 
     Parameters
     ----------
-    mechanism : Mechanism
-        The description.
-    compiled : CompiledModel
-        Its compiled form for a method.
     parameters, method_parameters : mapping, optional
         Values of parameters that differ from the described ones, and from the method's defaults.
-    strict, ask_light
-        See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
         What is kept while everything else moves; what the description holds by default.
     near : array, optional
@@ -117,7 +111,7 @@ def start_of(
     AssemblyError
         If the mechanism cannot be closed.
     InputError
-        If the start is refused; see `symgen.runtime.assembly.assemble`.
+        If the start is refused.
     """
     values = parameter_values(mechanism, parameters)
     numbers = scalars(values)

@@ -130,21 +130,9 @@ def integrate_with_events(
     state: Any,
     outputs: Any,
 ) -> int:
-    """Integrate as `symgen.runtime.frame.integrate` does, and look for events.
+    """Integrate as `symgen.runtime.frame.integrate` does, and look for events; `state` is a `HuntingState`.
 
-    Parameters
-    ----------
-    rhs, confirm, accept, turn, residual, tangent, scheme, sizes, span, outputs
-        As there.
-    happens, decide : emitted function, function
-        Switching functions with their rates, and `symgen.runtime.searching.decide`.
-    state : HuntingState
-        What the run keeps; changed.
-
-    Returns
-    -------
-    int
-        How it ended, see `symgen.runtime.abi`.
+    Further arguments are switching functions with their rates, and `symgen.runtime.searching.decide`.
     """
     hunting = HuntingScheme(scheme, happens, decide)
     return int(integrate(rhs, confirm, accept, turn, residual, tangent, hunting, sizes, span, state, outputs))
@@ -158,12 +146,9 @@ _loops: dict[Any, Any] = {}
 
 
 def with_events(loop: Any) -> Any:
-    """Return the loop that looks for events and is otherwise the same; made when it is first asked for.
+    """Return the loop that looks for events and is otherwise the same as one from `symgen.runtime.frame.loop`.
 
-    Parameters
-    ----------
-    loop : compiled loop
-        From `symgen.runtime.frame.loop`.
+    It is made when it is first asked for.
     """
     if loop is None:  # an integrator whose loop depends on the model
         return None

@@ -107,26 +107,14 @@ class Integrator(Protocol):
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with.
 
-        Parameters
-        ----------
-        compiled : CompiledModel
-            Model and method.
-        spec : RunSpec
-            What the run is to do.
-        w : Array
-            Scratch of a consistent start, with the mask of redundant rows.
+        `w` is the scratch of a consistent start, with the mask of redundant rows.
         """
 
 
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     """Return the emitted functions that a loop takes first, 0 in place of those that it does not call.
 
-    Parameters
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    *names : str
-        What is called beside ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
+    It calls `names`, ``turn``, ``residual`` or ``tangent``, beside ``rhs``, ``confirm`` and ``accept``.
     """
     from symgen.runtime.manifold import stay
 
