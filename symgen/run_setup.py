@@ -95,12 +95,18 @@ def start_of(
     ask_light: bool = False,
     near: NDArray[np.float64] | None = None,
 ) -> Start:
-    """Return the consistent start of a run; see `symgen.runtime.assembly.assemble`.
+    """Return the consistent start of a run.
 
     Parameters
     ----------
+    mechanism : Mechanism
+        The description.
+    compiled : CompiledModel
+        Its compiled form for a method.
     parameters, method_parameters : mapping, optional
         Values of parameters that differ from the described ones, and from the method's defaults.
+    strict, ask_light
+        See `symgen.runtime.assembly.assemble`.
     held : Held or sequence of Hold, optional
         What is kept while everything else moves; what the description holds by default.
     near : array, optional
@@ -111,7 +117,7 @@ def start_of(
     AssemblyError
         If the mechanism cannot be closed.
     InputError
-        If the start is refused.
+        If the start is refused; see `symgen.runtime.assembly.assemble`.
     """
     values = parameter_values(mechanism, parameters)
     numbers = scalars(values)

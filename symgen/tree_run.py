@@ -57,8 +57,10 @@ class TreeRun:
         As described, and with its tree.
     compiled, start : CompiledModel, Start
         In joint coordinates.
-    bodies, body_start : CompiledModel, Start
-        In the bodies' own, and where the same run would begin there.
+    bodies : CompiledModel
+        In the bodies' own.
+    body_start : Start
+        Where the same run would begin there.
     events : tuple of Event
         That are looked for.
     """

@@ -32,8 +32,16 @@ _FOLLOWED = {
 def emit_integrals(program: SideProgram, law: str, names: Collection[str], power: int) -> str:
     """Return the source of a law's module whose right-hand side has rates of integrals behind that of the work.
 
-    The law's own module, of the stem `law` in the same folder, has these names; a residual leaves the rate of the work
-    at place `power` of ``w``.
+    Parameters
+    ----------
+    program : SideProgram
+        From `symgen.lower.side.lower_integrands`.
+    law : str
+        Stem of the law's module, in the same folder.
+    names : collection of str
+        What that module has.
+    power : int
+        Where in ``w`` a residual leaves the rate of the work.
     """
     codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
     exports = [name for name in names if name not in _FOLLOWED]

@@ -85,12 +85,16 @@ def factorise(
     order: Sequence[int],
     reciprocal: Callable[[int, int, int], int],
 ) -> Factor:
-    """Build the factorisation of a symmetric matrix of nodes, eliminated in an order.
+    """Build the factorisation of a symmetric matrix of nodes.
 
     Parameters
     ----------
+    graph : Graph
+        Where the nodes live.
     matrix : mapping of (row, column) to node
         Both triangles; structurally zero entries absent.
+    order : sequence of int
+        Elimination order.
     reciprocal : callable
         ``reciprocal(row, pivot, diagonal)`` returns the node used for 1 / pivot: 0 for a row to be skipped.
     """

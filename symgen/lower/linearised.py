@@ -76,9 +76,13 @@ def lower_linearised(
 
     Parameters
     ----------
+    mechanism : Mechanism
+        A validated mechanism, with or without a tree.
     by : sequence of str
         Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
         the description follows them here too.
+    beside : Beside
+        What may be read of the compiled model.
     groups : sequence of str
         Groups that are wanted, with derivatives by state, v' and multipliers alone; by default everything.
 

@@ -17,6 +17,13 @@ class Replay:
     A vector is a tuple of nodes: one an element, or one for the general element of a loop. A scalar is a node. Kinds of
     operations are methods of subclasses, called ``_on_<kind>``; arithmetic is here.
 
+    Parameters
+    ----------
+    graph : Graph
+        Where nodes are made.
+    operations : tuple of Operation
+        The tape.
+
     Attributes
     ----------
     mask : tuple of int

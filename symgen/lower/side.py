@@ -47,7 +47,13 @@ class SideProgram:
 
 @dataclass
 class SideModel(Model):
-    """The names of a mechanism as nodes; angles whose turns are counted are those that the model remembers."""
+    """The names of a mechanism as nodes; angles whose turns are counted are those that the model remembers.
+
+    Parameters
+    ----------
+    beside : Beside
+        What they may read of the compiled model.
+    """
 
     beside: Beside = field(kw_only=True)
 
@@ -106,10 +112,14 @@ def lower_side(
 
     Parameters
     ----------
+    mechanism : Mechanism
+        What they are about.
     name, purpose : str
         Of the function.
     formulas : sequence of (str, Expr)
         What each is called, for people, and the formula.
+    beside : Beside
+        What they may read of the compiled model.
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; v' counts as constant.
 

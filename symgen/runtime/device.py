@@ -129,7 +129,12 @@ class ForgivingMath:
 def on_device(function: Any, **meanings: Any) -> Any:
     """Return a function of the runtime, and what it calls, as device functions.
 
-    Global names have these meanings beside those that differ for all: helpers, and sizes.
+    Parameters
+    ----------
+    function : compiled or plain function
+        Its Python source is what counts.
+    **meanings
+        What global names mean on the device beside those that differ for all: helpers, and sizes.
     """
     common: dict[str, Any] = {"bare": same, "part": cut, **PLAIN, **meanings}
     if simulated():

@@ -371,10 +371,18 @@ def kinds_of(functions: Iterable[str]) -> list[Any]:
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
-    """Return the compiled loop around the step of a scheme, held by the variable `name` of a module.
+    """Return the compiled loop around the step of a scheme.
 
-    `scheme` is the Numba type of its record; it calls these functions beside ``rhs``, ``confirm`` and ``accept``, and
-    gives these meanings to names of the frame.
+    Parameters
+    ----------
+    module, name : str
+        The module variable that holds it.
+    scheme : Numba type
+        Of the scheme's record.
+    *functions : str
+        Those that it calls beside ``rhs``, ``confirm`` and ``accept``.
+    **meanings
+        What the names of the frame mean.
     """
     signature = types.int64(*kinds_of(functions), scheme, SIZES, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)

@@ -130,9 +130,21 @@ def integrate_with_events(
     state: Any,
     outputs: Any,
 ) -> int:
-    """Integrate as `symgen.runtime.frame.integrate` does, and look for events; `state` is a `HuntingState`.
+    """Integrate as `symgen.runtime.frame.integrate` does, and look for events.
 
-    Further arguments are switching functions with their rates, and `symgen.runtime.searching.decide`.
+    Parameters
+    ----------
+    rhs, confirm, accept, turn, residual, tangent, scheme, sizes, span, outputs
+        As there.
+    happens, decide : emitted function, function
+        Switching functions with their rates, and `symgen.runtime.searching.decide`.
+    state : HuntingState
+        What the run keeps; changed.
+
+    Returns
+    -------
+    int
+        How it ended, see `symgen.runtime.abi`.
     """
     hunting = HuntingScheme(scheme, happens, decide)
     return int(integrate(rhs, confirm, accept, turn, residual, tangent, hunting, sizes, span, state, outputs))
@@ -146,9 +158,12 @@ _loops: dict[Any, Any] = {}
 
 
 def with_events(loop: Any) -> Any:
-    """Return the loop that looks for events and is otherwise the same as one from `symgen.runtime.frame.loop`.
+    """Return the loop that looks for events and is otherwise the same; made when it is first asked for.
 
-    It is made when it is first asked for.
+    Parameters
+    ----------
+    loop : compiled loop
+        From `symgen.runtime.frame.loop`.
     """
     if loop is None:  # an integrator whose loop depends on the model
         return None

@@ -51,8 +51,16 @@ def part(copy: python.FunctionType, original: Any) -> Any:
 def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any) -> Any:
     """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
 
-    It is held by the variable `name` of a module: a second process finds it there, and the cache tells loops apart by
-    it. See `Instances` for meanings.
+    Parameters
+    ----------
+    module, name : str
+        The module variable that holds it: a second process finds it there, and the cache tells loops apart by it.
+    function : plain function
+        The source.
+    signature : Signature
+        Its types.
+    **meanings
+        See `Instances`.
     """
     copy = Instances(meanings).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name

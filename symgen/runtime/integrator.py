@@ -107,14 +107,26 @@ class Integrator(Protocol):
     def setup(self, compiled: CompiledModel, spec: RunSpec, w: Array) -> Setup:
         """Return what the loop is entered with.
 
-        `w` is the scratch of a consistent start, with the mask of redundant rows.
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        spec : RunSpec
+            What the run is to do.
+        w : Array
+            Scratch of a consistent start, with the mask of redundant rows.
         """
 
 
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     """Return the emitted functions that a loop takes first, 0 in place of those that it does not call.
 
-    It calls `names`, ``turn``, ``residual`` or ``tangent``, beside ``rhs``, ``confirm`` and ``accept``.
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    *names : str
+        What is called beside ``rhs``, ``confirm`` and ``accept``: ``turn``, ``residual``, ``tangent``.
     """
     from symgen.runtime.manifold import stay
 

@@ -66,9 +66,16 @@ class Knots:
         return [rtol ** (1.0 / (order + 1)) for order in self.orders]
 
     def step(self, out: Sequence[float], h: float, met: Sequence[float]) -> float:
-        """Return the step to try in place of one of `h` seconds, which the error estimate proposes.
+        """Return the step to try in place of one of `h` seconds.
 
-        `out` is what the function has written for the state at its beginning, `met` comes from the method of this name.
+        Parameters
+        ----------
+        out : sequence of float
+            What the function has written for the state at its beginning.
+        h : float
+            The step that the error estimate proposes [s].
+        met : sequence of float
+            From `met`.
         """
         n, twice, first = len(self.periods), 2.0 * h, math.inf
         for i, (levels, begin, period) in enumerate(self._unrolled):
@@ -94,6 +101,10 @@ def stepped(knots: Knots, rtol: float, state: State, enter: Callable[[float], in
 
     Parameters
     ----------
+    knots : Knots
+        The tables.
+    rtol : float
+        Tolerance of the run.
     state : State
         Of a run whose scheme keeps the rate of the state first in its memory.
     enter : callable

@@ -66,6 +66,8 @@ def build_tables(
 
     Parameters
     ----------
+    shape : Shape
+        The mechanism.
     more : sequence of (section, size)
         Sections that the law adds; their offsets stand behind the head.
     vectors : int
@@ -74,6 +76,8 @@ def build_tables(
         Whether the law factorises M + a D^T D.
     stages : sequence of str
         Stages that are called; the others are empty.
+    forms : Forms, optional
+        The descriptor form for implicit integrators.
     """
     return _Builder(shape, more, vectors, augmented, stages, forms).tables()
 
