@@ -72,6 +72,15 @@ class Facts:
 def linearised(mechanism: Mechanism, compiled: CompiledModel, start: Start) -> Array:
     """Return the Jacobian of (q', v') with respect to (q, v) at the start, from derivatives on the graph.
 
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What moves.
+    compiled : CompiledModel
+        Its compiled form; any method will do.
+    start : Start
+        Where to linearise.
+
     Returns
     -------
     matrix : Array, shape (nq + nv, nq + nv)
@@ -112,9 +121,20 @@ def gather(
     held: Mapping[str, float] | None = None,
     until: float | None = None,
 ) -> Facts:
-    """Return the facts of a mechanism whose parameters differ from the described ones as said.
+    """Return the facts of a mechanism with given parameters.
 
-    Code of a `shape` tells them, at a start that keeps what is `held`, for a run that ends at `until` [s].
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    parameters : mapping
+        Values of parameters that differ from the described ones.
+    shape : str
+        Of the code that tells them.
+    held : mapping, optional
+        Values that the start keeps, by name.
+    until : float, optional
+        End of the run [s].
     """
     plan = make_plan(
         mechanism, Settings(method="lagrange", integrator="dop853", shape=shape, start=held or {}, until=until)
@@ -199,7 +219,15 @@ def _integrator(facts: Facts, method: str) -> tuple[str, str]:
 
 
 def resolve(mechanism: Mechanism, settings: Settings) -> tuple[Settings, tuple[str, ...]]:
-    """Return settings without ``auto``, and the reasons of each choice."""
+    """Return settings without ``auto``, and the reasons of each choice.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    settings : Settings
+        As asked for.
+    """
     if AUTO not in (settings.method, settings.integrator):
         return settings, ()
     facts = gather(mechanism, settings.parameters, settings.shape, settings.start, settings.until)

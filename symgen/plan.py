@@ -302,7 +302,12 @@ def _output_times(
 def output_size(mechanism: Mechanism, saved: bool = False) -> float:
     """Return about how much memory an output of a run takes [bytes].
 
-    Where it is `saved`, all tables of it are made and put into a file, which is done in memory.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    saved : bool
+        Whether all tables of it are made and put into a file, which is done in memory.
     """
     state = sum(len(b.coordinates) + len(b.speeds) for b in mechanism.bodies)
     rows = sum(len(joint.rows) for joint in mechanism.joints)

@@ -132,9 +132,18 @@ def start_of(
 
 
 def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:
-    """Return what is held by index, of what `symgen.describe.holds.holds_of` says by name.
+    """Return what is held by index.
 
-    `numbers` are what formulas stand for, `v` the given velocities.
+    Parameters
+    ----------
+    info : ModelInfo
+        The model.
+    holds : sequence of Hold
+        From `symgen.describe.holds.holds_of`.
+    numbers : Scalars
+        What formulas stand for.
+    v : sequence of float or None
+        Given velocities.
     """
     coordinates = {quantity.name: i for i, quantity in enumerate(info.coordinates)}
     velocities = {quantity.name: j for j, quantity in enumerate(info.velocities)}
@@ -192,7 +201,14 @@ def ready(
 def made_of(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
     """Return what shapes a run, as JSON has it: two runs of the same making can take up each other's arrays.
 
-    `parameters` are the values of all; those of inputs are of no account.
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    plan : Plan
+        How it is run.
+    parameters : mapping
+        Values of all parameters; those of inputs are of no account.
     """
     law, spec = compiled.law, plan.spec
     own = {name: float(plan.method_parameters.get(name, default)) for name, default in law.parameters}
@@ -259,7 +275,16 @@ def taken_up(
 ) -> Start | None:
     """Return the start of a run that takes up what another one kept, None where it is of another making.
 
-    `values` are of all parameters, `made` comes from `made_of`.
+    Parameters
+    ----------
+    compiled, plan : CompiledModel, Plan
+        Model and method, and how it is run.
+    last : LastState
+        Of the other run.
+    values : mapping
+        Of all parameters.
+    made : mapping
+        From `made_of`.
     """
     if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
         return None

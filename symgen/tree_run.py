@@ -239,7 +239,17 @@ class CarriedOutcome(Outcome):
 def tree_run(
     mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
 ) -> TreeRun:
-    """Return what a run in joint coordinates begins with; see `symgen.run_setup.ready`."""
+    """Return what a run in joint coordinates begins with.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    plan : Plan
+        How it is run.
+    parameters, strict
+        As for `symgen.run_setup.ready`.
+    """
     kept = None if plan.last is None else _going_on(mechanism, plan, plan.last, parameters)
     if kept is not None:
         return kept
@@ -251,7 +261,14 @@ def tree_run(
 def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:
     """Return a mechanism with its tree, and its compiled model for the method that bodies are run with.
 
-    The solver of `bodies` is the tree's.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    choice : MethodChoice
+        The method.
+    bodies : CompiledModel
+        In the bodies' own coordinates; its solver is the tree's.
     """
     carried = on_tree(mechanism)
     weight = {name: value for name, value in choice.options.items() if name == "weight"}
@@ -269,7 +286,18 @@ def begin_on_tree(
 ) -> TreeRun:
     """Return what a run in joint coordinates begins with, from a start of bodies.
 
-    `carried` and `compiled` come from `tree_code`; `method_parameters` are those that differ from the defaults.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    carried, compiled : Mechanism, CompiledModel
+        From `tree_code`.
+    bodies, start : CompiledModel, Start
+        In the bodies' own coordinates.
+    method_parameters : mapping
+        Values of the method's parameters that differ from the defaults.
+    events : tuple of Event
+        That are looked for.
     """
     info, own, at = bodies.info, compiled.info, carrying_of(mechanism, carried, bodies, compiled)
     values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())

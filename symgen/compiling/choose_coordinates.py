@@ -19,7 +19,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CoordinateChoice:
-    """Coordinates, ``absolute`` or ``joint``, and why in one sentence."""
+    """Coordinates, and why.
+
+    Attributes
+    ----------
+    coordinates : {"absolute", "joint"}
+        What the state is made of.
+    reason : str
+        One sentence.
+    """
 
     coordinates: str
     reason: str
@@ -39,7 +47,14 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
 def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:
     """Decide the coordinates of a run.
 
-    `shape` is that of the code that was asked for, or that bodies' own coordinates would have.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    asked : str
+        One of `symgen.settings.COORDINATES`.
+    shape : str
+        The shape of code that was asked for, or that bodies' own coordinates would have.
 
     Raises
     ------

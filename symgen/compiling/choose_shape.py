@@ -39,7 +39,15 @@ LARGEST_STRAIGHT = 600
 
 @dataclass(frozen=True)
 class ShapeChoice:
-    """A shape, ``straight`` or ``looped``, and why in one sentence."""
+    """A shape, and why.
+
+    Attributes
+    ----------
+    shape : {"straight", "looped"}
+        What is compiled.
+    reason : str
+        One sentence.
+    """
 
     shape: str
     reason: str
@@ -48,7 +56,20 @@ class ShapeChoice:
 def choose_shape(
     mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float, entries: Entries | None = None
 ) -> ShapeChoice:
-    """Decide the shape of a run that is expected to take so many evaluations.
+    """Decide the shape of a run.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    choice : MethodChoice
+        The method with its options.
+    asked : str
+        One of `symgen.settings.SHAPES`.
+    evaluations : float
+        Evaluations that are expected.
+    entries : Entries, optional
+        The cache; by default the user's.
 
     Raises
     ------

@@ -108,7 +108,19 @@ class DescriptorForm:
         return interpreted(self.function)
 
     def at(self, t: float, y: Array, a: Array, p: Array, w: Array) -> Evaluated:
-        """Evaluate at a state `y`, with v' = `a`, shape (nv,), and a scratch with the multipliers in their section."""
+        """Evaluate at a state.
+
+        Parameters
+        ----------
+        t : float
+            Time [s].
+        y : Array
+            q and v, and whatever stands behind.
+        a : Array, shape (nv,)
+            v'.
+        p, w : Array
+            Parameters, and scratch with the multipliers in their section.
+        """
         out = np.zeros(self.values + len(self.pattern))
         rates = np.concatenate([np.zeros(self.widths["q"]), a])
         with np.errstate(all="ignore"):
@@ -119,7 +131,14 @@ class DescriptorForm:
 def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...] = ()) -> DescriptorForm:
     """Return the descriptor form of a mechanism with its derivatives, generated only if the cache does not have it.
 
-    It is evaluated beside the compiled model, and differentiated by the parameters `by` as well.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is analysed, with its tree where the state is that of joints.
+    compiled : CompiledModel
+        The model that it is evaluated beside: its ``p`` and ``w``.
+    by : tuple of str
+        Parameters that it is differentiated by.
 
     Raises
     ------

@@ -110,9 +110,23 @@ def _sympy_version() -> str:
 def generate(
     mechanism: Mechanism, choices: tuple[MethodChoice, ...], shape: str = "straight", target: str = "cpu"
 ) -> Generated:
-    """Derive, lower and emit a validated mechanism with every method of `choices`, one law module for each.
+    """Derive, lower and emit `mechanism` with every method of `choices`.
 
-    The shape is ``straight`` or ``looped``; modules for the targets ``lanes`` and ``cuda`` have stems that end so.
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choices : tuple of MethodChoice
+        One law module is emitted for each.
+    shape : {"straight", "looped"}
+        Code for this mechanism alone, or loops over tables.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for; stems of modules end in ``_lanes`` or ``_cuda`` then.
+
+    Returns
+    -------
+    Generated
+        The source of ``model`` and of every law, with metadata.
 
     Raises
     ------
@@ -177,6 +191,17 @@ def compile_model(
     mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None, target: str = "cpu"
 ) -> CompiledModel:
     """Return the compiled model of `mechanism` for one method, generated only if the cache does not have it.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    choice : MethodChoice
+        The method and its structural options.
+    entries : Entries, optional
+        The cache; by default the user's.
+    target : {"cpu", "lanes", "cuda"}
+        What the code is for.
 
     Raises
     ------

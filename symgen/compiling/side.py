@@ -95,15 +95,19 @@ def compile_side(
 
     Parameters
     ----------
+    mechanism : Mechanism
+        What they are about: names are t, parameters, and coordinates and velocities of bodies.
     compiled : CompiledModel
         The model that the function is called beside: its ``p`` and ``w``.
     name, purpose : str
         Of the function, which its module is called after.
     formulas : sequence of (str, Expr)
-        What each is called, for people, and the formula, of t, parameters, and coordinates and velocities of bodies.
+        What each is called, for people, and the formula.
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; they take v' from ``ydot``,
         as constant, and q' from the velocities.
+    entries : Entries, optional
+        The cache; by default the user's.
 
     Raises
     ------

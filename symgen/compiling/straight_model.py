@@ -61,7 +61,21 @@ def load_compiled(
     emit_seconds: float = 0.0,
     shared: str = "model",
 ) -> StraightModel:
-    """Load the emitted modules ``<shared>.py`` and ``<stem>.py`` of a folder, whose metadata `model` and `law` are."""
+    """Load the emitted modules of a folder.
+
+    Parameters
+    ----------
+    folder : Path
+        Holds ``<shared>.py`` and ``<stem>.py``.
+    stem : str
+        File stem of the law.
+    model, law : mapping
+        Their metadata.
+    derive_seconds, emit_seconds : float
+        What generating them took, 0 if they were found.
+    shared : str
+        File stem of the module that all laws share.
+    """
     return StraightModel(
         info=msgspec.convert(model, ModelInfo),
         law=msgspec.convert(law, LawInfo),

@@ -21,7 +21,15 @@ _OF_VELOCITIES = ("change", "mass", "gauge")
 
 
 def of_model(equations: Equations, jacobian: Sequence[Entry]) -> Names:
-    """Return the names of sections of ``w`` that all methods share, and of what is returned at outputs."""
+    """Return the names of sections of ``w`` that all methods share, and of what is returned at outputs.
+
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    jacobian : sequence of Entry
+        Where entries of D stand.
+    """
     rows, speeds = [r.name for r in equations.rows], [v.name for v in equations.velocities]
     names: Names = {(section, i): name for section in _OF_ROWS for i, name in enumerate(rows)}
     names |= {(section, i): name for section in _OF_VELOCITIES for i, name in enumerate(speeds)}
@@ -49,7 +57,15 @@ class _ByName(ElementAccess):
 
 
 def of_hoisted(blocks: Sequence[Block], access: ElementAccess) -> Names:
-    """Return the formulas of numbers that depend on parameters alone, where they are short."""
+    """Return the formulas of numbers that depend on parameters alone, where they are short.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        Of one module; ``prepare`` fills those numbers.
+    access : ElementAccess
+        With the names of parameters.
+    """
     by_name, found = _ByName(access.layout, access.names), Names()
     for block in blocks:
         for target, node in block.outputs if block.name == "prepare" else ():

@@ -10,6 +10,11 @@ def harmless(text: object) -> str:
     """Return a text that cannot end the comment or docstring it stands in, nor be read as an escape.
 
     Line ends and all that is not printable become spaces, double quotes single ones, and backslashes slashes.
+
+    Parameters
+    ----------
+    text : object
+        What a file, a method or an option says of itself.
     """
     kept = "".join(_SIGNS.get(c, c if c.isprintable() else " ") for c in str(text)[: LONGEST + 1])
     return kept if len(kept) <= LONGEST else kept[: LONGEST - 3] + "..."
@@ -24,6 +29,13 @@ _OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "po
 def table_name(name: str, what: str = "value") -> str:
     """Return the emitted name of a table's function, of its derivatives', or of the array of its points or values.
 
-    The table's name, a checked identifier, follows unchanged, so that names differ wherever those of tables do.
+    The table's name follows unchanged, so that names differ wherever those of tables do.
+
+    Parameters
+    ----------
+    name : str
+        A checked identifier.
+    what : {"value", "slope", "second", "x", "y"}
+        Which one.
     """
     return _OF_TABLE[what] + name

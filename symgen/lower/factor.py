@@ -17,7 +17,12 @@ from symgen.ir.graph import Graph
 def minimum_degree(neighbours: Sequence[frozenset[int]]) -> tuple[tuple[int, ...], list[set[int]]]:
     """Return an elimination order of low fill for a symmetric pattern, and each pivot's rows below it.
 
-    `neighbours` are, for each row, the other rows it has an entry with. It takes time linear in the fill.
+    It takes time linear in the fill.
+
+    Parameters
+    ----------
+    neighbours : sequence of frozenset
+        For each row, the other rows it has an entry with.
     """
     graph = [set(n) for n in neighbours]
     level = [0] * len(graph)

@@ -34,7 +34,18 @@ def lower_law(
 ) -> LawProgram:
     """Lower one method: its acceleration law, and its correction where the model's does not do.
 
-    Options are complete; `implicit` asks for the descriptor form for implicit integrators as well.
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    model : ModelProgram
+        The program of the model.
+    method : Method
+        The method.
+    options : mapping
+        Its structural options, complete.
+    implicit : bool
+        Whether the descriptor form for implicit integrators is added.
     """
     record, names = record_law(method, options, equations.driving is not None), [p.name for p in method.parameters]
     scalars = Scalars(equations, record.operations, names)

@@ -15,7 +15,12 @@ from symgen.lower.scalar_values import Outputs, to_status
 def lower_model(equations: Equations, digest: str) -> ModelProgram:
     """Lower what all methods share: geometry with the rank-deciding factorisation, corrections, measures, observation.
 
-    `digest` is that of the canonical description, for the emitted header.
+    Parameters
+    ----------
+    equations : Equations
+        The derived equations.
+    digest : str
+        Digest of the canonical description, for the emitted header.
     """
     m, record = equations.m, record_model()
     scalars = Scalars(equations, record.operations)

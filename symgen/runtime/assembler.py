@@ -52,6 +52,8 @@ class Assembly:
 
         Parameters
         ----------
+        compiled : CompiledModel
+            Model and method.
         held, kept, fixed : sequence of int
             Coordinates and velocities that are held, and velocities whose coordinates stay as described.
         strict, ask_light : bool
@@ -79,10 +81,19 @@ class Assembly:
         return cls(compiled, layout, strict)
 
     def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
-        """Make the selected rows consistent, in compiled code; return how many rows were worked on.
+        """Make the selected rows consistent, in compiled code.
 
-        `now` and `asked` are of all rows, one row of a matrix for each: described coordinates, and parameters not yet
-        prepared. `control` is what the watching thread shares.
+        Parameters
+        ----------
+        now, asked : Instant, Asked
+            Of all rows, one row of a matrix for each: described coordinates, and parameters not yet prepared.
+        selected, control : Array of int
+            Rows to work on; what the watching thread shares.
+
+        Returns
+        -------
+        int
+            Rows that were worked on.
         """
         (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
         scratch = self.compiled.scratch()

@@ -82,11 +82,17 @@ class Start:
 def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
     """Return what coordinates and velocities are compared with: the scales that a run settles at its beginning.
 
+    Parameters
+    ----------
+    compiled, w : CompiledModel, Array
+        Model and method, and the scratch that a start has left.
+    until : float
+        End of the run [s].
+
     Returns
     -------
     Array, shape (nq + nv,)
-        The mechanism's length for lengths, 1 for angles and numbers, its speed, and that over a body's length; from the
-        scratch that a start has left, and the end of the run [s].
+        The mechanism's length for lengths, 1 for angles and numbers, its speed, and that over a body's length.
     """
     length = float(w[abi.LENGTH])
     speed = max(float(w[abi.SPEED]), length / until)
@@ -180,7 +186,14 @@ class Closed:
     def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
         """Make a state consistent, in place; return scratch and what is said of the start.
 
-        `y` holds the described coordinates, `v` the given velocities, nan where there is none.
+        Parameters
+        ----------
+        y : Array, shape (ny,)
+            Described coordinates.
+        v : Array, shape (nv,)
+            Given velocities, nan where there is none.
+        p : Array
+            Parameters.
         """
         compiled, held, info = self.compiled, self.held, self.compiled.info
         given, w = v.copy(), compiled.scratch()

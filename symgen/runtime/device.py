@@ -195,6 +195,13 @@ class Need:
 def make_kernel(law: Any, model: Any, need: Need) -> Any:
     """Return the plain Python of the kernel that runs one law, for ``cuda.jit`` or ``cuda.compile_ptx``.
 
+    Parameters
+    ----------
+    law, model : module
+        Emitted for CUDA.
+    need : Need
+        What is asked of it.
+
     Returns
     -------
     function

@@ -22,9 +22,18 @@ _SCHEME, _SPAN = -5, -3
 
 
 class Block:
-    """A compiled function with its arguments in one block of memory, called by the trampoline for its signature.
+    """A compiled function with its arguments in one block of memory.
 
     Arrays are referred to by their addresses, so they have to stay where they are; they are kept alive.
+
+    Parameters
+    ----------
+    result : result of a compilation
+        The function.
+    arguments : tuple
+        What it takes.
+    call : callable
+        The trampoline for its signature.
     """
 
     def __init__(self, result: Any, arguments: tuple[Any, ...], call: Call) -> None:
@@ -40,7 +49,15 @@ class Block:
 
     @classmethod
     def of(cls, compiled: Any, arguments: tuple[Any, ...]) -> Self | None:
-        """Return the block of a function, None where it has to be called as every compiled function."""
+        """Return the block of a function, None where it has to be called as every compiled function.
+
+        Parameters
+        ----------
+        compiled : result of a compilation
+            The function.
+        arguments : tuple
+            What it takes.
+        """
         signature = compiled.signature
         if len(signature.args) != len(arguments):
             return None
@@ -103,9 +120,14 @@ class Entry(Block):
 
 
 def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
-    """Return the entry of a loop with a single signature, None where it has to be called as every compiled function.
+    """Return the entry of a loop, None where it has to be called as every compiled function.
 
-    The arguments are functions of the model, scheme, sizes, span, state, outputs.
+    Parameters
+    ----------
+    loop : compiled function
+        With a single signature.
+    arguments : tuple
+        Functions of the model, scheme, sizes, span, state, outputs.
     """
     if hasattr(loop, "open"):
         loop.open()
@@ -116,7 +138,14 @@ def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
 def direct(function: Any, kind: types.FunctionType, *arguments: Any) -> Callable[..., Any]:
     """Return a function on given arguments; what it is called with takes the place of the first ones, if numbers.
 
-    `function` is an emitted one of type `kind`, of `symgen.runtime.abi`; plain Python where nothing is compiled.
+    Parameters
+    ----------
+    function : Dispatcher or function
+        An emitted function; plain Python where nothing is compiled.
+    kind : FunctionType
+        Its type, of `symgen.runtime.abi`.
+    *arguments
+        Arrays and numbers.
     """
     compiled = function.get_compile_result(kind.signature) if hasattr(function, "get_compile_result") else None
     block = None if compiled is None else Block.of(compiled, arguments)

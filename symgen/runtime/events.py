@@ -58,9 +58,16 @@ class Watched:
     masses: Masses | None = None
 
     def impact(self, compiled: CompiledModel, numbers: Sequence[int], t: float, y: Array, p: Array, w: Array) -> Impact:
-        """Return what resets at one time, by `numbers` of events, do to a state; the geometry of `w` is written.
+        """Return what resets at one time do to a state; see `symgen.runtime.resets.impact_of`.
 
-        See `symgen.runtime.resets.impact_of`.
+        Parameters
+        ----------
+        compiled : CompiledModel
+            Model and method.
+        numbers : sequence of int
+            Which events.
+        t, y, p, w
+            Time, state, parameters and scratch, whose geometry is written.
         """
         assert self.masses is not None, "where there are resets, it is known what they are the shortest in"
         names = " and ".join(f"'{self.names[n]}'" for n in numbers)
@@ -114,6 +121,15 @@ class Happening:
 class Events:
     """What happens in a run.
 
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    watched : Watched
+        Its events.
+    until : float
+        End of the run [s].
+
     Attributes
     ----------
     happened : list of Happening
@@ -143,7 +159,14 @@ class Events:
         return found
 
     def meet(self, state: hunting.HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
-        """Do what the events `found` by `take` ask for, at which a loop was left; return `DONE` where it may go on.
+        """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
+
+        Parameters
+        ----------
+        state : State
+            At the events; changed by resets.
+        found : sequence of (int, Happening)
+            From `take`.
 
         Raises
         ------

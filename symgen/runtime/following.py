@@ -239,8 +239,12 @@ def follow(
     ----------
     geometry, measure, move, spread, observe : emitted functions
         See `symgen.runtime.abi`.
+    course : Course
+        Of the model.
     times : Array, shape (k,)
         In the order in which they are met [s].
+    p, w : Array
+        As emitted functions take them.
     stand : Stand
         Where the loop stands; it is left where it got to.
     followed : Followed

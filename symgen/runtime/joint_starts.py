@@ -35,7 +35,12 @@ Array = NDArray[np.float64]
 def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
     """Return value and rate of every joint coordinate in turns, shape (2 n,).
 
-    The section of `w` for angles that count turns says on which turn these are.
+    Parameters
+    ----------
+    compiled : CompiledModel
+        The model.
+    t, y, p, w
+        As emitted functions take them; the section of angles that count turns says on which turn these are.
     """
     info = compiled.info
     out = np.zeros(info.m + 2 * len(info.joint_coordinates))
@@ -45,9 +50,18 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
 
 @dataclass
 class _Rows:
-    """Rows of joint coordinates `chosen` behind those of a model, as the pieces of a start take them.
+    """Rows of joint coordinates behind those of a model, as the pieces of a start take them.
 
-    `goals` are the values that they shall have, or rates.
+    Attributes
+    ----------
+    compiled : CompiledModel
+        The model.
+    base : Layout
+        Its layout.
+    chosen : sequence of int
+        Joint coordinates.
+    goals : Array, shape (k,)
+        Values that they shall have, or rates.
     """
 
     compiled: CompiledModel
@@ -107,11 +121,19 @@ def reach(
 
     Parameters
     ----------
+    compiled : CompiledModel
+        Model and method.
+    layout : Layout
+        Of the model, with the coordinates and velocities that are held.
     functions : mapping
         ``measure``, ``move`` and ``turns`` as `symgen.runtime.starting.close_row` takes them.
+    held : Held
+        What is held.
     now : Instant
         The described coordinates, with parameters and masses prepared; on return the state that was found, with the
         branches of the angles that count turns.
+    asked : Asked
+        Given velocities, values of held coordinates, and the summary of the start.
     """
     measure, move = Ready(functions["measure"], abi.MEASURE), Ready(functions["move"], abi.MOVE)
     geometry = Ready(compiled.model.geometry, abi.MEASURE)

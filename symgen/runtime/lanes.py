@@ -256,7 +256,9 @@ def run_lanes(
     Parameters
     ----------
     rhs, lanes_accept : emitted functions
-        For lanes; the other arguments are those of `symgen.runtime.rows.run_rows`.
+        For lanes; the other ones are those of single runs.
+    rates, rates_confirm, accept, observe, scheme, sizes, span, chunk, kept
+        As for `symgen.runtime.rows.run_rows`.
     state : State
         As for single runs; its working memory, `room_of_lanes` numbers, holds the lanes.
 

@@ -44,7 +44,16 @@ class Piece:
 
 
 def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tuple[Piece, ...]:
-    """Return the pieces of a run from 0 to `until` [s], none where nothing jumps; `values` are of all parameters.
+    """Return the pieces of a run from 0 to `until`, none where nothing jumps.
+
+    Parameters
+    ----------
+    driven : Driven
+        What inputs are.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
 
     Raises
     ------
@@ -88,7 +97,14 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
 def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: float) -> tuple[float, ...]:
     """Return the times inside a run at which arguments that are straight lines in t pass points of tables.
 
-    `jumps` come from `symgen.describe.kinks.kinks_of`; `values` are of all parameters, `until` the end of the run [s].
+    Parameters
+    ----------
+    jumps : sequence of Jump
+        From `symgen.describe.kinks.kinks_of`.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
 
     Returns
     -------
@@ -136,9 +152,18 @@ def merged(pieces: tuple[Piece, ...], kinks: tuple[Piece, ...]) -> tuple[Piece, 
 def crossings(
     function: Callable[[float], float], line: tuple[float, float] | None, levels: Sequence[float], until: float
 ) -> list[float]:
-    """Return the times from 0 to `until` [s] at which a function of the time passes one of some levels.
+    """Return the times from 0 to `until` at which a function passes one of some levels.
 
-    `line` is its value at 0 and its slope where it is a straight line.
+    Parameters
+    ----------
+    function : callable
+        Of the time [s].
+    line : tuple of float or None
+        Its value at 0 and its slope where it is a straight line.
+    levels : sequence of float
+        What it passes.
+    until : float
+        End [s].
 
     Raises
     ------

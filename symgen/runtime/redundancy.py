@@ -87,7 +87,20 @@ def farthest(
 def choose_rows(
     m: int, n: int, kept: int, entries: Any, constants: Any, jacobian: int, gauge: int, mask: int, w: Any, room: Any
 ) -> int:
-    """Mask all rows but `kept` ones, chosen by `farthest`, which says what the arguments are.
+    """Mask all rows but `kept` ones, each the one that is farthest from those chosen before it.
+
+    Parameters
+    ----------
+    m, n, kept : int
+        Rows and columns of D, and how many rows are kept.
+    entries, constants : Array
+        D's structural entries, as in `symgen.runtime.start_records.Layout`.
+    jacobian, gauge, mask : int
+        Where these sections of w begin.
+    w : Array
+        Scratch; D is that of the present position.
+    room : Array, shape (m * n + m,)
+        Working memory.
 
     Returns
     -------

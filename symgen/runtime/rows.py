@@ -53,7 +53,20 @@ def take(array: Any, first: int, size: int, out: Any) -> None:
 def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: Any) -> None:
     """Write what is asked for at the outputs of a run, one quantity after the other; nan where there is no output.
 
-    `count` outputs were reached, from the energy `start` [J] on; `picks` are those of `Chunk`.
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    picks : Array of int64
+        (source, column) of each quantity.
+    kept : Kept
+        Of the run.
+    count : int
+        Outputs that it has reached.
+    start : float
+        Its energy at the start [J].
+    values : Array
+        Written.
     """
     outputs, observed, status, work = kept.outputs, kept.observed, kept.outputs.status, sizes.nq + sizes.nv
     n_times = outputs.states.shape[0]
@@ -138,7 +151,17 @@ def end_run(
     state: Any,
     kept: Any,
 ) -> None:
-    """Keep what row `r` gave, whose loop ended as `code` says; `state` is that of the run at its end."""
+    """Keep what a run gave.
+
+    Parameters
+    ----------
+    code, r : int
+        How the loop ended, and the row.
+    rates, confirm, accept, observe : emitted functions
+        For what is observed at outputs.
+    sizes, chunk, state, kept
+        As for `run_rows`; `state` is that of the run at its end.
+    """
     nw, count = state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
     if chunk.rates == 1:

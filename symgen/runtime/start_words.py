@@ -50,7 +50,16 @@ def warnings_of(
 ) -> tuple[str, ...]:
     """Return a sentence where closing moved a body by a large part of the mechanism, or turned it far.
 
-    `length` is the mechanism's [m]; `moved` are further points and angles of bodies: name, by how much, and its unit.
+    Parameters
+    ----------
+    changes : sequence of Change
+        Of the coordinates.
+    info : ModelInfo
+        The model.
+    length : float
+        The mechanism's [m].
+    moved : iterable of (str, float, str)
+        Further points and angles of bodies: name, by how much, and its unit.
     """
     names = {quantity.name for quantity in info.coordinates}
     limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED, "1": 0.5 * decisions.FAR_TURNED}
@@ -102,7 +111,15 @@ def _from_to(change: Change) -> str:
 
 
 def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
-    """Return why a run has no start, from the numbers that it left (`symgen.runtime.ensemble_abi.SUMMARY`)."""
+    """Return why a run has no start.
+
+    Parameters
+    ----------
+    summary : Array, shape (N_SUMMARY,)
+        What the start left; see `symgen.runtime.ensemble_abi`.
+    info : ModelInfo
+        The model.
+    """
     code, where, size = int(summary[e.START]), int(summary[e.START_WHERE]), float(summary[e.START_SIZE])
     if code == e.UNDEFINED:
         return InputError("parameters or start", "values for which every formula is finite", "others")

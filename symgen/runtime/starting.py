@@ -163,14 +163,18 @@ def close_rows(
     selected: Any,
     control: Any,
 ) -> int:
-    """Make the starts of many rows consistent, as `close_row` does.
+    """Make the starts of many rows consistent.
 
     Parameters
     ----------
+    geometry, measure, move, solve, turns, rhs, layout, work
+        As for `close_row`.
     all_of_now, all_asked : Instant, Asked
         Of all rows, one behind the other.
-    selected, control : Array of int
-        Rows to work on; what the watching thread shares.
+    selected : Array of int
+        Rows to work on.
+    control : Array of int
+        What the watching thread shares.
 
     Returns
     -------
@@ -194,9 +198,18 @@ def close_rows(
 
 @exact(types.int64(e.PREPARE, e.PREPARE, abi.MOVE, _A, _A, _A, types.int64, _I))
 def prepare_rows(model: Any, law: Any, masses: Any, scratch: Any, ps: Any, ws: Any, runs: int, selected: Any) -> int:
-    """Fill parameters and scratch of the selected ones of `runs` rows, which stand one behind the other.
+    """Fill parameters and scratch of the selected ones of `runs` rows.
 
-    `model` and `law` are ``prepare`` of both; every row's scratch begins as `scratch`.
+    Parameters
+    ----------
+    model, law, masses : emitted functions
+        ``prepare`` of both, and ``masses``.
+    scratch : Array, shape (nw,)
+        What every row's scratch begins as.
+    ps, ws : Array
+        Parameters and scratch of all rows, one behind the other.
+    runs, selected : int, Array of int
+        How many rows there are, and which are filled.
     """
     scratch, nw, n_p = bare(scratch), scratch.shape[0], ps.shape[0] // runs
     for s in range(selected.shape[0]):

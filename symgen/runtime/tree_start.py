@@ -37,8 +37,14 @@ def settle_tree(
 
     Parameters
     ----------
-    y, p, t : Array, Array, float
-        The start, which satisfies the constraints; parameters, prepared here; its time [s].
+    compiled : CompiledModel
+        In joint coordinates.
+    y : Array, shape (ny,)
+        The start, which satisfies the constraints.
+    p : Array
+        Parameters; prepared here.
+    t : float
+        Time [s].
     turned : Array, shape (windings,)
         Angles that count turns.
     scales : tuple of float, float, Array
@@ -114,8 +120,12 @@ def settle_rows(
     ----------
     observe, geometry : emitted functions
         Of bodies, and of the tree.
+    layout : Layout
+        Of the tree.
     of_bodies, of_tree : Instant
         Of all rows, one behind the other: consistent, and with parameters and masses prepared.
+    carrying : Carrying
+        Where what stands.
     room : Array
         Working memory: a state, what ``observe`` writes, and scratch.
     selected, control : Array of int

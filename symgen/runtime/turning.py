@@ -22,7 +22,15 @@ _SIGNATURE = types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK)
 
 @exact(_SIGNATURE)
 def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
-    """Shift the section ``winding`` by the whole turns with which the rows on angles are nearest to closed."""
+    """Shift the section ``winding`` by the whole turns with which the rows on angles are nearest to closed.
+
+    Parameters
+    ----------
+    geometry, measure : emitted functions
+        See `symgen.runtime.abi`.
+    layout, now, work : Layout, Instant, Work
+        See `symgen.runtime.start_records`; the coordinates are those described.
+    """
     m, count, w, residual = layout.m, layout.windings, now.w, layout.residual
     rest, effects = work.right, work.numbers
     for i in range(count):

@@ -80,9 +80,18 @@ def stuck(span: Any, run: Any, t: float) -> bool:
 
 
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
-    """Judge an accepted state, `y` at `t` [s]; return how the loop has to end, or `DONE` to go on.
+    """Judge an accepted state; return how the loop has to end, or `DONE` to go on.
 
-    The scratch holds the status that ``accept`` left; the speed scale follows the largest speed so far.
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    run : Run
+        Its scratch holds the status that ``accept`` left; the speed scale follows the largest speed so far.
+    y : Array
+        The state.
+    t : float
+        Its time [s].
     """
     w, gauges, control, events = run.w, run.gauges, run.control, run.events
     run.clock[abi.TIME] = t

@@ -78,7 +78,17 @@ def form_stride(kernel: KernelInfo) -> int:
 def lower_form(
     element: Element, instance: Instance, method: Method, options: Mapping[str, str], stem: str
 ) -> FormProgram:
-    """Lower an element's part of a descriptor form."""
+    """Lower an element's part of a descriptor form.
+
+    Parameters
+    ----------
+    element, instance
+        As for `symgen.lower.looped.kernels.lower_kernel`.
+    method, options : Method, mapping
+        The method with its structural options, complete.
+    stem : str
+        Name of the module.
+    """
     e, record = element.equations, record_form(method, options, instance.kind)
     names = [p.name for p in method.parameters]
     scalars = Scalars(e, record.operations, names, {})

@@ -63,7 +63,13 @@ class Instance:
 
 
 def instances(mechanism: Mechanism) -> tuple[Instance, ...]:
-    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out."""
+    """Return all bodies, joints and forces of a mechanism as instances, rows that repeat others left out.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        A validated mechanism.
+    """
     mechanism, _ = without_repeats(mechanism)
     known = _Known(
         mechanism,

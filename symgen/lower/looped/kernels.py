@@ -100,7 +100,15 @@ def kernel_stem(instance: Instance) -> str:
 
 
 def lower_kernel(element: Element, instance: Instance) -> KernelProgram:
-    """Lower the kernel of an element, of which `instance` may be any."""
+    """Lower the kernel of an element.
+
+    Parameters
+    ----------
+    element : Element
+        The derived element.
+    instance : Instance
+        Any instance of it.
+    """
     return _Kernel(element, instance).program()
 
 

@@ -107,7 +107,14 @@ def is_loopable(method: Method, options: Mapping[str, str], implicit: bool) -> b
 
 
 def lower_looped(method: Method, options: Mapping[str, str], implicit: bool = False) -> LoopedLaw:
-    """Lower one method to loops, its options complete.
+    """Lower one method to loops.
+
+    Parameters
+    ----------
+    method, options : Method, mapping
+        The method with its structural options, complete.
+    implicit : bool
+        Whether an implicit integrator asks for it.
 
     Raises
     ------

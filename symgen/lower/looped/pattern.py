@@ -22,7 +22,13 @@ class Supernode:
 
 
 def supernodes(neighbours: Sequence[frozenset[int]]) -> tuple[Supernode, ...]:
-    """Return the supernodes of an elimination of low fill, in the order of elimination; see `minimum_degree`."""
+    """Return the supernodes of an elimination of low fill, in the order of elimination.
+
+    Parameters
+    ----------
+    neighbours : sequence of frozenset
+        For each row, the other rows it has an entry with.
+    """
     order, below = minimum_degree(neighbours)
     place = {row: k for k, row in enumerate(order)}
     found: list[Supernode] = []
