@@ -27,7 +27,7 @@ from rich.table import Table
 
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.formulate.formulate import formulate
 from symgen.ir.program import Block, Layout
 from symgen.lower.law import lower_law
@@ -50,7 +50,7 @@ def _repeat_emitted(rhs: Any, y: Any, p: Any, w: Any, iw: Any, ydot: Any, count:
 
 def c_function(block: Block, layout: Layout) -> str:
     """Return `block` as a C function with a loop beside it that calls it through a pointer."""
-    lines = print_block(block, ElementAccess(layout, {}))
+    lines = Printer(block, ElementAccess(layout, {})).lines()
     body = [f"    const __auto_type {_c(line)};" for line in (*lines.inputs, *lines.terms)]
     body += [f"    {_c(line)};" for line in lines.outputs]
     return "\n".join(

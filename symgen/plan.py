@@ -135,7 +135,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         if method.needs_regular_mass(choice.options):
             raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
         if free:
-            choice, free = replace(choice, options={**choice.options, "solver": "augmented"}), False
+            choice, free = choice.given(solver="augmented"), False
     asked_shape, events = _shape(s, last), events_asked(mechanism, s)
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, asked_shape)

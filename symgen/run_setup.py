@@ -192,8 +192,7 @@ def ready(
     start = start_of(mechanism, compiled, parameters, method, strict, plan.holds, free, near)
     if not start.light:
         return compiled, start
-    choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
-    compiled = compiled_for(mechanism, choice)
+    compiled = compiled_for(mechanism, plan.choice.given(solver="augmented"))
     start = start_of(mechanism, compiled, parameters, method, strict, plan.holds, False, near)
     note = "light bodies make D M^-1 D^T nearly singular: accelerations are solved with M + W D^T D"
     return compiled, replace(start, notes=(*start.notes, note))
@@ -252,7 +251,7 @@ def _going_on(
     windings = last.windings if len(last.windings) == info.windings else ()
     start = assemble(compiled, q, v, p, strict, None, plan.solver_is_free, None, (last.t, windings))
     if start.light:
-        compiled = compiled_for(mechanism, replace(choice, options={**choice.options, "solver": "augmented"}))
+        compiled = compiled_for(mechanism, choice.given(solver="augmented"))
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence(last)} with its coordinates and velocities alone: {'; '.join(other)}"
@@ -262,7 +261,7 @@ def _going_on(
 def choice_of(plan: Plan, last: LastState) -> MethodChoice:
     """Return the method of a run that goes on from another one: light bodies had that one take another solver."""
     if plan.solver_is_free and (last.made or {}).get("options", {}).get("solver") == "augmented":
-        return replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+        return plan.choice.given(solver="augmented")
     return plan.choice
 
 

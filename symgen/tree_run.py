@@ -23,7 +23,6 @@ from symgen.describe.topology import known_coordinates, state_names
 from symgen.lower.windings import winding_order
 from symgen.run_setup import choice_of, compiled_for, made_of, ready, taken_up
 from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
@@ -105,7 +104,8 @@ class TreeRun:
         for i in range(info.windings):
             w[abi.WINDING + i] = status[-1, abi.N_STATUS + i] if k else w[abi.WINDING + i]
         values = {f.name: getattr(outcome, f.name) for f in fields(Outcome)}
-        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": self._noted(outcome)}
+        start = replace(self.body_start, notes=outcome.start.notes)
+        values |= {"states": states, "status_columns": status, "compiled": self.bodies, "start": start}
         values |= {"p": self._parameters(outcome.p), "w": w, "happened": self._happened(outcome)}
         values["held"] = tuple((t, self._parameters(numbers)) for t, numbers in outcome.held)
         last = outcome.simulation.state.y
@@ -160,10 +160,6 @@ class TreeRun:
         blow = watched.impact(self.bodies, numbers, event.t, y, self._parameters(p), self.body_start.w.copy())
         return after, blow.impulses
 
-    def _noted(self, outcome: Outcome) -> Start:
-        """Return the start of bodies with what was said of that of the run."""
-        return replace(self.body_start, notes=outcome.start.notes)
-
     def _parameters(self, numbers: Array) -> Array:
         """Return the parameters of a piece of the run as the code for bodies takes them, prepared."""
         p = self.body_start.p.copy()
@@ -171,8 +167,7 @@ class TreeRun:
         if np.array_equal(p[:count], numbers[:count]):
             return p
         p[:count] = numbers[:count]
-        for module in (self.bodies.model, self.bodies.law_module):
-            Ready(module.prepare, e.PREPARE)(p)
+        self.bodies.prepare(p)
         return p
 
     @cached_property
@@ -304,16 +299,15 @@ def begin_on_tree(
     events : tuple of Event
         That are looked for.
     """
-    assert carried.topology is not None, "it was put on a tree"
-    info, own = bodies.info, compiled.info
-    q, v = _state(carried, carried.topology, bodies, start)
+    info, own, at = bodies.info, compiled.info, carrying_of(mechanism, carried, bodies, compiled)
+    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
     p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
-    turned = _windings(mechanism, carried, bodies, start)
     y = np.zeros(own.ny)
-    y[: own.work] = np.concatenate([q, v])
+    y[: own.work] = [values[i - info.m] if joint else start.y[i] for joint, i in at.places.reshape(-1, 2)]
     y[own.work :] = start.y[info.work :]
-    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), _gauge(carried, bodies, start.w)
-    w, rank, redundant = settle_tree(compiled, y, p, start.t, turned, scales)
+    gauge = np.where(at.gauges < 0, 1.0, start.w[at.gauges])
+    scales = float(start.w[abi.LENGTH]), float(start.w[abi.SPEED]), gauge
+    w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
     return TreeRun(mechanism, carried, compiled, found, bodies, start, events)
@@ -341,18 +335,6 @@ def _going_on(
     return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)
 
 
-def _state(carried: Mechanism, topology: Topology, bodies: CompiledModel, start: Start) -> tuple[Array, Array]:
-    """Return the coordinates and velocities of a tree from a start of bodies."""
-    info = bodies.info
-    values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
-    known = {x.name: float(start.y[i]) for i, x in enumerate(info.coordinates)}
-    known |= {x.name: float(start.y[info.nq + i]) for i, x in enumerate(info.velocities)}
-    for k, x in enumerate(info.joint_coordinates):
-        known |= {x.name: float(values[2 * k]), f"{x.name}.rate": float(values[2 * k + 1])}
-    names, speeds = state_names(carried, topology)
-    return np.array([known[name] for name, _ in names]), np.array([known[name] for name, _ in speeds])
-
-
 def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
     """Return where what stands in rows of bodies and of a tree."""
     assert carried.topology is not None, "it was put on a tree"
@@ -374,18 +356,6 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
         gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),
         dependent=integers(()),
     )
-
-
-def _windings(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, start: Start) -> list[float]:
-    """Return the angles whose turns the code for the tree counts, at the start."""
-    places = {m: i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
-    return [float(start.w[abi.WINDING + places[m]]) for m in winding_order(carried, "straight")]
-
-
-def _gauge(carried: Mechanism, bodies: CompiledModel, w: Array) -> Array:
-    """Return what makes translations of the velocities of a tree: 1, or 1 / l^2 with the length of the body turned."""
-    gauge = bodies.section(w, "gauge")
-    return np.array([1.0 if j is None else float(gauge[j]) for j in _levers(carried, bodies.info)])
 
 
 def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:

@@ -24,10 +24,8 @@ from symgen.plan import make_plan
 from symgen.result.export import PREFIX
 from symgen.result.recorded import Recorded, accelerations
 from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import assemble
 from symgen.runtime.outcome import PrescribedMotion
-from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -147,7 +145,7 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
     p, instant = compiled.parameter_array(values, plan.method_parameters), (float(found.t[0]), ())
     start = assemble(compiled, q[0].copy(), list(v[0]), p, False, None, plan.solver_is_free, None, instant)
     if start.light:
-        choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+        choice = plan.choice.given(solver="augmented")
         compiled = compile_model(mechanism, choice)
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q[0].copy(), list(v[0]), p, False, None, False, None, instant)
@@ -169,8 +167,7 @@ def _motions(made: Actuated, settings: Settings, found: Recorded) -> list[Prescr
     def with_effort(actuator: Actuator, value: float) -> PrescribedMotion:
         other = start.p.copy()
         other[places[actuator.parameter]] = value
-        for module in (compiled.model, compiled.law_module):
-            Ready(module.prepare, e.PREPARE)(other)
+        compiled.prepare(other)
         return replace(still, p=other)
 
     for actuator in made.actuators:

@@ -16,7 +16,6 @@ from symgen.errors import AssemblyError, InputError
 from symgen.plan import make_plan
 from symgen.run_setup import give_inputs, ready
 from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.runtime.probe import Ready
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
@@ -135,8 +134,7 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
         p = p.copy()
         for name, value in piece.values.items():
             p[numbers[name]] = value
-        for module in (compiled.model, compiled.law_module):
-            Ready(module.prepare, e.PREPARE)(p)
+        compiled.prepare(p)
     values = {q.name: float(x) for q, x in zip(compiled.info.parameters, start.p, strict=False)}
     parameters = {name: x for name, x in values.items() if name not in found.inputs}
     return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), (*notes, *start.notes))

@@ -18,8 +18,6 @@ from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, held_of, ready
 from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
 
@@ -247,6 +245,5 @@ def described_state(
         y[i] = value
     w[abi.LENGTH] = max(1e-300, float(np.ptp(np.array(q)))) or 1.0
     p = compiled.parameter_array(values, plan.method_parameters)
-    for module in (compiled.model, compiled.law_module):
-        Ready(module.prepare, e.PREPARE)(p)
+    compiled.prepare(p)
     return compiled, y, p, w

@@ -6,7 +6,7 @@ only, so where loops are better the coordinates are those of bodies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.describe.topology import spanning_tree, state_names
@@ -41,7 +41,7 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     """
     if "weight" not in choice.options:
         return choice
-    return replace(choice, options={**choice.options, "weight": "body" if massless else "mass"})
+    return choice.given(weight="body" if massless else "mass")
 
 
 def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:

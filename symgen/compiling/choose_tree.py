@@ -22,21 +22,12 @@ LARGE = 4_000
 GAIN = 0.01
 
 
-def on_tree(mechanism: Mechanism, entries: Entries | None = None) -> Mechanism:
-    """Return a mechanism whose state is that of the joints of its tree.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        A validated mechanism; joints with ``cut = true`` carry nothing.
-    entries : Entries, optional
-        The cache; by default the user's.
-    """
+def on_tree(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism whose state is that of the joints of its tree; those with ``cut = true`` carry nothing."""
     first = spanning_tree(mechanism, mechanism.cuts)
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)
-    store = Entries() if entries is None else entries
-    folder = folder_of(mechanism)
+    store, folder = Entries(), folder_of(mechanism)
     said = hashlib.sha256(f"{sorted(mechanism.cuts)} {generator_digest()}".encode()).hexdigest()[:16]
     stem = f"tree_{said}"
     known = store.get(folder, stem)

@@ -17,7 +17,6 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.events import Watched
 from symgen.runtime.probe import Ready
 from symgen.runtime.resets import Masses, Reset, linear_in_v
-from symgen.store.entries import Entries
 
 Array = NDArray[np.float64]
 
@@ -25,37 +24,19 @@ _DIRECTIONS = {"rising": 1, "falling": -1, "any": 0}
 
 
 def compile_events(
-    mechanism: Mechanism,
-    compiled: CompiledModel,
-    events: Sequence[Event],
-    values: Mapping[str, float],
-    entries: Entries | None = None,
+    mechanism: Mechanism, compiled: CompiledModel, events: Sequence[Event], values: Mapping[str, float]
 ) -> Watched | None:
-    """Return events as loops take them, None where there are none.
-
-    Parameters
-    ----------
-    mechanism, compiled : Mechanism, CompiledModel
-        The model.
-    events : sequence of Event
-        What is watched.
-    values : mapping of str to float
-        Of the parameters.
-    entries : Entries, optional
-        The cache; by default the user's.
-    """
+    """Return events as loops take them, None where there are none; `values` are those of the parameters."""
     if not events:
         return None
     conditions = [(f"{event.name}: {event.text}", event.when) for event in events]
-    side = compile_side(mechanism, compiled, "events", "Switching functions of events", conditions, 1, entries)
+    side = compile_side(mechanism, compiled, "events", "Switching functions of events", conditions, 1)
     resets = {}
     for i, event in enumerate(events):
         if event.reset:
             named = [(to_text(quantity), quantity) for quantity, _ in event.reset]
             after = [(f"{label} afterwards", value) for (label, _), (_, value) in zip(named, event.reset, strict=True)]
-            given = compile_side(
-                mechanism, compiled, "reset", "Velocities at an event", [*named, *after], entries=entries
-            )
+            given = compile_side(mechanism, compiled, "reset", "Velocities at an event", [*named, *after])
             resets[i] = Reset(tuple(label for label, _ in named), given)
     return Watched(
         names=tuple(event.name for event in events),

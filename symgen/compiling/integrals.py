@@ -5,7 +5,6 @@ The law's own module stays what it is: another one beside it calls its right-han
 
 from __future__ import annotations
 
-import hashlib
 import inspect
 from dataclasses import replace
 from pathlib import Path
@@ -13,30 +12,20 @@ from typing import Any
 
 import msgspec
 
-from symgen.compiling.pipeline import folder_of, generator_digest
-from symgen.compiling.side import READ
+from symgen.compiling.pipeline import folder_of
+from symgen.compiling.side import beside, stem_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.errors import InputError, finite_numbers
-from symgen.lower.windings import winding_order
 from symgen.runtime import abi
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import load_module
 
 
-def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None) -> CompiledModel:
+def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
     """Return a compiled model whose state holds what outputs integrate; as it is where they integrate nothing.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        What is run.
-    compiled : CompiledModel
-        Its compiled form for a method.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
@@ -50,23 +39,20 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel, entries: Entri
         expected = "a method that integrates velocities, as an output is an integral"
         raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
     auxiliary = compiled.law.nw, 1 + len(found)
-    sections = {name: info.sections[name] for name in READ if name in info.sections} | {"auxiliary": auxiliary}
-    rows = {row.name: i for i, row in enumerate(info.rows)}
-    turning = winding_order(mechanism, compiled.shape)
+    around = beside(mechanism, compiled)
+    around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
     names = sorted(name for name, value in vars(law).items() if _is_emitted(value, law.__name__.rpartition(".")[0]))
     path = Path(str(law.__file__))
-    places = folder_of(mechanism), str(sorted(sections.items())), str(sorted(rows.items())), repr(turning)
-    text = "\n".join([*places, generator_digest(), path.stem, *names, *(to_text(integral.of) for integral in found)])
-    stem = f"integrals_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    store = Entries() if entries is None else entries
-    folder = path.parent.name
+    texts = [to_text(integral.of) for integral in found]
+    store, folder = Entries(), path.parent.name
+    stem = stem_of("integrals", folder_of(mechanism), around, path.stem, *names, *texts)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.emit.side import emit_integrals
         from symgen.lower.side import lower_integrands
 
         with finite_numbers("integrals of outputs"):
-            program = lower_integrands(mechanism, turning, sections, rows)
+            program = lower_integrands(mechanism, around)
         return emit_integrals(program, path.stem, names, abi.POWER), {}
 
     store.made(folder, stem, make)

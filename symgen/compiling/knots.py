@@ -8,27 +8,18 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.knots import Knots
-from symgen.store.entries import Entries
 
 #: Which derivative of a table jumps at its points.
 _JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
 
 
-def compile_knots(mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None) -> Knots | None:
-    """Return where steps of a run should end for its tables, None where none is read over the state.
-
-    Parameters
-    ----------
-    mechanism, compiled : Mechanism, CompiledModel
-        The model.
-    entries : Entries, optional
-        The cache; by default the user's.
-    """
+def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None:
+    """Return where steps of a run should end for its tables, None where none is read over the state."""
     found = knots_of(mechanism)
     if not found:
         return None
     formulas = [(to_text(argument), argument) for argument, _ in found]
-    side = compile_side(mechanism, compiled, "knots", "Arguments of tables", formulas, 2, entries)
+    side = compile_side(mechanism, compiled, "knots", "Arguments of tables", formulas, 2)
     tables = [table for _, table in found]
     return Knots(
         function=side.plain,

@@ -6,7 +6,6 @@ cache has no entry.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,16 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.pipeline import folder_of, generator_digest
-from symgen.compiling.side import READ
+from symgen.compiling.pipeline import folder_of
+from symgen.compiling.side import beside, stem_of
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import finite_numbers
-from symgen.lower.windings import winding_order
+from symgen.lower.windings import Beside
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
-from symgen.vocabulary.measures import Measure
 
 Array = NDArray[np.float64]
 
@@ -34,15 +32,7 @@ NAME = "linearised"
 
 @dataclass(frozen=True)
 class Evaluated:
-    """Values and derivatives at one state, by group.
-
-    Attributes
-    ----------
-    form : DescriptorForm
-        What was evaluated.
-    out : Array
-        All numbers.
-    """
+    """All values and derivatives of a descriptor form at one state, by group."""
 
     form: DescriptorForm
     out: Array
@@ -138,9 +128,7 @@ class DescriptorForm:
         return Evaluated(self, out)
 
 
-def compile_linearised(
-    mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...] = (), entries: Entries | None = None
-) -> DescriptorForm:
+def compile_linearised(mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...] = ()) -> DescriptorForm:
     """Return the descriptor form of a mechanism with its derivatives, generated only if the cache does not have it.
 
     Parameters
@@ -151,10 +139,13 @@ def compile_linearised(
         The model that it is evaluated beside: its ``p`` and ``w``.
     by : tuple of str
         Parameters that it is differentiated by.
-    entries : Entries, optional
-        As for `symgen.compiling.side.compile_side`, whose errors these are.
+
+    Raises
+    ------
+    InputError
+        If numbers that meet in a formula overflow.
     """
-    found = _compiled(mechanism, compiled, by, (), entries)
+    found = _compiled(mechanism, compiled, by, ())
     assert found is not None, "the whole form is wanted"
     return found
 
@@ -163,42 +154,23 @@ def compile_linearised(
 GROWTH = ("motion", "balance", "accelerations")
 
 
-def compile_growth(
-    mechanism: Mechanism, compiled: CompiledModel, entries: Entries | None = None
-) -> DescriptorForm | None:
+def compile_growth(mechanism: Mechanism, compiled: CompiledModel) -> DescriptorForm | None:
     """Return the groups `GROWTH` with derivatives by state, v' and multipliers; None where nothing can decay.
-
-    Parameters
-    ----------
-    mechanism, compiled, entries
-        As for `compile_linearised`.
 
     Raises
     ------
     InputError
         If numbers that meet in a formula overflow.
     """
-    return _compiled(mechanism, compiled, (), GROWTH, entries)
+    return _compiled(mechanism, compiled, (), GROWTH)
 
 
 def _compiled(
-    mechanism: Mechanism,
-    compiled: CompiledModel,
-    by: tuple[str, ...],
-    groups: tuple[str, ...],
-    entries: Entries | None,
+    mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
-    store = Entries() if entries is None else entries
-    info = compiled.info
-    turning = winding_order(mechanism, compiled.shape)
-    sections = {section: info.sections[section] for section in READ if section in info.sections}
-    rows = {row.name: i for i, row in enumerate(info.rows)}
-    folder = folder_of(mechanism)
-    formulas = repr(derived(mechanism.parameters)) if by else ""
-    parts = [str(sorted(sections.items())), str(rows), repr(turning), str(by), formulas, str(groups)]
-    text = "\n".join([*parts, generator_digest()])
-    stem = f"{NAME}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    known = store.made(folder, stem, lambda: _built(mechanism, by, groups, turning, sections, rows))
+    store, info, around, folder = Entries(), compiled.info, beside(mechanism, compiled), folder_of(mechanism)
+    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups)
+    known = store.made(folder, stem, lambda: _built(mechanism, by, groups, around))
     if known["still"]:
         return None
     spaces = ("t", "q", "v", "a", "lam", "p")
@@ -218,22 +190,17 @@ def _compiled(
 
 
 def _built(
-    mechanism: Mechanism,
-    by: tuple[str, ...],
-    groups: tuple[str, ...],
-    turning: tuple[Measure, ...],
-    sections: Mapping[str, tuple[int, int]],
-    rows: Mapping[str, int],
+    mechanism: Mechanism, by: tuple[str, ...], groups: tuple[str, ...], around: Beside
 ) -> tuple[str, dict[str, Any]]:
     """Return the module of the function, and what its numbers are."""
     from symgen.emit.side import emit_side
     from symgen.lower.linearised import can_decay, lower_linearised
 
-    known: dict[str, Any] = {"still": bool(groups) and not can_decay(mechanism, turning, rows)}
+    known: dict[str, Any] = {"still": bool(groups) and not can_decay(mechanism, around)}
     text = '"""Nothing decays."""\n'
     if not known["still"]:
         with finite_numbers(f"mechanism '{mechanism.name}'"):
-            program = lower_linearised(mechanism, by, turning, sections, rows, groups)
+            program = lower_linearised(mechanism, by, around, groups)
         text = emit_side(program.side)
         known |= {
             "sizes": list(program.sizes.items()),

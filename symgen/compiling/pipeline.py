@@ -53,6 +53,10 @@ class MethodChoice:
         """File stem of its module."""
         return self.method.stem(self.options, self.implicit)
 
+    def given(self, **options: str) -> MethodChoice:
+        """Return the same with other values of some options."""
+        return replace(self, options={**self.options, **options})
+
 
 def choose_method(name: str, options: Mapping[str, str] | None = None, implicit: bool = False) -> MethodChoice:
     """Return the method called `name` with its options, defaults filled in, and the form that an integrator needs.
@@ -71,7 +75,7 @@ def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     """Return a choice as the mechanism's coordinates say it: the metric of bodies is the identity in their own."""
     if mechanism.topology is not None or choice.options.get("weight") != "body":
         return choice
-    return replace(choice, options={**choice.options, "weight": "identity"})
+    return choice.given(weight="identity")
 
 
 def folder_of(mechanism: Mechanism) -> str:

@@ -22,7 +22,7 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
-from symgen.lower.windings import winding_order
+from symgen.lower.windings import Beside, winding_order
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
@@ -68,6 +68,20 @@ class Side:
         return out
 
 
+def beside(mechanism: Mechanism, compiled: CompiledModel) -> Beside:
+    """Return what formulas may read of a compiled model."""
+    info = compiled.info
+    sections = {section: info.sections[section] for section in READ if section in info.sections}
+    rows = {row.name: i for i, row in enumerate(info.rows)}
+    return Beside(winding_order(mechanism, compiled.shape), sections, rows)
+
+
+def stem_of(name: str, *said: object) -> str:
+    """Return the stem of a module by all that shapes it, the sources that emit it among that."""
+    text = "\n".join([*map(str, said), generator_digest()])
+    return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+
+
 def compile_side(
     mechanism: Mechanism,
     compiled: CompiledModel,
@@ -101,23 +115,17 @@ def compile_side(
         If numbers that meet in a formula overflow.
     """
     store = Entries() if entries is None else entries
-    info = compiled.info
-    turning = winding_order(mechanism, compiled.shape)
-    sections = {section: info.sections[section] for section in READ if section in info.sections}
-    rows = {row.name: i for i, row in enumerate(info.rows)}
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
-    folder = folder_of(mechanism)
-    places = str(sorted(sections.items())), str(sorted(rows.items())), repr(turning), str(list(integrals(mechanism)))
-    text = "\n".join([purpose, str(rates), *places, generator_digest(), *labels])
-    text += "\n".join(to_text(e) for _, e in formulas)
-    stem = f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    folder, around = folder_of(mechanism), beside(mechanism, compiled)
+    texts = [to_text(e) for _, e in formulas]
+    stem = stem_of(name, purpose, rates, around, list(integrals(mechanism)), *labels, *texts)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.emit.side import emit_side
         from symgen.lower.side import lower_side
 
         with finite_numbers(purpose):
-            program = lower_side(mechanism, name, purpose, formulas, turning, sections, rows, rates)
+            program = lower_side(mechanism, name, purpose, formulas, around, rates)
         return emit_side(program), {"reads": list(program.reads)}
 
     metadata = store.made(folder, stem, make)

@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
 from symgen.emit.parts import Parts, accept_kind
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
-from symgen.vocabulary.quantities import Quantity
+
+if TYPE_CHECKING:
+    from symgen.lower.side import SideProgram
 
 #: Numbers of tables that fit into the 64 KiB of a CUDA device's constant memory, some of it left for others.
 MOST_CONSTANTS = 8000
@@ -108,17 +110,7 @@ def model_names(model: ModelProgram) -> list[str]:
 
 
 class LiteralLayout:
-    """Sizes and places as numbers of one mechanism; sections are constants of the module.
-
-    Parameters
-    ----------
-    program : LawProgram
-        The law.
-    turning : str
-        Arguments of ``normalise``, empty in the plane.
-    decorator : str
-        What precedes each function.
-    """
+    """Sizes and places as numbers of one mechanism; sections are constants of the module; see `PartsLayout`."""
 
     def __init__(self, program: LawProgram, turning: str, decorator: str = PLATFORMS["cpu"].decorator) -> None:
         self.program, self.turning, self.decorator = program, turning, decorator
@@ -207,26 +199,14 @@ def array_text(values: Sequence[float]) -> str:
     return f'np.array("{" ".join(map(repr, values))}".split(), dtype=float)'
 
 
-class Named(Protocol):
-    """Names and units of what stands in ``y`` and ``p``: `Equations`, or a program that carries them."""
-
-    @property
-    def coordinates(self) -> tuple[Quantity, ...]:
-        """Of q."""
-
-    @property
-    def velocities(self) -> tuple[Quantity, ...]:
-        """Of v."""
-
-    @property
-    def parameters(self) -> tuple[Quantity, ...]:
-        """Of p."""
-
-
 def straight(
-    blocks: Sequence[Block], layout: Layout, equations: Named, target: str = "cpu", further: Names | None = None
+    blocks: Sequence[Block],
+    layout: Layout,
+    equations: Equations | SideProgram,
+    target: str = "cpu",
+    further: Names | None = None,
 ) -> list[Code]:
-    """Return blocks as functions of straight lines; `further` names stand beside those of q, v and p."""
+    """Return blocks as functions of straight lines; `further` names stand beside those of q, v and p of `equations`."""
     names = {("q", i): f"{q.name} [{q.unit}]" for i, q in enumerate(equations.coordinates)}
     names |= {("v", i): f"{v.name} [{v.unit}]" for i, v in enumerate(equations.velocities)}
     names |= {("p", i): f"{p.name} [{p.unit}]" for i, p in enumerate(equations.parameters)}
@@ -235,7 +215,7 @@ def straight(
     observed = of_observed(equations) if isinstance(equations, Equations) else {}
     codes = []
     for block in blocks:
-        lines = print_block(block, ElementAccess(layout, names | observed if block.name == "observe" else names))
+        lines = Printer(block, ElementAccess(layout, names | observed if block.name == "observe" else names)).lines()
         body: list[str] = []
         for title, part in (("inputs", lines.inputs), ("intermediate terms", lines.terms), ("outputs", lines.outputs)):
             body += [f"# {title}", *part] if part else []

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from symgen.emit.emit import table_codes
 from symgen.emit.module import Code, function, module
-from symgen.emit.printer import Printer
+from symgen.emit.printer import Access, Printer
 from symgen.formulate.elements import RECORD
 from symgen.ir.program import FORMAT, STATUS, Block, Target
 from symgen.lower.looped.forms import FormProgram, form_stride
@@ -83,7 +83,7 @@ _WRITTEN = {
 
 
 @dataclass(frozen=True)
-class InstanceAccess:
+class InstanceAccess(Access):
     """How an instance's elements are written: by numbers of its table, which are read into locals first.
 
     Attributes
@@ -116,10 +116,6 @@ class InstanceAccess:
             return f"winding_{index}", self.element("w", str(len(STATUS)), f"u{index}")
         return f"{space}_{index}", self.element(*_READ[space], plus=index)
 
-    def note(self, space: str, index: int) -> str:
-        """Return nothing: an instance's numbers have no names."""
-        return ""
-
     def operator(self, target: Target) -> str:
         """Return what joins an output to its value."""
         return "+=" if target.space in (*_SUMS, "force+") else "="
@@ -137,10 +133,6 @@ class InstanceAccess:
         if space == "winding":
             return self.element("w", str(len(STATUS)), f"u{i}")
         return self.element(*_WRITTEN.get(space, ("w", space, "row")), plus=i)
-
-    def function(self, name: str) -> str:
-        """Return what a mathematical function is called."""
-        return f"math.{name}"
 
     def velocity(self, index: int, which: int = 1) -> tuple[int, int]:
         """Return frame and place in the frame of a velocity of the element, or of a coordinate (`which` 0)."""

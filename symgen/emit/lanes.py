@@ -7,7 +7,7 @@ from dataclasses import replace
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
 from symgen.emit.module import PLATFORMS, Code, function, module
 from symgen.emit.parts import Parts, accept_kind
-from symgen.emit.printer import LaneAccess, print_block
+from symgen.emit.printer import LaneAccess, Printer
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
@@ -102,7 +102,7 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
 
 def _over_lanes(block: Block, access: LaneAccess) -> Code:
     """Return a block as a loop over lanes."""
-    lines, alone = print_block(block, access), block.name == "rhs"
+    lines, alone = Printer(block, access).lines(), block.name == "rhs"
     counted = [f"z[SUSPECTS + lane] += 1.0*{lines.flag}"] if lines.flag and alone else []
     loop = [f"    {line}" for line in (*lines.inputs, *lines.terms, *lines.outputs, *counted)]
     # nothing is left of a factorisation that parameters decide alone

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, render
 from symgen.emit.parts import Parts, accept_kind
-from symgen.emit.printer import Printer
+from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
@@ -114,18 +114,19 @@ class Bases:
             self.names.add(name)
         return name
 
-    def lines(self) -> tuple[list[str], set[str]]:
-        """Return the lines that read what has been noted, and what they name."""
+    def finished(self) -> tuple[list[str], set[str], set[str]]:
+        """Return the lines that read what has been noted, what they call, and the law's own sections among it."""
         scratch = sorted((n for n in self.names if n[0] == "x" and n[1:].isdigit()), key=lambda name: int(name[1:]))
         named = sorted(self.names.difference(scratch), key=lambda n: (HEAD.index(n) if n in HEAD else len(HEAD), n))
         lines = [f"{name} = np.int64(T[{name.upper()}])" for name in named]
-        calls = {"tables", *map(str.upper, named)}
+        own = {name for name in named if name not in HEAD}
+        calls = {"tables", *(name.upper() for name in named if name not in own), *(("numpy",) if self.names else ())}
         if scratch:
             lines.append("vectors, vector_size = np.int64(T[VECTORS]), np.int64(T[VECTOR_SIZE])")
             lines += [f"{name} = vectors + {name[1:]} * vector_size" for name in scratch]
             calls |= {"VECTORS", "VECTOR_SIZE"}
         self.names.clear()
-        return ["T = tables(w)", *lines], calls | ({"numpy"} if lines else set())
+        return ["T = tables(w)", *lines], calls, own
 
 
 class _Size(str):
@@ -159,11 +160,7 @@ class TableLayout:
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read the tables, where anything is read."""
-        if not self.bases.names:
-            return [], set(), set()
-        names = set(self.bases.names)
-        lines, calls = self.bases.lines()
-        return lines, {c for c in calls if c.lower() not in names or c.lower() in HEAD}, names.difference(HEAD)
+        return self.bases.finished() if self.bases.names else ([], set(), set())
 
 
 def print_function(f: data.LoopedFunction) -> Code:
@@ -195,9 +192,8 @@ def print_function(f: data.LoopedFunction) -> Code:
                 lines += [*(f"    {line}" for line in right[:-1]), f"    {left} = {right[-1]}"]
     flagged = f.flagged and f.part.flag is not None
     lines.append("return int(suspicious)" if flagged else "return 0")
-    own = access.bases.names.difference(HEAD, (f"x{i}" for i in range(f.vectors)))
-    before, names = access.bases.lines()
-    called |= (names - {name.upper() for name in own}) | access.functions
+    before, names, own = access.bases.finished()
+    called |= names | access.functions
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
     return function(f.part.name, _ARGUMENTS[f.part.name], purpose, [*before, *lines], calls=called, sections=sections)
@@ -209,19 +205,20 @@ def _printed(
     """Return left-hand sides, and for each the lines of its terms with its expression as the last one."""
     block = Block("", "", graph, tuple((Target(space, index), node) for space, index, node in outputs), ())
     printer = Printer(block, access)
-    terms = list(printer.lines().terms)
+    lines = printer.lines()
+    access.functions |= lines.functions
     rights = [[printer.text[node][0]] for _, _, node in outputs]
-    rights[0] = terms + rights[0]
+    rights[0] = [*lines.terms, *rights[0]]
     return [access.write(target) for target, _ in block.outputs], rights
 
 
-class LoopAccess:
+class LoopAccess(Access):
     """How the general element of a section, and numbers, are written; notes which names that takes."""
 
     def __init__(self) -> None:
         self.bases = Bases()
         self.status: set[str] = set()
-        self.functions: set[str] = set()
+        self.functions: set[str] = set()  # what is called
 
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input: the expression twice, as it is written where it is used."""
@@ -243,15 +240,6 @@ class LoopAccess:
         if space in (data.VELOCITIES, data.RATES):
             return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
         return f"w[{self.bases.base(space)} + j]"
-
-    def note(self, space: str, index: int) -> str:
-        """Return nothing: sections say what they are."""
-        return ""
-
-    def function(self, name: str) -> str:
-        """Return what a mathematical function is called."""
-        self.functions.add("math")
-        return f"math.{name}"
 
 
 def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:

@@ -49,15 +49,7 @@ class _Names:
 
 
 class Parts:
-    """Prints templates of ``templates/parts``; each of their functions says what it calls.
-
-    Parameters
-    ----------
-    layout : PartsLayout
-        Of the shape or target.
-    correction : Correction
-        What is done after each accepted step.
-    """
+    """Prints templates of ``templates/parts``; each of their functions says what it calls."""
 
     def __init__(self, layout: PartsLayout, correction: Correction) -> None:
         self.layout = layout

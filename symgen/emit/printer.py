@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Protocol
 
 from symgen.emit.text import harmless, table_name
-from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Layout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 
@@ -33,24 +33,28 @@ class Lines:
     functions: frozenset[str]
 
 
-class Access(Protocol):
+class Access(ABC):
     """How elements are written in a target."""
 
+    @abstractmethod
     def read(self, space: str, index: int) -> tuple[str, str]:
         """Return (local name, expression) of an input."""
 
+    @abstractmethod
     def write(self, target: Target) -> str:
         """Return the left-hand side of an output."""
 
     def note(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
+        return ""
 
     def function(self, name: str) -> str:
         """Return what a mathematical function is called."""
+        return f"math.{name}"
 
 
 @dataclass(frozen=True)
-class ElementAccess:
+class ElementAccess(Access):
     """How elements of arrays and scratch sections are written in a target: here, plain indexing."""
 
     layout: Layout
@@ -82,21 +86,12 @@ class ElementAccess:
         """Return the name of an element in the model, empty where it has none."""
         return self.names.get((space, index), "")
 
-    def function(self, name: str) -> str:
-        """Return what a mathematical function is called."""
-        return f"math.{name}"
-
 
 @dataclass(frozen=True)
 class LaneAccess(ElementAccess):
     """Elements of `lanes` runs side by side in one array ``z``: element i stands at ``lanes*i + lane``.
 
-    Parameters
-    ----------
-    bases : mapping of str to int
-        Where each array of a single run begins.
-    lanes : int
-        How many runs.
+    `bases` say where each array of a single run begins.
     """
 
     bases: Mapping[str, int]
@@ -111,26 +106,13 @@ class LaneAccess(ElementAccess):
         return {"sin": "sine", "cos": "cosine"}.get(name, f"math.{name}")
 
 
-def print_block(block: Block, access: ElementAccess) -> Lines:
-    """Return the body of `block` as lines of Python.
-
-    Parameters
-    ----------
-    block : Block
-        Straight-line computation.
-    access : ElementAccess
-        How its elements are read and written.
-    """
-    return Printer(block, access).lines()
-
-
 class Printer:
-    """Prints one block; after `lines`, `text` holds text and precedence of every node."""
+    """Prints one block as lines of Python; after `lines`, `text` holds text and precedence of every node."""
 
     def __init__(self, block: Block, access: Access) -> None:
         self.block, self.access, self.graph = block, access, block.graph
         self.needed = self.graph.needed(block.nodes)
-        self.uses = _count_uses(self.graph, self.needed, block.nodes)
+        self.uses = Counter(a for node in self.needed for a in self.graph.nodes[node].args) + Counter(block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
         self.functions: set[str] = set()  # what is called: math's, and others that are emitted
 
@@ -219,13 +201,3 @@ class Printer:
         """Return a node's text, in parentheses where it binds weaker than `level`."""
         text, own = self.text[node]
         return text if own >= level else f"({text})"
-
-
-def _count_uses(graph: Graph, needed: list[int], ends: tuple[int, ...]) -> dict[int, int]:
-    uses = dict.fromkeys(needed, 0)
-    for node in needed:
-        for a in graph.nodes[node].args:
-            uses[a] += 1
-    for node in ends:
-        uses[node] += 1
-    return uses

@@ -36,9 +36,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_LIGHT, _START = e.SUMMARY.index("light"), e.SUMMARY.index("start")
-_REDUNDANT, _CODE = e.SUMMARY.index("redundant_rows"), e.SUMMARY.index("code")
-
 
 @dataclass(frozen=True)
 class Chunk:
@@ -167,11 +164,11 @@ class Kernel:
         out = Results(values, np.zeros((k, e.N_SUMMARY)), np.zeros((k, recipe.further)), behind)
         everything = np.arange(k, dtype=np.int64)
         complete = self._run_with(self.first, rows, everything, out, control)
-        light = np.flatnonzero((out.summary[:, _LIGHT] == 1.0) & (out.summary[:, _START] == e.ASSEMBLED))
+        light = np.flatnonzero((out.summary[:, e.LIGHT] == 1.0) & (out.summary[:, e.START] == e.ASSEMBLED))
         if complete and len(light) and (spare := self.spare()) is not None:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
-            out.summary[light, _LIGHT] = 1.0
+            out.summary[light, e.LIGHT] = 1.0
         return Chunk(recipe.in_order(values, behind), out.whole_summary, complete)
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
@@ -183,9 +180,9 @@ class Kernel:
         ps[:k, : len(info.parameters)], ys[:k, : info.nq] = rows.parameters, rows.q
         if not self._close(model, rows, Instant(ys, ps, ws), selected, out.summary, control):
             return False
-        ready = out.summary[selected, _START] == e.ASSEMBLED
+        ready = out.summary[selected, e.START] == e.ASSEMBLED
         if model is self.first and recipe.spare is not None:
-            ready &= out.summary[selected, _LIGHT] == 0.0
+            ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
         if model.tree is not None and model.on_tree is not None:
             starts, apart = model.tree.settle((ys, ps, ws), selected, control)
@@ -197,7 +194,7 @@ class Kernel:
             return model.single.run(rows, (ys, ps, ws), selected, out, control)
         if not self._advance(model, (ys, ps, ws), selected, out.values, out.summary, control):
             return False
-        redundant = selected[out.summary[selected, _REDUNDANT] > 0.0]
+        redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         measures = recipe.measures if model is self.first else recipe.spare_measures
@@ -263,7 +260,7 @@ class Kernel:
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
-        redundant = np.any(summary[selected, _REDUNDANT] > 0.0) and info.m * info.nv <= LARGEST
+        redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0) and info.m * info.nv <= LARGEST
         layout = model.assembly.layout
         places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + 1) if redundant else 0)
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
@@ -273,7 +270,7 @@ class Kernel:
             ends = rates, confirms[1], law.accept, seen[2]
             if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):
                 return False
-            chunk = chunk._replace(selected=selected[summary[selected, _CODE] == abi.LEFT])
+            chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop = self.integrator.rows(recipe.spec.adaptive)
         functions = law.rhs, confirms[0], law.accept, *seen
         done = loop(*functions, model.setup.scheme, sizes, span, chunk, state, kept)

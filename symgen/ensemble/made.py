@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -74,7 +74,7 @@ class Made:
         if target != "cpu":
             found["other"] = Module.of(compile_model(mechanism, plan.choice, target=target))
         if plan.solver_is_free:
-            choice = replace(plan.choice, options={**plan.choice.options, "solver": "augmented"})
+            choice = plan.choice.given(solver="augmented")
             light = self._made(choice)
             found |= {"spare": Module.of(light), "spare_measures": make_measures(mechanism, light, self.kept)}
             if joint:

@@ -49,7 +49,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_REDUNDANT = e.SUMMARY.index("redundant_rows")
 _TABLES = {e.REACTION: "reactions", e.BODY_REACTION: "in_body_axes", e.MAGNITUDE: "magnitudes"}
 #: Steps between two looks at whether somebody wants it to stop.
 _STEPS = 1e5
@@ -213,7 +212,7 @@ class SingleRuns:
         """Return what is kept of a run at its outputs, shape (outputs, quantities)."""
         info, found = self.compiled.info, np.full((len(outcome.times), len(self.recipe.quantities)), np.nan)
         sources = {q.source for q in self.recipe.quantities}
-        unique = out.summary[r, _REDUNDANT] == 0.0
+        unique = out.summary[r, e.REDUNDANT_ROWS] == 0.0
         kinetic, potential = outcome.status_columns[:, abi.KINETIC], outcome.status_columns[:, abi.POTENTIAL]
         columns: dict[int, Any] = {
             e.STATE: lambda: outcome.states,

@@ -281,6 +281,11 @@ class Graph:
                 stack.extend(self.nodes[node].args)
         return sorted(seen)
 
+    def keys(self, outputs: Iterable[int]) -> list[tuple[str, int]]:
+        """Return space and index of all inputs that `outputs` depend on, in evaluation order."""
+        payloads = (self.nodes[n].payload for n in self.needed(outputs))
+        return [payload for payload in payloads if isinstance(payload, tuple)]
+
     def operations(self, outputs: Iterable[int]) -> int:
         """Count the arithmetic operations needed for `outputs`, shared ones once."""
         return sum(1 for n in self.needed(outputs) if self.nodes[n].op not in ("const", "input"))

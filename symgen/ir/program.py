@@ -74,6 +74,13 @@ STATUS = (
     "power",  # of forces without potential and of drivers, by `residual`
 )
 
+#: Sections of ``w`` that functions of every model and law share, and what they are as long as.
+SECTIONS = (
+    *((name, "m") for name in ("multipliers", "mask", "saved", "residual", "nu", "pivot")),
+    *((name, "nv") for name in ("change", "mass", "gauge")),
+    *(("row_weight", "m"), ("jacobian", "jacobian")),
+)
+
 #: Those numbers of the status that a start finds, and that are 1 before.
 SCALES = ("length_scale", "speed_scale", "mean_mass")
 

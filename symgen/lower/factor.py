@@ -64,10 +64,19 @@ class Factor:
 
     def solve(self, graph: Graph, right: Sequence[int]) -> list[int]:
         """Return the nodes of the solution for a right-hand side."""
+        return self.back(graph, self.forward(graph, right))
+
+    def forward(self, graph: Graph, right: Sequence[int]) -> list[int]:
+        """Return the nodes of L^-1 x."""
         x = list(right)
         for k in self.order:
             for i, entry in self.lower[k]:
                 x[i] = graph.sub(x[i], graph.mul(entry, x[k]))
+        return x
+
+    def back(self, graph: Graph, half: Sequence[int]) -> list[int]:
+        """Return the nodes of L^-T D^-1 x."""
+        x = list(half)
         for k in reversed(self.order):
             x[k] = graph.mul(x[k], self.reciprocal[k])
             for i, entry in self.lower[k]:

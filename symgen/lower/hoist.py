@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from symgen.ir.graph import PARAMETER, Graph
 from symgen.ir.program import Block, Target
+from symgen.methods._formula import needed
 
 
 class Hoister:
@@ -79,26 +80,13 @@ class Hoister:
 
     def _reached(self, ends: Sequence[int]) -> list[int]:
         """Nodes needed for `ends`, not looking behind what is hoisted."""
-        seen: set[int] = set()
-        stack = list(ends)
-        while stack:
-            node = stack.pop()
-            if node not in seen:
-                seen.add(node)
-                if not self._moves(node):
-                    stack.extend(self.graph.nodes[node].args)
-        return sorted(seen)
+        return needed(ends, lambda node: () if self._moves(node) else self.graph.nodes[node].args)
 
     def prepare(self) -> Block:
         """Return the block that fills the hoisted numbers; call it after all other blocks."""
         graph = Graph()
         nodes = sorted(self.slots, key=self.slots.__getitem__)
-        inputs = {
-            key: self._input(graph, *key)
-            for n in self.graph.needed(nodes)
-            if self.graph.nodes[n].op == "input" and isinstance(key := self.graph.nodes[n].payload, tuple)
-        }
-        images = graph.inline(self.graph, nodes, inputs)
+        images = graph.inline(self.graph, nodes, {key: self._input(graph, *key) for key in self.graph.keys(nodes)})
         outputs = tuple(
             (Target("p", self._place(self.slots[n])), image) for n, image in zip(nodes, images, strict=True)
         )

@@ -19,7 +19,8 @@ from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
-from symgen.vocabulary.measures import Holonomic, Measure
+from symgen.lower.windings import Beside
+from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
 #: D v' - gamma, ``velocities``, D v - nu, and ``positions``, Phi.
@@ -69,12 +70,7 @@ class LinearisedProgram:
 
 
 def lower_linearised(
-    mechanism: Mechanism,
-    by: Sequence[str],
-    turning: Sequence[Measure],
-    sections: Mapping[str, tuple[int, int]],
-    rows: Mapping[str, int],
-    groups: Sequence[str] = (),
+    mechanism: Mechanism, by: Sequence[str], beside: Beside, groups: Sequence[str] = ()
 ) -> LinearisedProgram:
     """Lower the descriptor form with its derivatives.
 
@@ -85,8 +81,8 @@ def lower_linearised(
     by : sequence of str
         Parameters that it is differentiated by, beside t, q, v, v' and lambda; what follows from them by formulas of
         the description follows them here too.
-    turning, sections, rows
-        As for `symgen.lower.side.lower_side`.
+    beside : Beside
+        What may be read of the compiled model.
     groups : sequence of str
         Groups that are wanted, with derivatives by state, v' and multipliers alone; by default everything.
 
@@ -96,7 +92,7 @@ def lower_linearised(
         If numbers that meet in a formula overflow.
     """
     equations = formulate(mechanism)
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     g = model.graph
     values = {name: nodes for name, nodes in _descriptor(model, equations).items() if not groups or name in groups}
     elements, parts = ((), []) if groups else _elements(model)
@@ -127,7 +123,7 @@ def lower_linearised(
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
     labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]
     labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
-    side = side_program(mechanism, (block,), sections, labels)
+    side = side_program(mechanism, (block,), beside, labels)
     return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
 
 
@@ -164,15 +160,14 @@ def _followed(
     return found
 
 
-def can_decay(mechanism: Mechanism, turning: Sequence[Measure], rows: Mapping[str, int]) -> bool:
+def can_decay(mechanism: Mechanism, beside: Beside) -> bool:
     """Whether a force depends on velocities, or a joint is a condition on them: else motions at rest only oscillate."""
     if any(not isinstance(row, Holonomic) for joint in mechanism.joints for row in joint.rows):
         return True
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     for force in mechanism.forces:
         totals = [exertion(model, effort).total for effort in force.efforts]
-        found = (model.graph.nodes[n] for n in model.graph.needed(totals))
-        if any(o.op == "input" and isinstance(o.payload, tuple) and o.payload[0] == "v" for o in found):
+        if any(space == "v" for space, _ in model.graph.keys(totals)):
             return True
     return False
 
@@ -183,11 +178,7 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     wanted = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
     wanted += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
     wanted += [n for row in e.rows for _, n in row.entries]
-    keys = {
-        key: g.input(*key)
-        for n in e.graph.needed(wanted)
-        if e.graph.nodes[n].op == "input" and isinstance(key := e.graph.nodes[n].payload, tuple)
-    }
+    keys = {key: g.input(*key) for key in e.graph.keys(wanted)}
     image = dict(zip(wanted, g.inline(e.graph, wanted, keys), strict=True))
     velocities = [g.input("v", i) for i in range(e.nv)]
     rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]
@@ -231,15 +222,14 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
         for label, measure in joint.coordinates
     ]
     if model.tree is not None:  # where bodies are carried their coordinates are quantities of the state as well
-        bodies = mechanism_bodies(model)
-        named += [(name, "", model.names[name]) for name in bodies]
+        named += [
+            (f"{b.name}.{c}", "", model.names[f"{b.name}.{c}"])
+            for b in model.mechanism.bodies
+            for c in (*b.coordinates, *b.speeds)
+        ]
     named += [(o.name, o.unit, model.expression(o.value)) for o in model.mechanism.outputs]
     for name, unit, value in named:
-        spaces = {
-            key[0]
-            for n in model.graph.needed([value])
-            if model.graph.nodes[n].op == "input" and isinstance(key := model.graph.nodes[n].payload, tuple)
-        }
+        spaces = {space for space, _ in model.graph.keys([value])}
         if spaces & {"z", "status"}:
             continue  # an integral has a history, not a value of the state
         chain = [value]
@@ -252,11 +242,6 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
         found.append(Function(name, unit, len(chain)))
         nodes += chain
     return tuple(found), nodes
-
-
-def mechanism_bodies(model: SideModel) -> list[str]:
-    """Return the names of coordinates and velocities of all bodies."""
-    return [f"{b.name}.{c}" for b in model.mechanism.bodies for c in (*b.coordinates, *b.speeds)]
 
 
 def _has_second_slopes(model: SideModel, node: int) -> bool:

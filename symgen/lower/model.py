@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from symgen.formulate.equations import Equations
-from symgen.ir.program import STATUS, Block, Layout, ModelProgram, Target
+from symgen.ir.program import SECTIONS, STATUS, Block, Layout, ModelProgram, Target
 from symgen.lower.hoist import Hoister
 from symgen.lower.law import law_block
 from symgen.lower.manifold import manifold_blocks
@@ -29,30 +29,17 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
     factor = scalars.values[geometry.outputs[1][1]]
     sections: dict[str, tuple[int, int]] = {}
     offset = 0
-    sizes = {
-        "status": len(STATUS),
-        "winding": len(equations.windings),  # right behind the status: both are kept with every output
-        "multipliers": m,
-        "mask": m,
-        "saved": m,
-        "residual": m,
-        "nu": m,
-        "pivot": m,
-        "change": equations.nv,
-        "mass": equations.nv,
-        "gauge": equations.nv,
-        "row_weight": m,
-        "jacobian": sum(e.slot is not None for e in scalars.jacobian),
-        "lower": len(scalars.kept["lower"]),
-        "reciprocal": len(scalars.kept["reciprocal"]),
-    }
-    if scalars.mass_entries:
-        sizes["mass_entry"] = len(scalars.mass_entries)
-    for name, size in sizes.items():
-        if name == "winding" and not size:
-            continue
-        sections[name] = (offset, size)
-        offset += size
+    sizes = {"m": m, "nv": equations.nv, "jacobian": sum(e.slot is not None for e in scalars.jacobian)}
+    for name, size in (
+        ("status", len(STATUS)),
+        ("winding", len(equations.windings)),  # right behind the status: both are kept with every output
+        *((name, sizes[size]) for name, size in SECTIONS),
+        *((name, len(scalars.kept[name])) for name in ("lower", "reciprocal")),
+        ("mass_entry", len(scalars.mass_entries)),
+    ):
+        if size or name not in ("winding", "mass_entry"):
+            sections[name] = (offset, size)
+            offset += size
     layout = Layout(equations.nq, equations.nv, m, len(equations.parameters), sections)
     hoister = Hoister(scalars.graph, layout.parameters)
     blocks = [
@@ -60,12 +47,7 @@ def lower_model(equations: Equations, digest: str) -> ModelProgram:
         law_block(hoister, scalars, spread),
         measure(hoister, scalars),
         observe(hoister, scalars),
-        hoister.block(
-            "masses",
-            "diagonal of M",
-            _diagonal(scalars),
-            ("p", "w"),
-        ),
+        hoister.block("masses", "diagonal of M", _diagonal(scalars), ("p", "w")),
         *manifold_blocks(hoister, equations),
     ]
     if equations.bodies:

@@ -23,11 +23,7 @@ class Scalars(OfMass):
 
     def _on_weighted_body(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D W^-1 D^T in the function that decides rank."""
-
-        def keep(row: int) -> int:
-            return self._decided(row, rank.pivots[row], rank.diagonal[row])
-
-        return self._weighted(self.body.mass_gram(self.rows), keep)
+        return self._weighted_beside(rank, self.body.mass_gram(self.rows))
 
     @cached_property
     def order(self) -> tuple[int, ...]:
@@ -104,6 +100,10 @@ class Scalars(OfMass):
 
         return factorise(self.graph, matrix, self.order, reciprocal)
 
+    def _weighted_beside(self, rank: Factor, matrix: Mapping[tuple[int, int], int]) -> Factor:
+        """Return the same in the function that decides rank."""
+        return self._weighted(matrix, lambda row: self._decided(row, rank.pivots[row], rank.diagonal[row]))
+
     def _weighted_apart(self, rank: Factor, gram: Callable[[Rows], dict[tuple[int, int], int]]) -> Factor:
         """Return the same from what ``geometry`` left in w."""
         g, stored = self.graph, self._keep_factor(rank, "lower", "reciprocal")
@@ -123,12 +123,8 @@ class Scalars(OfMass):
 
     def _on_weighted_dependent(self, operation: Operation, rank: Factor) -> Factor:
         """Return the factor of D P D^T in the function that decides rank: what every stage needs is not read back."""
-
-        def keep(row: int) -> int:
-            return self._decided(row, rank.pivots[row], rank.diagonal[row])
-
         dependent = self._on_gauged(operation, self.section("dependent", self.equations.nv))
-        return self._weighted(self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]), keep)
+        return self._weighted_beside(rank, self.gram(self.rows, [{j: node} for j, node in enumerate(dependent)]))
 
     def _on_partition_quality(self, operation: Operation, rank: Factor, factor: Factor) -> int:
         """Return det(D P D^T) / det(D G D^T): squared cosines between tangent space and independent coordinates."""

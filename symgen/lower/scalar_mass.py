@@ -58,18 +58,13 @@ class OfMass(OfRows):
     def _on_body_inverse(self, operation: Operation, x: Nodes) -> Nodes:
         body = self.body
         stored = body._with_mass(_replaced(body.equations.mass, body.mass_entries, self.graph, "body_entry"))
-        return stored._back(stored._forward(x))
+        return tuple(stored.mass_factor.solve(self.graph, x))
 
     @cached_property
     def mass_matrix(self) -> dict[tuple[int, int], int]:
         """The entries of M that are not structurally zero."""
-        return {
-            (i, j): node
-            for block in self.equations.mass
-            for i, row in zip(block.columns, block.entries, strict=True)
-            for j, node in zip(block.columns, row, strict=True)
-            if node != self.graph.zero or i == j
-        }
+        blocks = (_entries(self.graph, block, block.columns) for block in self.equations.mass)
+        return {place: node for entries in blocks for place, node in entries.items()}
 
     @cached_property
     def mass_factor(self) -> Factor:
@@ -96,23 +91,6 @@ class OfMass(OfRows):
                 found[j] = dict.fromkeys(block.columns, 0)
         return found
 
-    def _forward(self, x: Sequence[int]) -> list[int]:
-        """Return L^-1 x of M = L d L^T."""
-        g, found = self.graph, list(x)
-        for k in self.mass_factor.order:
-            for i, entry in self.mass_factor.lower[k]:
-                found[i] = g.sub(found[i], g.mul(entry, found[k]))
-        return found
-
-    def _back(self, half: Sequence[int]) -> Nodes:
-        """Return L^-T d^-1 x."""
-        g, x, factor = self.graph, list(half), self.mass_factor
-        for k in reversed(factor.order):
-            x[k] = g.mul(x[k], factor.reciprocal[k])
-            for i, entry in factor.lower[k]:
-                x[k] = g.sub(x[k], g.mul(entry, x[i]))
-        return tuple(x)
-
     def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
         """Return L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
         g, found = self.graph, list[list[int]]()
@@ -120,7 +98,7 @@ class OfMass(OfRows):
             x = [g.zero] * self.equations.nv
             for j, node in row:
                 x[j] = node
-            found.append(self._forward(x))
+            found.append(self.mass_factor.forward(g, x))
         reciprocal = self.mass_factor.reciprocal
         return found, [[g.mul(reciprocal[k], x) for k, x in enumerate(half)] for half in found]
 
@@ -133,20 +111,15 @@ class OfMass(OfRows):
         if operation.kind == "transposed" and self.values[parts[0]] is self.rows:
             y, (halves, _) = self.values[parts[1]], self._halves(self.rows)
             return [g.dot([half[k] for half in halves], y) for k in range(self.equations.nv)]
-        return self._forward(self.values[index])
+        return self.mass_factor.forward(g, self.values[index])
 
     def mass_gram(self, matrix: Rows) -> dict[tuple[int, int], int]:
         """Return D M^-1 D^T as nodes."""
         if not self.mass_entries:
             return self.gram(matrix, self.inverse_mass)
         g, (halves, scaled) = self.graph, self._halves(matrix)
-        result: dict[tuple[int, int], int] = {}
-        for i, near in enumerate(self.neighbours(matrix, self.coupled)):
-            for j in (i, *(n for n in sorted(near) if n > i)):
-                node = g.dot(scaled[i], halves[j])
-                if node != g.zero or i == j:
-                    result[i, j] = result[j, i] = node
-        return result
+        near = self.neighbours(matrix, self.coupled)
+        return self.symmetric(near, lambda i, j: g.dot(scaled[i], halves[j]))
 
     @cached_property
     def inverse_mass(self) -> list[dict[int, int]]:
@@ -154,13 +127,7 @@ class OfMass(OfRows):
         g = self.graph
         result: list[dict[int, int]] = [{} for _ in range(self.equations.nv)]
         for block in self.equations.mass:
-            n = len(block.columns)
-            matrix = {
-                (i, j): block.entries[i][j]
-                for i in range(n)
-                for j in range(n)
-                if block.entries[i][j] != g.zero or i == j
-            }
+            n, matrix = len(block.columns), _entries(g, block, range(len(block.columns)))
             factor = factorise(g, matrix, range(n), self._reciprocal)
             for j in range(n):
                 unit = [g.one if i == j else g.zero for i in range(n)]
@@ -172,7 +139,7 @@ class OfMass(OfRows):
     def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
         g = self.graph
         if self.mass_entries:
-            return self._back(self._half(operation.operands[0]))
+            return tuple(self.mass_factor.back(g, self._half(operation.operands[0])))
         result = [g.zero] * len(x)
         for block in self.equations.mass:
             if len(block.columns) == 1:
@@ -255,6 +222,16 @@ class OfMass(OfRows):
                 rest = g.total(g.mul(lower[i, k], inverse[k, j]) for k in range(j, i))
                 inverse[i, j] = g.neg(g.mul(rest, inverse[i, i]))
             yield [inverse[i, j] for j in range(i + 1)]
+
+
+def _entries(g: Graph, block: MassBlock, places: Sequence[int]) -> dict[tuple[int, int], int]:
+    """Return the entries of a block that are not structurally zero, by the `places` of its rows and columns."""
+    return {
+        (i, j): node
+        for i, row in zip(places, block.entries, strict=True)
+        for j, node in zip(places, row, strict=True)
+        if node != g.zero or i == j
+    }
 
 
 def _replaced(mass: tuple[MassBlock, ...], entries: Nodes, graph: Graph, section: str) -> tuple[MassBlock, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 
 from symgen.ir.derivative import jacobian
@@ -104,10 +104,20 @@ class OfRows(Values):
                 for k, node in weight[j].items():
                     weighted[k] = g.add(weighted.get(k, g.zero), g.mul(e, node))
             left.append(weighted)
+
+        def entry(i: int, j: int) -> int:
+            return g.total(g.mul(left[i][k], e) for k, e in matrix[j] if k in left[i])
+
+        return self.symmetric(self.neighbours(matrix, weight), entry)
+
+    def symmetric(
+        self, neighbours: Sequence[frozenset[int]], entry: Callable[[int, int], int]
+    ) -> dict[tuple[int, int], int]:
+        """Return a symmetric matrix of a pattern as nodes, each worked out once; zeros beside its diagonal vanish."""
         result: dict[tuple[int, int], int] = {}
-        for i, near in enumerate(self.neighbours(matrix, weight)):
+        for i, near in enumerate(neighbours):
             for j in (i, *(n for n in sorted(near) if n > i)):
-                node = g.total(g.mul(left[i][k], e) for k, e in matrix[j] if k in left[i])
-                if node != g.zero or i == j:
+                node = entry(i, j)
+                if node != self.graph.zero or i == j:
                     result[i, j] = result[j, i] = node
         return result

@@ -20,16 +20,12 @@ Weight = Sequence[Mapping[int, int]]
 
 
 class Values(Replay):
-    """What formulas name, as nodes of a mechanism's graph.
+    """What formulas name, as nodes of a mechanism's graph, which is copied.
 
     Parameters
     ----------
-    equations : Equations
-        The derived equations; their graph is copied.
-    operations : tuple of Operation
-        The tape.
     parameters : sequence of str
-        Parameters of the method.
+        Names of the parameters of the method.
     places : mapping of str to (str, int)
         Space and first index of sections that are parts of other arrays.
     """

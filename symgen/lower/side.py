@@ -6,7 +6,7 @@ asking for it leaves the modules of the model as they are.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
@@ -19,6 +19,7 @@ from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import Block, Layout, Target
+from symgen.lower.windings import Beside
 from symgen.vocabulary.expressions import Expr, Reading
 from symgen.vocabulary.measures import Driven, Exerted, Integral, Measure
 from symgen.vocabulary.quantities import Quantity
@@ -40,9 +41,8 @@ class SideProgram:
     @property
     def reads(self) -> tuple[str, ...]:
         """What the function reads: ``t``, ``q``, ``v``, ``p``, ``ydot`` and sections of ``w``."""
-        graph = self.blocks[0].graph
-        found = (graph.nodes[n] for n in graph.needed(self.blocks[0].nodes))
-        return tuple(sorted({str(o.payload[0]) for o in found if o.op == "input" and isinstance(o.payload, tuple)}))
+        first = self.blocks[0]
+        return tuple(sorted({space for space, _ in first.graph.keys(first.nodes)}))
 
 
 @dataclass
@@ -51,18 +51,15 @@ class SideModel(Model):
 
     Parameters
     ----------
-    turning : sequence of Measure
-        The angles of the section ``winding``.
-    rows : mapping of str to int
-        Where the multiplier of each row stands.
+    beside : Beside
+        What they may read of the compiled model.
     """
 
-    turning: Sequence[Measure] = field(default=(), kw_only=True)
-    rows: Mapping[str, int] = field(default_factory=dict, kw_only=True)
+    beside: Beside = field(kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        self._places = {measure: i for i, measure in enumerate(self.turning)}
+        self._places = {measure: i for i, measure in enumerate(self.beside.turning)}
         speeds = [(body.name, speed) for body in self.mechanism.bodies for speed in body.speeds]
         if self.tree is None:
             rates = {f"{body}.{speed}": n for (body, speed), n in zip(speeds, self.accelerations, strict=True)}
@@ -80,7 +77,7 @@ class SideModel(Model):
         if isinstance(source, Integral):
             return g.input("z", 1 + integrals(self.mechanism)[source])  # behind the work
         if isinstance(source, Driven):
-            effort = g.neg(g.input("multipliers", self.rows[source.row]))
+            effort = g.neg(g.input("multipliers", self.beside.rows[source.row]))
             return g.mul(effort, self.motion(source.measure).rate(g, self.velocities)) if source.power else effort
         return super().reading(r)
 
@@ -105,23 +102,11 @@ def moved(
 ) -> tuple[Graph, list[int]]:
     """Return a graph of its own for some nodes, inputs renamed."""
     graph = Graph()
-    keys = {
-        key: graph.input(*renamed(key))
-        for n in source.needed(nodes)
-        if source.nodes[n].op == "input" and isinstance(key := source.nodes[n].payload, tuple)
-    }
-    return graph, graph.inline(source, nodes, keys)
+    return graph, graph.inline(source, nodes, {key: graph.input(*renamed(key)) for key in source.keys(nodes)})
 
 
 def lower_side(
-    mechanism: Mechanism,
-    name: str,
-    purpose: str,
-    formulas: Sequence[tuple[str, Expr]],
-    turning: Sequence[Measure],
-    sections: Mapping[str, tuple[int, int]],
-    rows: Mapping[str, int],
-    rates: int = 0,
+    mechanism: Mechanism, name: str, purpose: str, formulas: Sequence[tuple[str, Expr]], beside: Beside, rates: int = 0
 ) -> SideProgram:
     """Lower formulas of a run.
 
@@ -133,12 +118,8 @@ def lower_side(
         Of the function.
     formulas : sequence of (str, Expr)
         What each is called, for people, and the formula.
-    turning : sequence of Measure
-        Angles whose turns are counted, see `symgen.lower.windings.winding_order`.
-    sections : mapping of str to (int, int)
-        Sections of the model's ``w`` that may be read.
-    rows : mapping of str to int
-        Where the multiplier of each row stands.
+    beside : Beside
+        What they may read of the compiled model.
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; v' counts as constant.
 
@@ -147,7 +128,7 @@ def lower_side(
     OverflowError
         If numbers that meet in a formula overflow.
     """
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     nodes = [model.expression(e) for _, e in formulas]
     labels = [label for label, _ in formulas]
     for k in range(rates):
@@ -156,31 +137,21 @@ def lower_side(
     graph, images = moved(model.graph, nodes)
     outputs = tuple((Target("out", i), image) for i, image in enumerate(images))
     block = Block(name, purpose, graph, outputs, ("t", "y", "p", "w", "ydot", "out"))
-    return side_program(mechanism, (block,), sections, labels)
+    return side_program(mechanism, (block,), beside, labels)
 
 
-def lower_integrands(
-    mechanism: Mechanism,
-    turning: Sequence[Measure],
-    sections: Mapping[str, tuple[int, int]],
-    rows: Mapping[str, int],
-) -> SideProgram:
+def lower_integrands(mechanism: Mechanism, beside: Beside) -> SideProgram:
     """Lower the integrands of a mechanism's outputs: their values are rates of auxiliary states behind the work.
 
     ``integrands(t, y, p, w, ydot)`` sets them behind a right-hand side, ``accumulate(t, y, k, p, w)`` behind a
     residual, with v' and lambda among its unknowns, in the section ``auxiliary``.
-
-    Parameters
-    ----------
-    mechanism, turning, sections, rows
-        As for `lower_side`.
 
     Raises
     ------
     OverflowError
         If numbers that meet in a formula overflow.
     """
-    model = SideModel(mechanism, turning=turning, rows=rows)
+    model = SideModel(mechanism, beside=beside)
     found = integrals(mechanism)
     nodes = [model.expression(integral.of) for integral in found]
     coordinates, velocities = quantities(mechanism)
@@ -198,19 +169,17 @@ def lower_integrands(
         Block("integrands", "rates of integrals", graph, rates, ("t", "y", "p", "w", "ydot")),
         Block("accumulate", "the same of a stage with the unknowns k", stage, kept, ("t", "y", "k", "p", "w")),
     )
-    return side_program(mechanism, blocks, sections, [to_text(integral.of) for integral in found])
+    return side_program(mechanism, blocks, beside, [to_text(integral.of) for integral in found])
 
 
-def side_program(
-    mechanism: Mechanism, blocks: tuple[Block, ...], sections: Mapping[str, tuple[int, int]], labels: Sequence[str]
-) -> SideProgram:
+def side_program(mechanism: Mechanism, blocks: tuple[Block, ...], beside: Beside, labels: Sequence[str]) -> SideProgram:
     """Return blocks as the program of a module of its own; `labels` say what the outputs are."""
     coordinates, velocities = quantities(mechanism)
     used = {table for block in blocks for table, _ in block.tables}
     return SideProgram(
         mechanism=mechanism.name,
         blocks=blocks,
-        layout=Layout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(sections)),
+        layout=Layout(len(coordinates), len(velocities), 0, len(mechanism.parameters), dict(beside.sections)),
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
         coordinates=coordinates,
         velocities=velocities,

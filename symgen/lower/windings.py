@@ -1,8 +1,9 @@
-"""Which angle each element of the section ``winding`` remembers, in each shape of code."""
+"""Which angle each element of the section ``winding`` remembers, in each shape of code; what else formulas read."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from symgen.describe.mechanism import Force, Joint, Mechanism
@@ -10,6 +11,25 @@ from symgen.describe.repeats import without_repeats
 from symgen.describe.topology import known_coordinates
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import Measure, Sum, Turning
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What formulas of a run may read of the model that they are evaluated beside.
+
+    Attributes
+    ----------
+    turning : tuple of Measure
+        Angles whose turns it counts, from `winding_order`.
+    sections : mapping of str to (int, int)
+        Sections of its ``w``: where they begin, and their sizes.
+    rows : mapping of str to int
+        Where the multiplier of each row stands.
+    """
+
+    turning: tuple[Measure, ...]
+    sections: Mapping[str, tuple[int, int]]
+    rows: Mapping[str, int]
 
 
 def turns(measures: Iterable[Any]) -> tuple[Measure, ...]:

@@ -1,6 +1,6 @@
 """What a constraint stabilisation method is: an acceleration law, a correction after each accepted step, parameters.
 
-A method is a formula over named blocks (`symgen.lower.algebra.System`), lowered like everything else, so one file
+A method is a formula over named blocks (`symgen.methods._formula.System`), lowered like everything else, so one file
 serves every layout of the emitted code.
 """
 

@@ -29,23 +29,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
-
 
 @dataclass(frozen=True)
 class Assembly:
-    """The one start of a compiled model.
-
-    Attributes
-    ----------
-    compiled : CompiledModel
-        Model and method.
-    layout : Layout
-        See `symgen.runtime.start_records`.
-    strict : bool
-        Whether a start that has to be changed is refused.
-    """
+    """The one start of a compiled model; where it is `strict`, one that has to be changed is refused."""
 
     compiled: CompiledModel
     layout: Layout
@@ -135,9 +122,9 @@ class Assembly:
             try:
                 form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
             except (ArithmeticError, ValueError):
-                asked.summary[_START] = e.UNDEFINED
+                asked.summary[e.START] = e.UNDEFINED
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
-        return int(asked.summary[_START])
+        return int(asked.summary[e.START])
 
     def close_joints(self, now: Instant, asked: Asked, held: Held) -> int:
         """Find a start in which joint coordinates are held, for `close_one` to make the start of; return how it ended.
@@ -155,35 +142,33 @@ class Assembly:
             except (ArithmeticError, ValueError):
                 code = e.UNDEFINED
         asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]
-        asked.summary[_START] = code
+        asked.summary[e.START] = code
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis], now.y[np.newaxis])
-        return int(asked.summary[_START])
+        return int(asked.summary[e.START])
 
     def _prepare(self, now: Instant) -> None:
         """Fill parameters and masses of one start; nan where they are not defined."""
-        model, law = self.compiled.model, self.compiled.law_module
         try:
-            for module in (model, law):
-                Ready(module.prepare, e.PREPARE)(now.p)
-            Ready(model.masses, abi.MOVE)(now.p, now.w)
+            self.compiled.prepare(now.p)
+            Ready(self.compiled.model.masses, abi.MOVE)(now.p, now.w)
         except (ArithmeticError, ValueError):  # errors where nothing is compiled
             now.p[:] = np.nan
 
     def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
         """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
         info = self.compiled.info
-        for r in np.flatnonzero(summaries[:, _START] == e.OPEN):
+        for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):
             joints, residual = joints_of(info), np.nan_to_num(self.compiled.section(ws[r], "residual"), nan=np.inf)
             open_by = {name: list[float]() for name in joints}
             for row, x in zip(info.rows, residual.tolist(), strict=True):
                 open_by[row.joint].append(x)
             sizes = [math.hypot(*values) for values in open_by.values()]  # squares may overflow
-            summaries[r, _WHERE], summaries[r, _SIZE] = np.argmax(sizes), max(sizes)
+            summaries[r, e.START_WHERE], summaries[r, e.START_SIZE] = np.argmax(sizes), max(sizes)
         if self.strict:
-            good = summaries[:, _START] == e.ASSEMBLED
-            moved = good & (summaries[:, _MOVED] > 0.0) & (not len(self.layout.held))
-            summaries[good & (summaries[:, _VELOCITIES] == 1.0), _START] = e.PROJECTED
-            summaries[moved, _START] = e.MOVED
+            good = summaries[:, e.START] == e.ASSEMBLED
+            moved = good & (summaries[:, e.START_MOVED] > 0.0) & (not len(self.layout.held))
+            summaries[good & (summaries[:, e.START_VELOCITIES] == 1.0), e.START] = e.PROJECTED
+            summaries[moved, e.START] = e.MOVED
 
     @property
     def _functions(self) -> tuple[Any, ...]:

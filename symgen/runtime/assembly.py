@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_LIGHT = e.SUMMARY.index("light")
-
 
 @dataclass(frozen=True, repr=False)
 class Start:
@@ -154,7 +151,7 @@ def assemble(
     y[: info.nq] = q
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
-    if summary[_START] != e.ASSEMBLED:
+    if summary[e.START] != e.ASSEMBLED:
         error = (
             without_derivative(compiled, q, p) or start.contradiction(q, given, p, summary) or refusal(summary, info)
         )
@@ -167,7 +164,7 @@ def assemble(
         redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
         notes=notes_of(fixed, summary, changes, info),
         changes=changes,
-        light=bool(summary[_LIGHT]),
+        light=bool(summary[e.LIGHT]),
         warnings=()
         if start.asked_far(q, p, w)
         else warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved and changes else ()),
@@ -219,14 +216,14 @@ class Closed:
             assembly = replace(assembly, layout=assembly.layout._replace(t=self.t, branches=branches))
             asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
             assembly.close_one(now, asked)
-            asked.summary[[_MOVED, _VELOCITIES]] = found[[_MOVED, _VELOCITIES]]
+            asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]
         else:
             assembly.close_one(now, asked)
         return now.w, asked.summary
 
     def contradiction(self, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:
         """Return which of the things held cannot be, None where that is not why there is no start."""
-        code, info, held = int(summary[_START]), self.compiled.info, self.held
+        code, info, held = int(summary[e.START]), self.compiled.info, self.held
         if code not in (e.OPEN, e.CONTRADICTION):
             return None
 
@@ -238,7 +235,7 @@ class Closed:
             given[list(held.velocities)] = np.nan
             w, found = replace(self, held=less, strict=False, ask_light=False).close(y, given, p.copy())
             with np.errstate(all="ignore"):
-                return Attempt(int(found[_START]), y, joint_values(self.compiled, self.t, y, p, w.copy()))
+                return Attempt(int(found[e.START]), y, joint_values(self.compiled, self.t, y, p, w.copy()))
 
         def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
             if all_of_it.joints:

@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.program import SCALES, STATUS
+from symgen.runtime import ensemble_abi as e
+from symgen.runtime.probe import Ready
 from symgen.vocabulary.quantities import Counted, Quantity
 
 Array = NDArray[np.float64]
@@ -165,6 +167,11 @@ class CompiledModel(ABC):
         for i, (name, default) in enumerate(law.parameters):
             p[law.parameter_offset + i] = method_parameters.get(name, default)
         return p
+
+    def prepare(self, p: Array) -> None:
+        """Fill the numbers behind the parameters in ``p``."""
+        for module in (self.model, self.law_module):
+            Ready(module.prepare, e.PREPARE)(p)
 
     def with_scales(self, w: Array) -> Array:
         """Return a scratch array whose scales, and pivots of rows that never change theirs, are set to 1."""

@@ -52,6 +52,8 @@ SUMMARY = (
     "speed_scale",
 )
 N_SUMMARY = len(SUMMARY)
+#: Where the first of them stand.
+START, START_MOVED, START_VELOCITIES, START_WHERE, START_SIZE, REDUNDANT_ROWS, LIGHT, CODE = range(8)
 
 #: How a run ended that asked for what cannot be, beside the ends of single runs (`symgen.runtime.abi`).
 IMPOSSIBLE = 50

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.runtime import abi, hunting
-from symgen.runtime.hunting_records import HuntingState
+from symgen.runtime import abi, hunting, searching
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
 if TYPE_CHECKING:
@@ -75,11 +74,16 @@ class Watched:
         where = f"event{'s' * (len(numbers) > 1)} {names}: reset"
         return impact_of(compiled, [self.resets[n] for n in numbers], self.masses, where, t, y, p, w)
 
-    def hunting_state(self, sizes: Sizes, state: State) -> HuntingState:
+    def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
-        leaves = [action != RECORD for action in self.actions]
-        hunt = hunting.new_hunt(sizes, len(state.w), self.directions, leaves, self.needs_rates)
-        return HuntingState(*state, hunt)
+        n = len(self.names)
+        first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
+        hunt = np.zeros(first + searching.NOTES * (2 + sizes.width))
+        hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
+        columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
+        columns[searching.DIRECTION] = self.directions
+        columns[searching.LEAVES] = [action != RECORD for action in self.actions]
+        return hunting.HuntingState(*state, hunt)
 
 
 @dataclass(frozen=True)
@@ -144,7 +148,7 @@ class Events:
         self.happened = [event for event in self.happened if event.t <= t]
         self.accumulation = None
 
-    def take(self, state: HuntingState) -> list[tuple[int, Happening]]:
+    def take(self, state: hunting.HuntingState) -> list[tuple[int, Happening]]:
         """Return what a loop has noted since it was last asked, with numbers of events, and remember it."""
         info, found = self.compiled.info, []
         for t, number, y in hunting.taken_notes(state.hunt, len(state.y), len(state.w)):
@@ -154,7 +158,7 @@ class Events:
             self.happened.append(event)
         return found
 
-    def meet(self, state: HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
+    def meet(self, state: hunting.HuntingState, found: Sequence[tuple[int, Happening]]) -> int:
         """Do what the events ask for that a loop was left at; return `DONE` where it may be entered again.
 
         Parameters
@@ -182,7 +186,7 @@ class Events:
 
     # -- resets --------------------------------------------------------------------------------------------------------
 
-    def _reset(self, state: HuntingState, numbers: Sequence[int]) -> None:
+    def _reset(self, state: hunting.HuntingState, numbers: Sequence[int]) -> None:
         info, watched, now = self.compiled.info, self.watched, float(state.clock[abi.TIME])
         y, w = state.y[: info.ny].copy(), state.w.copy()
         found = watched.impact(self.compiled, numbers, now, y, state.p, w)

@@ -13,30 +13,8 @@ from typing import Any
 from numba import types
 
 from symgen.runtime import abi
+from symgen.runtime import following_records as f
 from symgen.runtime.bare import bare
-from symgen.runtime.following_records import (
-    AT,
-    BEST,
-    CHOOSE,
-    COURSE,
-    DONE,
-    FAR,
-    FOLLOWED,
-    PASSING,
-    REACH,
-    REFUSED,
-    SETTLED,
-    SIGN,
-    SINE,
-    SINGULAR,
-    SLOPE,
-    STAND,
-    TAKEN,
-    TIME,
-    TRIED,
-    TRIED_SINE,
-    UNDEFINED,
-)
 from symgen.runtime.redundancy import FALLEN
 from symgen.store.jit import jit
 from symgen.store.loops import from_its_source
@@ -57,7 +35,6 @@ LONGEST = 0.5
 #: else where 0 may have been passed.
 LONG, LOOKED_AT = 0.1, 0.05
 
-_PHI_MEASURE, _PIVOT, _RANK, _WINDING, _N_STATUS = abi.PHI_MEASURE, abi.PIVOT, abi.RANK, abi.WINDING, abi.N_STATUS
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 
 
@@ -80,7 +57,7 @@ def close(geometry: Any, move: Any, spread: Any, course: Any, t: float, p: Any, 
     moved, before = 0.0, math.inf
     for k in range(STEPS):
         geometry(t, z, p, w)
-        size = w[_PHI_MEASURE]
+        size = w[abi.PHI_MEASURE]
         if not math.isfinite(size):
             return math.nan
         closed = size <= course.tolerance
@@ -119,20 +96,11 @@ def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) ->
 
 @jit()
 def attempt(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    spread: Any,
-    observe: Any,
-    course: Any,
-    h: float,
-    p: Any,
-    w: Any,
-    stand: Any,
+    geometry: Any, measure: Any, move: Any, spread: Any, observe: Any, course: Any, h: float, p: Any, w: Any, stand: Any
 ) -> int:
     """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
-    t = stand.clock[TIME] + h
+    t = stand.clock[f.TIME] + h
     for i in range(nq):
         z[i] = y[i]
     far = 0.0
@@ -145,24 +113,24 @@ def attempt(
             w[course.change + j] = change
         z[nq + j] = y[nq + j] + h * (a[j] + 0.5 * h * jerk[j])
         rates[nq + j] = a[j] + h * jerk[j]
-    stand.clock[FAR] = far
+    stand.clock[f.FAR] = far
     if far > LONGEST:
-        return REFUSED
+        return f.REFUSED
     if nq != nv:
         move(z, w)
     for i in range(course.windings):
-        w[_WINDING + i] = stand.turned[i]
+        w[abi.WINDING + i] = stand.turned[i]
     moved = close(geometry, move, spread, course, t, p, w, z)
     if math.isnan(moved):
-        return UNDEFINED
+        return f.UNDEFINED
     if moved < 0.0:
-        return REFUSED
-    if w[_RANK] < course.rank:
-        return SINGULAR
-    sine = math.sqrt(w[_PIVOT])
-    if moved > BESIDE_SINE * sine and stand.counts[SETTLED] != 0:
-        return REFUSED
-    part_of, enough = 1.0, REFINED * w[_PIVOT]
+        return f.REFUSED
+    if w[abi.RANK] < course.rank:
+        return f.SINGULAR
+    sine = math.sqrt(w[abi.PIVOT])
+    if moved > BESIDE_SINE * sine and stand.counts[f.SETTLED] != 0:
+        return f.REFUSED
+    part_of, enough = 1.0, REFINED * w[abi.PIVOT]
     for _ in range(ROUNDS):
         measure(t, z, p, w)
         part_of = refine(course, spread, p, w, z, nq)
@@ -178,32 +146,32 @@ def attempt(
             break
     for j in range(nv):
         if not math.isfinite(z[nq + j] + rates[nq + j]):
-            return UNDEFINED
-    return DONE
+            return f.UNDEFINED
+    return f.DONE
 
 
 @jit()
 def take(course: Any, h: float, w: Any, stand: Any) -> bool:
     """Make the state that was tried the present one, unless a singular position lies between; return whether it is."""
     clock, nq = stand.clock, course.nq
-    sine, before, slope, sign = math.sqrt(w[_PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
+    sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[f.SINE], clock[f.SLOPE], clock[f.SIGN]
     fresh = abs(sine - before) / abs(h) if h != 0.0 else math.inf
     steepest = slope if slope > fresh else fresh
-    clock[TRIED_SINE] = sine
+    clock[f.TRIED_SINE] = sine
     # a sine falls to 0 and rises again in a straight line
-    if h == 0.0 or clock[FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
+    if h == 0.0 or clock[f.FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
         sign = sign_of(course, w, stand.dense)
-        if h != 0.0 and sign * clock[SIGN] < 0.0:
+        if h != 0.0 and sign * clock[f.SIGN] < 0.0:
             return False
-    clock[SINE], clock[SLOPE], clock[SIGN] = sine, fresh, sign
-    clock[BEST] = sine if h == 0.0 or sine > clock[BEST] else clock[BEST]
+    clock[f.SINE], clock[f.SLOPE], clock[f.SIGN] = sine, fresh, sign
+    clock[f.BEST] = sine if h == 0.0 or sine > clock[f.BEST] else clock[f.BEST]
     for i in range(course.ny):
         stand.y[i] = stand.trial[i]
     for j in range(course.nv):
         stand.jerk[j] = (stand.rates[nq + j] - stand.a[j]) / h if h != 0.0 else 0.0
         stand.a[j] = stand.rates[nq + j]
     for i in range(course.windings):
-        stand.turned[i] = w[_WINDING + i]
+        stand.turned[i] = w[abi.WINDING + i]
     return True
 
 
@@ -249,10 +217,7 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
 
 
 @from_its_source(
-    _I8(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE),
-        *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K),
-    )
+    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(f.COURSE, _A, _A, _A, f.STAND, f.FOLLOWED, _K))
 )
 def follow(
     geometry: Any,
@@ -296,43 +261,43 @@ def follow(
     """
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
     clock, counts = stand.clock, stand.counts
-    if counts[SETTLED] == 0:
+    if counts[f.SETTLED] == 0:
         code = attempt(geometry, measure, move, spread, observe, course, 0.0, p, w, stand)
-        if code != DONE:
+        if code != f.DONE:
             return int(code)
         take(course, 0.0, w, stand)
-        counts[SETTLED] = 1
-    for k in range(counts[AT], times.shape[0]):
+        counts[f.SETTLED] = 1
+    for k in range(counts[f.AT], times.shape[0]):
         if control[abi.STOP] != 0:
             break
         target = times[k]
-        while clock[TIME] != target:
-            if course.masked != 0 and clock[SINE] * clock[SINE] < FALLEN * clock[BEST] * clock[BEST]:
-                return CHOOSE
-            h = target - clock[TIME]
-            whole = abs(h) <= clock[REACH]
-            h = h if whole else math.copysign(clock[REACH], h)
-            clock[TRIED] = target if whole else clock[TIME] + h
+        while clock[f.TIME] != target:
+            if course.masked != 0 and clock[f.SINE] * clock[f.SINE] < FALLEN * clock[f.BEST] * clock[f.BEST]:
+                return f.CHOOSE
+            h = target - clock[f.TIME]
+            whole = abs(h) <= clock[f.REACH]
+            h = h if whole else math.copysign(clock[f.REACH], h)
+            clock[f.TRIED] = target if whole else clock[f.TIME] + h
             code = attempt(geometry, measure, move, spread, observe, course, h, p, w, stand)
-            if code == SINGULAR:
-                return SINGULAR
-            if code != DONE:
-                clock[REACH] = 0.5 * abs(h)
-                if clock[REACH] < course.least:
+            if code == f.SINGULAR:
+                return f.SINGULAR
+            if code != f.DONE:
+                clock[f.REACH] = 0.5 * abs(h)
+                if clock[f.REACH] < course.least:
                     return int(code)
                 continue
             if not take(course, h, w, stand):
-                return PASSING
-            clock[TIME] = clock[TRIED]
-            clock[REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[REACH] else clock[REACH]
-            counts[TAKEN] += 1
+                return f.PASSING
+            clock[f.TIME] = clock[f.TRIED]
+            clock[f.REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[f.REACH] else clock[f.REACH]
+            counts[f.TAKEN] += 1
         for i in range(course.ny):
             seen.states[k, i] = stand.y[i]
         for j in range(course.nv):
             seen.accelerations[k, j] = stand.a[j]
-        for i in range(_N_STATUS):
+        for i in range(abi.N_STATUS):
             seen.status[k, i] = w[i]
         for i in range(course.windings):
-            seen.status[k, _N_STATUS + i] = stand.turned[i]
-        counts[AT] = k + 1
-    return DONE
+            seen.status[k, abi.N_STATUS + i] = stand.turned[i]
+        counts[f.AT] = k + 1
+    return f.DONE

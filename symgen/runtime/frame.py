@@ -20,6 +20,7 @@ the same attempt may be made again, shorter. Whatever has to be known at the nex
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
 from numba import types
@@ -34,19 +35,8 @@ from symgen.runtime.scales import settle
 from symgen.runtime.vectors import copied, received
 from symgen.runtime.watch import approach, begin, keep_maxima, remember_rank, stuck, watch
 
-_STOP, _STEPS, _REJECTED, _OUTPUTS, _ORDER = abi.STOP, abi.STEPS, abi.REJECTED, abi.OUTPUTS, abi.ORDER
-_BEGUN, _INDEX, _REFUSED, _BARRED, _IN_ZONE = abi.BEGUN, abi.INDEX, abi.REFUSED, abi.BARRED, abi.IN_ZONE
-_KNOWN = abi.KNOWN
-_TIME, _ORIGIN, _NEXT, _STEP, _ALLOWED = abi.TIME, abi.ORIGIN, abi.NEXT, abi.STEP, abi.ALLOWED
-_NO_PROGRESS = abi.NO_PROGRESS
-_FALL, _LAST_SINE = abi.FALL, abi.LAST_SINE
-_PHI, _STEP_STATUS, _PROBING, _WINDING, _N_STATUS = abi.PHI, abi.STEP_STATUS, abi.PROBING, abi.WINDING, abi.N_STATUS
-_DONE, _STOPPED, _PAUSED, _NO_ROOM, _CHOOSE = abi.DONE, abi.STOPPED, abi.PAUSED, abi.NO_ROOM, abi.CHOOSE
-_NOT_FINITE, _CORRECTION, _TINY_STEP, _NEWTON = abi.NOT_FINITE, abi.CORRECTION, abi.TINY_STEP, abi.NEWTON
-_MET, _NOTED, _ENERGY = abi.MET, abi.NOTED, abi.ENERGY
 #: Where the step to try stands in what is kept of events (`symgen.runtime.searching`).
 TRY = 0
-_TRY = TRY
 
 # -- what a loop decides by itself; schemes may give other numbers -----------------------------------------------------
 #: Whether steps follow the error estimate.
@@ -76,7 +66,6 @@ DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
 #: next attempt being one to take; that the state ends in an event; and that there is little room for more notes.
 NOTHING, SEEK, TAKE, MEET, CROWD = range(5)
-_NOTHING, _SEEK, _TAKE, _MEET, _CROWD = NOTHING, SEEK, TAKE, MEET, CROWD
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -106,7 +95,7 @@ def interpolate(
 
 def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
     """Look for nothing: the place of events, between a good attempt and its acceptance."""
-    return _NOTHING
+    return NOTHING
 
 
 def look(system: Any, run: Any) -> None:
@@ -151,25 +140,25 @@ def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
 
 def correct(system: Any, run: Any, t: float, y: Any, between: bool) -> int:
     """Correct and measure a state, one between steps without keeping anything of it; return the bits of ``accept``."""
-    run.iw[_PROBING] = 1 if between else 0
+    run.iw[abi.PROBING] = 1 if between else 0
     bits = system.accept(t, y, run.p, run.w, run.iw)
-    run.iw[_PROBING] = 0
+    run.iw[abi.PROBING] = 0
     return int(bits)
 
 
 def note_step(run: Any, h: float) -> None:
     """Tell emitted functions the step being taken."""
-    run.w[_STEP_STATUS] = h
+    run.w[abi.STEP_STATUS] = h
 
 
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
     """Write output `k`: the state, what ``accept`` measured, and angles with their turns counted."""
     for i in range(sizes.ny):
         outputs.states[k, i] = y[i]
-    for i in range(_N_STATUS):
+    for i in range(abi.N_STATUS):
         outputs.status[k, i] = w[i]
-    for i in range(_N_STATUS, outputs.status.shape[1]):
-        outputs.status[k, i] = w[_WINDING - _N_STATUS + i]
+    for i in range(abi.N_STATUS, outputs.status.shape[1]):
+        outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
 # -- the frame ---------------------------------------------------------------------------------------------------------
@@ -215,155 +204,155 @@ def integrate(
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width
     tiny = 0.0 if ADAPTIVE else _SAME * span.step
-    if control[_BEGUN] == 0:
+    if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
         settle(sizes, span, run)
         copied(width, run.y, run.trial)
-        correct(system, run, clock[_TIME], run.trial, False)
+        correct(system, run, clock[abi.TIME], run.trial, False)
         copied(width, run.trial, run.y)
         begin(run)
-        code = watch(sizes, run, run.y, clock[_TIME])
-        if code != _DONE:
+        code = watch(sizes, run, run.y, clock[abi.TIME])
+        if code != abi.DONE:
             return code
-        out = control[_OUTPUTS]
-        while out < asked and times[out] <= clock[_TIME] + tiny:
+        out = control[abi.OUTPUTS]
+        while out < asked and times[out] <= clock[abi.TIME] + tiny:
             store(sizes, run.w, outputs, out, run.y)
             out += 1
-        control[_OUTPUTS] = out
-    if control[_BEGUN] != 1:  # a scheme begins, or forgets the steps before
-        clock[_ALLOWED] = 0.0
-        control[_REFUSED] = control[_BARRED] = control[_KNOWN] = 0
+        control[abi.OUTPUTS] = out
+    if control[abi.BEGUN] != 1:  # a scheme begins, or forgets the steps before
+        clock[abi.ALLOWED] = 0.0
+        control[abi.REFUSED] = control[abi.BARRED] = control[abi.KNOWN] = 0
         if ADAPTIVE:
-            clock[_NEXT] = span.step
+            clock[abi.NEXT] = span.step
         prepare(system, scheme, span, run)
         look(system, run)
-        control[_BEGUN] = 1
-    t, out = clock[_TIME], control[_OUTPUTS]
-    hunting, crossing, whole, whole_following = _NOTHING, False, 0.0, 0.0
+        control[abi.BEGUN] = 1
+    t, out = clock[abi.TIME], control[abi.OUTPUTS]
+    hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
     while t < until - tiny:
-        if hunting == _NOTHING:
-            if control[_STOP] != 0:
-                return _STOPPED
-            if control[_STEPS] >= span.pause:
-                return _PAUSED
+        if hunting == NOTHING:
+            if control[abi.STOP] != 0:
+                return abi.STOPPED
+            if control[abi.STEPS] >= span.pause:
+                return abi.PAUSED
             crossing = False
         # -- the step to try
-        if EVENTS and hunting != _NOTHING:
+        if EVENTS and hunting != NOTHING:
             recall(system, run)
-            h = run.hunt[_TRY]
+            h = run.hunt[TRY]
             following = whole_following if h == whole else t + h
         elif ADAPTIVE:
             if stuck(span, run, t):
-                return _NO_PROGRESS
-            crossing = DENSE and control[_BARRED] == 0 and control[_IN_ZONE] == 1 and run.gauges[_FALL] > 0.0
-            h = approach(min(clock[_NEXT], span.largest), run.gauges)
+                return abi.NO_PROGRESS
+            crossing = DENSE and control[abi.BARRED] == 0 and control[abi.IN_ZONE] == 1 and run.gauges[abi.FALL] > 0.0
+            h = approach(min(clock[abi.NEXT], span.largest), run.gauges)
             if crossing:
-                h = min(span.largest, _ACROSS * run.gauges[_LAST_SINE] / run.gauges[_FALL])
+                h = min(span.largest, _ACROSS * run.gauges[abi.LAST_SINE] / run.gauges[abi.FALL])
             following = t + h
             if t + 1.01 * h >= until:
                 h, following = until - t, until
             if not h > _RESOLVED * max(abs(t), abs(until)):
-                return _TINY_STEP
+                return abi.TINY_STEP
         else:
-            h, following = span.step, clock[_ORIGIN] + (control[_INDEX] + 1) * span.step
+            h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step
             if following > until + tiny:
                 h, following = until - t, until
-        between = not DENSE and hunting == _NOTHING and out < asked and times[out] < following - tiny
+        between = not DENSE and hunting == NOTHING and out < asked and times[out] < following - tiny
         if between:
             h, following = times[out] - t, times[out]
-        elif hunting == _NOTHING:
+        elif hunting == NOTHING:
             whole, whole_following = h, following
             remember(system, run)
-        probing = between or hunting == _SEEK
+        probing = between or hunting == SEEK
         note_step(run, h)
         error = attempt(system, scheme, span, run, t, following, h, probing)
         # -- is it good enough?
         if error < 0.0:
             if error == TOO_LARGE:
-                return _NO_ROOM
+                return abi.NO_ROOM
             if not ADAPTIVE:
-                return _NEWTON
-            control[_REJECTED] += 1
-            control[_REFUSED] = 1
-            clock[_NEXT] = 0.25 * h
-            hunting = _NOTHING
+                return abi.NEWTON
+            control[abi.REJECTED] += 1
+            control[abi.REFUSED] = 1
+            clock[abi.NEXT] = 0.25 * h
+            hunting = NOTHING
             continue
         refused = not (error <= 1.0 or (crossing and error <= _HOPELESS))
-        if ADAPTIVE and not between and hunting == _NOTHING and refused:
+        if ADAPTIVE and not between and hunting == NOTHING and refused:
             if crossing:
-                control[_BARRED] = 1
-            control[_REJECTED] += 1
-            change = max(SHRINK, span.safety * error ** (-1.0 / control[_ORDER])) if math.isfinite(error) else 0.1
-            clock[_NEXT] = h * change
+                control[abi.BARRED] = 1
+            control[abi.REJECTED] += 1
+            change = max(SHRINK, span.safety * error ** (-1.0 / control[abi.ORDER])) if math.isfinite(error) else 0.1
+            clock[abi.NEXT] = h * change
             refuse(run)
-            control[_REFUSED] = 1
+            control[abi.REFUSED] = 1
             continue
         bits = correct(system, run, following, run.trial, probing)
         if between:
             keep_maxima(sizes, run, run.trial)
             store(sizes, run.w, outputs, out, run.trial)
             out += 1
-            control[_OUTPUTS] = out
+            control[abi.OUTPUTS] = out
             continue
         if bits & 1:
             if not ADAPTIVE:
-                return _CORRECTION if math.isfinite(run.w[_PHI]) else _NOT_FINITE
-            control[_REJECTED] += 1
-            control[_REFUSED] = control[_BARRED] = 1
-            clock[_NEXT] = 0.5 * h
-            hunting = _NOTHING
+                return abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
+            control[abi.REJECTED] += 1
+            control[abi.REFUSED] = control[abi.BARRED] = 1
+            clock[abi.NEXT] = 0.5 * h
+            hunting = NOTHING
             continue
         if EVENTS:
             hunting = happened(system, run, t, following, h, hunting)
-            if hunting == _SEEK or hunting == _TAKE:
+            if hunting == SEEK or hunting == TAKE:
                 continue
         # -- it is: the state at `following` is accepted
-        control[_STEPS] += 1
+        control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
-        if not ADAPTIVE and code == _ENERGY and control[_STEPS] <= _SETTING_OUT and following < until - tiny:
-            code = _DONE
-        if code != _DONE:
+        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= _SETTING_OUT and following < until - tiny:
+            code = abi.DONE
+        if code != abi.DONE:
             return code
-        if EVENTS and hunting == _MEET:
-            code = _MET
+        if EVENTS and hunting == MEET:
+            code = abi.MET
             while out > 0 and times[out - 1] > following:  # outputs behind the event, from before it was found
                 out -= 1
-            control[_OUTPUTS] = out
-        elif EVENTS and hunting == _CROWD:
-            code = _NOTED
-        hunting = _NOTHING
+            control[abi.OUTPUTS] = out
+        elif EVENTS and hunting == CROWD:
+            code = abi.NOTED
+        hunting = NOTHING
         if DENSE and out < asked and times[out] < following:
             interpolate(system, scheme, span, run, outputs, t, following, h)
-            out = control[_OUTPUTS]
+            out = control[abi.OUTPUTS]
         received(width, run.trial, run.y)
         if not ADAPTIVE:
-            control[_INDEX] += 1
-            early = following == until and following < clock[_ORIGIN] + control[_INDEX] * span.step - tiny
-            if early or (EVENTS and code == _MET):
-                clock[_ORIGIN], control[_INDEX] = following, 0  # the grid of whoever goes on begins here
+            control[abi.INDEX] += 1
+            early = following == until and following < clock[abi.ORIGIN] + control[abi.INDEX] * span.step - tiny
+            if early or (EVENTS and code == abi.MET):
+                clock[abi.ORIGIN], control[abi.INDEX] = following, 0  # the grid of whoever goes on begins here
         elif crossing:
-            clock[_ALLOWED] = 0.0
+            clock[abi.ALLOWED] = 0.0
         else:
-            allowed = max(error, FLOOR) ** (-1.0 / control[_ORDER])
+            allowed = max(error, FLOOR) ** (-1.0 / control[abi.ORDER])
             grow = span.safety * allowed
-            if clock[_ALLOWED] > 0.0:  # errors change from step to step as they just did (Gustafsson 1994)
-                grow *= min(1.0, h / clock[_STEP] * allowed / clock[_ALLOWED])
+            if clock[abi.ALLOWED] > 0.0:  # errors change from step to step as they just did (Gustafsson 1994)
+                grow *= min(1.0, h / clock[abi.STEP] * allowed / clock[abi.ALLOWED])
             grow = min(GROW, max(SHRINK_ACCEPTED, grow))
-            clock[_NEXT] = h * (min(1.0, grow) if control[_REFUSED] == 1 else grow)
-            clock[_ALLOWED] = allowed
-        control[_REFUSED] = control[_BARRED] = 0
+            clock[abi.NEXT] = h * (min(1.0, grow) if control[abi.REFUSED] == 1 else grow)
+            clock[abi.ALLOWED] = allowed
+        control[abi.REFUSED] = control[abi.BARRED] = 0
         t = following
-        clock[_STEP] = h
+        clock[abi.STEP] = h
         if out < asked and times[out] <= t + tiny:
             store(sizes, run.w, outputs, out, run.y)
             out += 1
-            control[_OUTPUTS] = out
+            control[abi.OUTPUTS] = out
         renew(system, scheme, span, run, t, bits & 2 != 0)
-        if code != _DONE:
+        if code != abi.DONE:
             return code
         if rows_fell(run):
-            return _CHOOSE
-    return _DONE
+            return abi.CHOOSE
+    return abi.DONE
 
 
 #: Where functions of the model stand in a loop's arguments, with their types.
@@ -373,6 +362,12 @@ FUNCTIONS = {
 }
 #: What each loop was made of, so that one that looks for events can be made of the same.
 RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
+
+
+def kinds_of(functions: Iterable[str]) -> list[Any]:
+    """Return the types of a loop's first arguments, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
+    called = {"rhs", "confirm", "accept", *functions}
+    return [kind if name in called else types.int64 for name, kind in FUNCTIONS.items()]
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
@@ -389,9 +384,7 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     **meanings
         What the names of the frame mean.
     """
-    called = {"rhs", "confirm", "accept", *functions}
-    types_ = (kind if name in called else types.int64 for name, kind in FUNCTIONS.items())
-    signature = types.int64(*types_, scheme, SIZES, SPAN, STATE, OUTPUTS)
+    signature = types.int64(*kinds_of(functions), scheme, SIZES, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

@@ -9,45 +9,42 @@ as if nothing had been.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.runtime import abi, frame
+from symgen.runtime import abi, frame, searching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import evaluate, integrate
-from symgen.runtime.hunting_records import HUNTING_STATE, HuntingRun, HuntingScheme, HuntingSystem
+from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN
-from symgen.runtime.searching import (
-    COLUMNS,
-    COUNT,
-    DIRECTION,
-    GIVE_BACK,
-    KEEP,
-    LEAVES,
-    LOOK,
-    N_COLUMNS,
-    N_HEAD,
-    NEEDS_RATES,
-    NOTED,
-    NOTES,
-    RECALL,
-    REMEMBER,
-)
+from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, State, System, record
 from symgen.runtime.vectors import copied
-
-if TYPE_CHECKING:
-    from symgen.runtime.records import Sizes
 
 Array = NDArray[np.float64]
 
-_EVALUATIONS, _TIME = abi.EVALUATIONS, abi.TIME
-_LOOK, _REMEMBER, _RECALL, _KEEP, _GIVE_BACK = LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK
+
+#: A `State` with `hunt`, what a run keeps of its events (`symgen.runtime.searching`).
+HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
+#: A `Run` with what is kept of events.
+HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
+#: A `System` with the functions of events.
+HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", module=__name__)
+
+
+class HuntingScheme(NamedTuple):
+    """A scheme's record with the functions of events: switching functions with their rates, and what decides."""
+
+    scheme: Any
+    happens: Any
+    decide: Any
+
+
+#: How compiled loops see what a run keeps.
+HUNTING_STATE = types.NamedTuple((*STATE.types, STATE.types[0]), HuntingState)
 
 
 # -- what the frame calls ----------------------------------------------------------------------------------------------
@@ -55,10 +52,7 @@ _LOOK, _REMEMBER, _RECALL, _KEEP, _GIVE_BACK = LOOK, REMEMBER, RECALL, KEEP, GIV
 
 def opened(sizes: Any, state: Any) -> Any:
     """Return what a run keeps, its working memory in parts, and what it keeps of events."""
-    s, width = bare(state), sizes.width
-    trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
-    kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
-    return HuntingRun(*kept, s.share, s.metric, s.scales, room, s.hunt)
+    return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
 
 
 def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
@@ -71,56 +65,54 @@ def scheme_of(scheme: Any) -> Any:
     return scheme.scheme
 
 
+def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
+    """Return what `symgen.runtime.searching.decide` says of the state `y` at the end of a step."""
+    n, width = int(run.hunt[searching.COUNT]), system.sizes.width
+    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
+    return int(system.decide(run.hunt, n, notes, t, h, doing, width, y, run.w, run.iw))
+
+
 @called
 def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
     """Evaluate switching functions and their rates at a state; emitted functions remember nothing of it."""
-    width, hunt, w, iw = system.sizes.width, run.hunt, run.w, run.iw
-    n = int(hunt[COUNT])
-    at, notes = N_HEAD + N_COLUMNS * n, notes_at(n, width, w.shape[0], iw.shape[0])
+    width, hunt, n = system.sizes.width, run.hunt, int(run.hunt[searching.COUNT])
+    at = searching.N_HEAD + searching.N_COLUMNS * n
     out, state, rate = part(hunt, at, 2 * n), part(hunt, at + 2 * n, width), part(hunt, at + 2 * n + width, width)
-    if hunt[NEEDS_RATES] != 0.0:
-        system.decide(hunt, n, notes, t, 0.0, _KEEP, width, y, w, iw)
+    if hunt[searching.NEEDS_RATES] != 0.0:
+        decided(system, run, t, 0.0, searching.KEEP, y)
         copied(width, y, state)
         evaluate(system, run, t, state, rate)  # which may close coordinates that depend on others
-        run.control[_EVALUATIONS] += 1
-    system.happens(t, y, run.p, w, rate, out)
-    if hunt[NEEDS_RATES] != 0.0:
-        system.decide(hunt, n, notes, t, 0.0, _GIVE_BACK, width, y, w, iw)
+        run.control[abi.EVALUATIONS] += 1
+    system.happens(t, y, run.p, run.w, rate, out)
+    if hunt[searching.NEEDS_RATES] != 0.0:
+        decided(system, run, t, 0.0, searching.GIVE_BACK, y)
 
 
 def happened(system: Any, run: Any, t: float, following: float, h: float, hunting: int) -> int:
     """Look for events in a step whose end is good enough; return what to do next, see `decide`."""
     evaluate_events(system, run, following, run.trial)
-    n, width = int(run.hunt[COUNT]), system.sizes.width
-    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
-    return int(system.decide(run.hunt, n, notes, following, h, hunting, width, run.trial, run.w, run.iw))
+    return decided(system, run, following, h, hunting, run.trial)
 
 
 def look(system: Any, run: Any) -> None:
     """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
-    evaluate_events(system, run, run.clock[_TIME], run.y)
-    n, width = int(run.hunt[COUNT]), system.sizes.width
-    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
-    system.decide(run.hunt, n, notes, run.clock[_TIME], 0.0, _LOOK, width, run.y, run.w, run.iw)
+    evaluate_events(system, run, run.clock[abi.TIME], run.y)
+    decided(system, run, run.clock[abi.TIME], 0.0, searching.LOOK, run.y)
 
 
 def remember(system: Any, run: Any) -> None:
     """Keep what emitted functions remember at the beginning of a step."""
-    n, width = int(run.hunt[COUNT]), system.sizes.width
-    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
-    system.decide(run.hunt, n, notes, 0.0, 0.0, _REMEMBER, width, run.y, run.w, run.iw)
+    decided(system, run, 0.0, 0.0, searching.REMEMBER, run.y)
 
 
 def recall(system: Any, run: Any) -> None:
     """Have again what `remember` kept."""
-    n, width = int(run.hunt[COUNT]), system.sizes.width
-    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
-    system.decide(run.hunt, n, notes, 0.0, 0.0, _RECALL, width, run.y, run.w, run.iw)
+    decided(system, run, 0.0, 0.0, searching.RECALL, run.y)
 
 
 def notes_at(n: int, width: int, nw: int, ni: int) -> int:
     """Return where notes begin."""
-    return N_HEAD + (N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)
+    return searching.N_HEAD + (searching.N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)
 
 
 def integrate_with_events(
@@ -159,16 +151,8 @@ def integrate_with_events(
 
 
 _MEANINGS: dict[str, Any] = {
-    **{
-        "EVENTS": True,
-        "opened": opened,
-        "joined": joined,
-        "scheme_of": scheme_of,
-        "happened": happened,
-        "look": look,
-        "remember": remember,
-        "recall": recall,
-    },
+    **{"EVENTS": True, "opened": opened, "joined": joined, "scheme_of": scheme_of},
+    **{"happened": happened, "look": look, "remember": remember, "recall": recall},
 }
 _loops: dict[Any, Any] = {}
 
@@ -185,9 +169,9 @@ def with_events(loop: Any) -> Any:
         return None
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
-        taken = {"rhs", "confirm", "accept", *functions}
-        kinds = (kind if called in taken else types.int64 for called, kind in frame.FUNCTIONS.items())
-        signature = types.int64(*kinds, abi.OBSERVE, abi.DECIDE, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS)
+        signature = types.int64(
+            *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS
+        )
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, integrate_with_events, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]
@@ -209,44 +193,10 @@ def __getattr__(name: str) -> Any:
 # -- from Python -------------------------------------------------------------------------------------------------------
 
 
-def new_hunt(sizes: Sizes, nw: int, directions: Sequence[int], leaves: Sequence[bool], needs_rates: bool) -> Array:
-    """Return what a run keeps of events before it has begun.
-
-    Parameters
-    ----------
-    sizes : Sizes
-        Of the model.
-    nw : int
-        Length of ``w``.
-    directions : sequence of int
-        1, -1 or 0: in which direction each event happens, 0 for both.
-    leaves : sequence of bool
-        Whether the loop is left where an event happens.
-    needs_rates : bool
-        Whether the switching functions or their rates depend on v'.
-    """
-    n = len(directions)
-    if n == 0:
-        return np.zeros(0)
-    size = notes_at(n, sizes.width, nw, abi.N_COUNTERS) + NOTES * (2 + sizes.width)
-    hunt = np.zeros(size)
-    hunt[COUNT], hunt[NEEDS_RATES] = n, needs_rates
-    hunt[N_HEAD + DIRECTION * n : N_HEAD + (DIRECTION + 1) * n] = directions
-    hunt[N_HEAD + LEAVES * n : N_HEAD + (LEAVES + 1) * n] = leaves
-    return hunt
-
-
-def column(hunt: Array, name: str) -> Array:
-    """Return a view of what is known of each event."""
-    n = int(hunt[COUNT])
-    first = N_HEAD + COLUMNS.index(name) * n
-    return hunt[first : first + n]
-
-
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:
     """Return time, number and state of the events noted so far, and make room for more."""
-    first = notes_at(int(hunt[COUNT]), width, nw, abi.N_COUNTERS)
-    count, size = int(hunt[NOTED]), 2 + width
+    first = notes_at(int(hunt[searching.COUNT]), width, nw, abi.N_COUNTERS)
+    count, size = int(hunt[searching.NOTED]), 2 + width
     rows = hunt[first : first + count * size].reshape(count, size).copy()
-    hunt[NOTED] = 0.0
+    hunt[searching.NOTED] = 0.0
     return [(float(row[0]), int(row[1]), row[2:]) for row in rows]

@@ -1,7 +1,7 @@
 """Loops as instances of a source: plain Python whose global names are given a meaning, and compiled as one function.
 
 The frame of all loops (`symgen.runtime.frame`) calls its scheme's step, and everything that depends on where it runs,
-by global names. `instance` copies a function with other meanings of such names, and with it every function that it
+by global names. `Instances` copies a function with other meanings of such names, and with it every function that it
 calls and that would see the difference. Plain functions are parts: the compiler copies their code into their callers,
 so that nothing is paid for a call or for records as arguments, but those that are marked `called`. Functions made by
 `symgen.store.jit` are compiled by themselves, as elsewhere.
@@ -48,21 +48,6 @@ def part(copy: python.FunctionType, original: Any) -> Any:
     )(copy)
 
 
-def instance(function: Any, meanings: Mapping[str, Any], compiled: Compile = part) -> Any:
-    """Return a function of the runtime with other meanings of global names, in it and in what it calls.
-
-    Parameters
-    ----------
-    function : plain or compiled function
-        Its Python source is what counts.
-    meanings : mapping
-        What names mean: plain functions, which are instantiated as well, compiled functions, or constants.
-    compiled : callable
-        What is made of a copy.
-    """
-    return Instances(meanings, compiled).of(function)
-
-
 def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any) -> Any:
     """Return a compiled loop: an instance of `function` for given types, kept in the cache of machine code.
 
@@ -75,32 +60,32 @@ def loop(module: str, name: str, function: Any, signature: Any, **meanings: Any)
     signature : Signature
         Its types.
     **meanings
-        See `instance`.
+        See `Instances`.
     """
-    copy = Instances(meanings, part).copy(function)
+    copy = Instances(meanings).copy(function)
     copy.__module__, copy.__name__, copy.__qualname__ = module, name, name
     return from_source(jit(signature)(copy))
 
 
 class Instances:
-    """Copies of functions under the same meanings, each made once.
+    """Copies of functions of the runtime, and of what they call, with other meanings of global names.
 
     Parameters
     ----------
     meanings : mapping
-        What global names mean.
+        What names mean: plain functions, which are copied as well, compiled functions, or constants.
     compiled : callable
         What is made of a copy.
     everything : bool
         Whether compiled functions are copied too where they would see no difference.
     """
 
-    def __init__(self, meanings: Mapping[str, Any], compiled: Compile, everything: bool = False) -> None:
+    def __init__(self, meanings: Mapping[str, Any], compiled: Compile = part, everything: bool = False) -> None:
         self.meanings, self.compiled, self.everything = meanings, compiled, everything
         self.made: dict[Any, Any] = {}
 
     def of(self, function: Any) -> Any:
-        """Return the instance of a function."""
+        """Return the instance of a plain or compiled function, of which the Python source counts; each is made once."""
         plain = getattr(function, "py_func", function)
         if plain not in self.made:
             self.made[plain] = self.compiled(self.copy(plain), function)

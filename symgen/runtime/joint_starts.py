@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-
 
 def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array) -> Array:
     """Return value and rate of every joint coordinate in turns, shape (2 n,).
@@ -165,7 +163,7 @@ def reach(
     length = max(float(w[abi.LENGTH]), plain_form(extent_of)(layout, y))
     scales = np.where(layout.lengths != 0.0, length, 1.0)
     moved = np.abs(y[: layout.nq] - first)
-    asked.summary[_MOVED] = float(np.max(np.where(moved > decisions.MOVED * scales, moved, 0.0), initial=0.0))
+    asked.summary[e.START_MOVED] = float(np.max(np.where(moved > decisions.MOVED * scales, moved, 0.0), initial=0.0))
     # on the way from there, so that the mechanism keeps its branch
     held_at, targets = layout.held.reshape(-1, 2), asked.targets
     chosen, goals = list(held.joints), np.array(list(held.joints.values()))
@@ -193,5 +191,5 @@ def reach(
     room = new_work(rates.layout, len(state.w))
     code = plain_form(complete_velocities)(stay, solve, rates.layout, state, room, asked.given)
     w[:] = state.w[: len(w)]
-    asked.summary[_VELOCITIES] = 1.0 if code == e.PROJECTED else 0.0
+    asked.summary[e.START_VELOCITIES] = 1.0 if code == e.PROJECTED else 0.0
     return int(e.ASSEMBLED if code == e.PROJECTED else code)

@@ -23,7 +23,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime import watch as watching
 from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import integrate
-from symgen.runtime.instances import instance
+from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
 from symgen.runtime.redundancy import never
@@ -38,7 +38,7 @@ LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]
 _L, _SPARE = LANES, len(LANE_COUNTERS)
 _STOP, _STEPS, _EVALUATIONS, _OUTPUTS, _STOPPED = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS, abi.STOPPED
 _DONE, _NONE_GOES, _LEFT, _TIME, _N_STATUS = abi.DONE, abi.PAUSED, abi.LEFT, abi.TIME, abi.N_STATUS
-_RUN_ITERATIONS, _N_GAUGES, _N_SUMMARY, _CODE = abi.ITERATIONS, abi.N_GAUGES, e.N_SUMMARY, e.SUMMARY.index("code")
+_RUN_ITERATIONS, _N_GAUGES, _N_SUMMARY, _CODE = abi.ITERATIONS, abi.N_GAUGES, e.N_SUMMARY, e.CODE
 _PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
 _SHORTEST, _MEAN_MASS = abi.SHORTEST_ROW * _L, abi.MEAN_MASS * _L
 _PIVOT, _RANK, _LENGTH, _SPEED = abi.PIVOT * _L, abi.RANK * _L, abi.LENGTH * _L, abi.SPEED * _L
@@ -320,5 +320,5 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
 _FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
 lane_runs = compiled_loop(
     *(__name__, "lane_runs", run_lanes, types.int64(*_FUNCTIONS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
-    integrate=instance(integrate, _MEANINGS),
+    integrate=Instances(_MEANINGS).of(integrate),
 )

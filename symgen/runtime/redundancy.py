@@ -15,7 +15,6 @@ from numba import types
 from symgen.runtime import abi
 from symgen.runtime.exact import exact
 
-_PIVOT, _MASKED, _CHOSEN = abi.PIVOT, abi.MASKED, abi.CHOSEN
 _A, _I, _N = types.float64[::1], types.int64[::1], types.int64
 
 #: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
@@ -26,16 +25,7 @@ LARGEST = 250_000
 
 @exact(_N(_N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
 def farthest(
-    m: int,
-    n: int,
-    kept: int,
-    least: float,
-    entries: Any,
-    constants: Any,
-    jacobian: int,
-    gauge: int,
-    w: Any,
-    room: Any,
+    m: int, n: int, kept: int, least: float, entries: Any, constants: Any, jacobian: int, gauge: int, w: Any, room: Any
 ) -> int:
     """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
 
@@ -95,16 +85,7 @@ def farthest(
 
 @exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _A, _A))
 def choose_rows(
-    m: int,
-    n: int,
-    kept: int,
-    entries: Any,
-    constants: Any,
-    jacobian: int,
-    gauge: int,
-    mask: int,
-    w: Any,
-    room: Any,
+    m: int, n: int, kept: int, entries: Any, constants: Any, jacobian: int, gauge: int, mask: int, w: Any, room: Any
 ) -> int:
     """Mask all rows but `kept` ones, each the one that is farthest from those chosen before it.
 
@@ -137,14 +118,14 @@ def choose_rows(
 
 def rows_fell(run: Any) -> bool:
     """Whether rows are left out and those kept have become much poorer since they were chosen."""
-    control, gauges, pivot = run.control, run.gauges, run.w[_PIVOT]
-    if control[_MASKED] == 0:
+    control, gauges, pivot = run.control, run.gauges, run.w[abi.PIVOT]
+    if control[abi.MASKED] == 0:
         return False
-    if pivot > gauges[_CHOSEN]:
-        gauges[_CHOSEN] = pivot
-    if pivot >= FALLEN * gauges[_CHOSEN]:
+    if pivot > gauges[abi.CHOSEN]:
+        gauges[abi.CHOSEN] = pivot
+    if pivot >= FALLEN * gauges[abi.CHOSEN]:
         return False
-    gauges[_CHOSEN] = 0.0
+    gauges[abi.CHOSEN] = 0.0
     return True
 
 

@@ -24,33 +24,21 @@ from symgen.store.loops import from_its_source
 
 _F8, _A = types.float64, types.float64[::1]
 
-_STATE, _STATUS, _ENERGY, _ENERGY_ERROR = e.STATE, e.STATUS, e.ENERGY, e.ENERGY_ERROR
-_ACCELERATION, _MULTIPLIER = e.ACCELERATION, e.MULTIPLIER
-_N_SUMMARY, _RUNS_DONE, _FIRST = e.N_SUMMARY, e.RUNS_DONE, e.SUMMARY.index("code")
-_STOP, _STOPPED, _DONE, _OUTPUTS, _N_CONTROL = abi.STOP, abi.STOPPED, abi.DONE, abi.OUTPUTS, abi.N_CONTROL
-_STEPS, _REJECTED, _EVALUATIONS, _EVENTS = abi.STEPS, abi.REJECTED, abi.EVALUATIONS, abi.EVENTS
-_TIME, _MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.TIME, abi.MAX_PHI, abi.MAX_DRIFT, abi.MAX_ENERGY
-_ENERGY_START, _ENERGY_SCALE, _JUMP = abi.ENERGY_START, abi.ENERGY_SCALE, abi.MAX_ENERGY_JUMP
-_LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY
-_WARN_PIVOT, _SMALLEST_PIVOT, _LAST_SINE = abi.WARN_PIVOT, abi.SMALLEST_PIVOT, abi.LAST_SINE
-_PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI, abi.DRIFT, abi.KINETIC, abi.POTENTIAL
-_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
-_N_EVENT, _MAX_EVENTS, _EVENT_IN, _EVENT_PIVOT = abi.N_EVENT, abi.MAX_EVENTS, abi.EVENT_IN, abi.EVENT_PIVOT
-_CHOOSE, _MASKED, _LAST_SHORT = abi.CHOOSE, abi.MASKED, abi.LAST_SHORT
-_ITERATIONS, _LIGHT = abi.ITERATIONS, abi.LIGHT
+_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 
 def begin_run(state: Any, limits: Any) -> None:
     """Reset what a run keeps; only the flag that stops is left."""
-    for i in range(state.gauges.shape[0]):
-        state.gauges[i] = 0.0
+    gauges = state.gauges
+    for i in range(gauges.shape[0]):
+        gauges[i] = 0.0
     for i in range(state.clock.shape[0]):
         state.clock[i] = 0.0
-    state.gauges[_LIMIT_PHI], state.gauges[_LIMIT_DRIFT], state.gauges[_LIMIT_ENERGY] = limits[0], limits[1], limits[2]
-    state.gauges[_WARN_PIVOT] = limits[3]
-    state.gauges[_SMALLEST_PIVOT] = state.gauges[_LAST_SINE] = state.gauges[_LAST_SHORT] = 1.0
-    for i in range(_N_CONTROL):
-        if i != _STOP:
+    gauges[abi.LIMIT_PHI], gauges[abi.LIMIT_DRIFT], gauges[abi.LIMIT_ENERGY] = limits[0], limits[1], limits[2]
+    gauges[abi.WARN_PIVOT] = limits[3]
+    gauges[abi.SMALLEST_PIVOT] = gauges[abi.LAST_SINE] = gauges[abi.LAST_SHORT] = 1.0
+    for i in range(abi.N_CONTROL):
+        if i != abi.STOP:
             state.control[i] = 0
     for i in range(state.iw.shape[0]):
         state.iw[i] = 0
@@ -80,22 +68,22 @@ def pick(sizes: Any, picks: Any, kept: Any, count: int, start: float, values: An
     values : Array
         Written.
     """
-    outputs, observed, work = kept.outputs, kept.observed, sizes.nq + sizes.nv
+    outputs, observed, status, work = kept.outputs, kept.observed, kept.outputs.status, sizes.nq + sizes.nv
     n_times = outputs.states.shape[0]
     for c in range(picks.shape[0] // 2):
         source, column, to = picks[2 * c], picks[2 * c + 1], c * n_times
         for k in range(count):
-            if source == _STATE:
+            if source == e.STATE:
                 value = outputs.states[k, column]
-            elif source == _STATUS:
-                value = outputs.status[k, column]
-            elif source == _ENERGY:
-                value = outputs.status[k, _KINETIC] + outputs.status[k, _POTENTIAL]
-            elif source == _ENERGY_ERROR:
-                value = outputs.status[k, _KINETIC] + outputs.status[k, _POTENTIAL] - start - outputs.states[k, work]
-            elif source == _ACCELERATION:
+            elif source == e.STATUS:
+                value = status[k, column]
+            elif source == e.ENERGY:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL]
+            elif source == e.ENERGY_ERROR:
+                value = status[k, abi.KINETIC] + status[k, abi.POTENTIAL] - start - outputs.states[k, work]
+            elif source == e.ACCELERATION:
                 value = observed.accelerations[k, column]
-            elif source == _MULTIPLIER:
+            elif source == e.MULTIPLIER:
                 value = observed.multipliers[k, column]
             else:
                 value = observed.rows[k, sizes.m + column]
@@ -108,34 +96,34 @@ def summarise(code: int, state: Any, row: Any) -> None:
     """Write the numbers by which a run is judged, in the order of `symgen.runtime.ensemble_abi.SUMMARY`."""
     w, clock, gauges, control, events = state.w, state.clock, state.gauges, state.control, state.events
     narrowest, where = math.nan, math.nan
-    for k in range(min(control[_EVENTS], _MAX_EVENTS)):
-        pivot = events[k * _N_EVENT + _EVENT_PIVOT]
+    for k in range(min(control[abi.EVENTS], _MAX_EVENTS)):
+        pivot = events[k * _N_EVENT + abi.EVENT_PIVOT]
         if not narrowest <= pivot:
-            narrowest, where = pivot, events[k * _N_EVENT + _EVENT_IN]
-    at = _FIRST
+            narrowest, where = pivot, events[k * _N_EVENT + abi.EVENT_IN]
+    at = e.CODE
     for number in (
         float(code),
-        clock[_TIME],
-        float(control[_OUTPUTS]),
-        float(control[_STEPS]),
-        float(control[_REJECTED]),
-        float(control[_EVALUATIONS]),
-        float(state.iw[_ITERATIONS]),
-        float(state.iw[_LIGHT]),
-        gauges[_MAX_PHI],
-        gauges[_MAX_DRIFT],
-        gauges[_MAX_ENERGY],
-        gauges[_ENERGY_START],
-        gauges[_ENERGY_SCALE],
-        gauges[_JUMP],
-        gauges[_SMALLEST_PIVOT],
-        float(control[_EVENTS]),
+        clock[abi.TIME],
+        float(control[abi.OUTPUTS]),
+        float(control[abi.STEPS]),
+        float(control[abi.REJECTED]),
+        float(control[abi.EVALUATIONS]),
+        float(state.iw[abi.ITERATIONS]),
+        float(state.iw[abi.LIGHT]),
+        gauges[abi.MAX_PHI],
+        gauges[abi.MAX_DRIFT],
+        gauges[abi.MAX_ENERGY],
+        gauges[abi.ENERGY_START],
+        gauges[abi.ENERGY_SCALE],
+        gauges[abi.MAX_ENERGY_JUMP],
+        gauges[abi.SMALLEST_PIVOT],
+        float(control[abi.EVENTS]),
         where,
         narrowest,
-        w[_PHI],
-        w[_DRIFT],
-        w[_LENGTH],
-        w[_SPEED],
+        w[abi.PHI],
+        w[abi.DRIFT],
+        w[abi.LENGTH],
+        w[abi.SPEED],
     ):
         row[at] = number
         at += 1
@@ -146,7 +134,7 @@ def follow_rows(sizes: Any, chunk: Any, state: Any, w: Any) -> int:
     """Choose the rows that stand for all at the position of `w`; return 1 where they are others than before."""
     if chunk.dense.shape[0] == 0:
         return 0
-    m, kept = sizes.m, sizes.m - state.control[_MASKED]
+    m, kept = sizes.m, sizes.m - state.control[abi.MASKED]
     places = sizes.jacobian, sizes.gauge, sizes.mask
     return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, *places, w, chunk.dense))
 
@@ -174,13 +162,13 @@ def end_run(
     sizes, chunk, state, kept
         As for `run_rows`; `state` is that of the run at its end.
     """
-    nw, count = state.w.shape[0], state.control[_OUTPUTS]
-    summarise(code, state, part(chunk.summary, r * _N_SUMMARY, _N_SUMMARY))
+    nw, count = state.w.shape[0], state.control[abi.OUTPUTS]
+    summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
             state.iw[i] = 0
         begun, outputs, observed = part(chunk.ws, r * nw, nw), kept.outputs, kept.observed
-        follows = state.control[_MASKED] > 0 and chunk.dense.shape[0] > 0
+        follows = state.control[abi.MASKED] > 0 and chunk.dense.shape[0] > 0
         for k in range(count if follows else 0):  # the rows that stand for all follow the position
             here = Outputs(outputs.times[k : k + 1], outputs.states[k : k + 1], outputs.status[k : k + 1])
             seen = Observed(
@@ -195,8 +183,8 @@ def end_run(
         observe_rows(observe, sizes, kept.outputs, count, state.p, state.w, kept.observed, state.room)
     length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
     values = part(chunk.values, r * length, length)
-    pick(sizes, chunk.picks, kept, count, state.gauges[_ENERGY_START], values)
-    state.control[_RUNS_DONE] += 1
+    pick(sizes, chunk.picks, kept, count, state.gauges[abi.ENERGY_START], values)
+    state.control[e.RUNS_DONE] += 1
 
 
 def run_rows(
@@ -236,7 +224,7 @@ def run_rows(
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
     ny, n_p, nw = sizes.ny, state.p.shape[0], state.w.shape[0]
     for s in range(chunk.selected.shape[0]):
-        if state.control[_STOP] != 0:
+        if state.control[abi.STOP] != 0:
             return int(s)
         r = chunk.selected[s]
         begin_run(state, chunk.limits)
@@ -244,13 +232,13 @@ def run_rows(
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
         code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
-        while code == _CHOOSE:
+        while code == abi.CHOOSE:
             follow_rows(sizes, chunk, state, state.w)
             code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
-        if code == _STOPPED:
+        if code == abi.STOPPED:
             return int(s)
-        if code == _DONE:  # a grid of steps meets the end up to rounding
-            state.clock[_TIME] = span.until
+        if code == abi.DONE:  # a grid of steps meets the end up to rounding
+            state.clock[abi.TIME] = span.until
         end_run(code, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
     return int(chunk.selected.shape[0])
 

@@ -7,9 +7,9 @@ compiled with a copy of it.
 Which side of an event a run is on is kept as such, not taken from g: a state that lies on the event itself, up to
 rounding, is on the side that it came from, and after a change of velocities on the side that it goes to.
 
-What is kept is one array, in this order: numbers of the step (`HEAD`), columns with one number for each event
-(`COLUMNS`), what the emitted function writes (values, then rates), a state and its rate, ``w`` and ``iw`` at the
-beginning of the step and at the state that is looked at, and notes: time, number of the event, state.
+What is kept is one array, in this order: numbers of the step, columns with one number for each event, what the emitted
+function writes (values, then rates), a state and its rate, ``w`` and ``iw`` at the beginning of the step and at the
+state that is looked at, and notes: time, number of the event, state.
 """
 
 from __future__ import annotations
@@ -24,58 +24,22 @@ from symgen.store.emitted import plain
 
 A = Any
 #: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
-#: where rates need v', the bracket that is looked at, the whole step, what time resolves, attempts at extrema, rounds
-#: in a bracket, its width three rounds ago, events found in the step, notes, and notes that found no room.
-HEAD = (
-    *("try", "doing", "count", "needs_rates", "low", "high", "whole", "resolution"),
-    *("probes", "rounds", "width", "found", "noted", "lost"),
-)
+#: where rates need v', the bracket that is looked at, the whole step, what time resolves, ...
+_FIRST, DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(8)
+#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, events found in the step, notes, and notes
+#: that found no room.
+PROBES, ROUNDS, WIDTH, FOUND, NOTED, LOST = range(8, 14)
 #: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
 #: step, 1 where it has just happened, 1 where g is on the other side by rounding alone, side at the lower end of the
-#: bracket, how large g was in the step before; g and g' at the beginning and at the end of the step and of the bracket.
-COLUMNS = (
-    *("direction", "leaves", "side", "fired", "grazing", "local", "size"),
-    *("g_start", "d_start", "g_end", "d_end", "g_low", "d_low", "g_high", "d_high"),
-)
-N_HEAD, N_COLUMNS = len(HEAD), len(COLUMNS)
-(
-    _FIRST,
-    DOING,
-    COUNT,
-    NEEDS_RATES,
-    LOW,
-    HIGH,
-    WHOLE,
-    RESOLUTION,
-    PROBES,
-    ROUNDS,
-    WIDTH,
-    FOUND,
-    NOTED,
-    LOST,
-) = range(N_HEAD)
-(
-    DIRECTION,
-    LEAVES,
-    SIDE,
-    FIRED,
-    GRAZING,
-    LOCAL,
-    SIZE,
-    G_START,
-    D_START,
-    G_END,
-    D_END,
-    G_LOW,
-    D_LOW,
-    G_HIGH,
-    D_HIGH,
-) = range(N_COLUMNS)
+#: bracket, how large g was in the step before; ...
+DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
+#: ... g and g' at the beginning and at the end of the step and of the bracket.
+G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
+N_HEAD, N_COLUMNS = 14, 15
+_COUNTERS = abi.N_COUNTERS
 assert _FIRST == TRY, "the frame reads it there"
-_NOTHING, _SEEK, _TAKE, _MEET, _CROWD = NOTHING, SEEK, TAKE, MEET, CROWD
 #: What else is done with what is kept.
 LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK = range(CROWD + 1, CROWD + 6)
-_COUNTERS = abi.N_COUNTERS
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 #: Notes that there is room for; a loop is left where half of it is taken.
@@ -190,7 +154,7 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
         near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(hunt[out + k]) < 8.0 * before
         if near and hunt[at + GRAZING * n + k] != 0.0:
             hunt[out + k] = hunt[at + SIDE * n + k] * before  # has not come away from the event yet
-    if hunting == _NOTHING:
+    if hunting == NOTHING:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
         hunt[PROBES] = hunt[ROUNDS] = hunt[FOUND] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
@@ -298,27 +262,27 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         if hunting == KEEP:
             return int(keep(hunt, first + size, size - _COUNTERS, w, iw))
         return int(give_back(hunt, first + size, size - _COUNTERS, w, iw))
-    if hunting == _TAKE and hunt[DOING] == _WHOLE_STEP:
+    if hunting == TAKE and hunt[DOING] == _WHOLE_STEP:
         settle(hunt, n, 1)
-        return _CROWD if 2 * hunt[NOTED] >= NOTES else _NOTHING
+        return CROWD if 2 * hunt[NOTED] >= NOTES else NOTHING
     take_in(hunt, n, h, following, hunting)
-    if hunting == _TAKE:
+    if hunting == TAKE:
         note(hunt, n, notes, following, width, y)
         settle(hunt, n, 0)
-        return _MEET
+        return MEET
     while True:
         low, high = hunt[LOW], hunt[HIGH]
         if crossed(hunt, n, G_HIGH, 0) == 1:
             if high - low > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
                 hunt[ROUNDS] += 1.0
-                return _SEEK
+                return SEEK
             if crossed(hunt, n, G_HIGH, 1) == 1:
                 hunt[DOING], hunt[TRY] = _TO_EVENT, high
-                return _TAKE
+                return TAKE
             if h != high:
                 hunt[TRY] = high
-                return _SEEK
+                return SEEK
             note(hunt, n, notes, following, width, y)
             hunt[FOUND] += 1.0
             if hunt[FOUND] >= _MOST_FOUND:
@@ -341,12 +305,12 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
             hunt[PROBES] += 1.0
             hunt[ROUNDS] = 0.0
             hunt[TRY] = low + x * (high - low)
-            return _SEEK
+            return SEEK
         if high >= hunt[WHOLE]:
             break
         move_on(hunt, n)
-    if hunting == _NOTHING:
+    if hunting == NOTHING:
         settle(hunt, n, 1)
-        return _NOTHING
+        return NOTHING
     hunt[DOING], hunt[TRY] = _WHOLE_STEP, hunt[WHOLE]
-    return _TAKE
+    return TAKE

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
 
 #: Changed coordinates that a note tells one by one.
 _TOLD = 6
@@ -30,15 +28,7 @@ _TOLD = 6
 
 @dataclass(frozen=True)
 class Change:
-    """A coordinate or given velocity that was changed to make a start consistent.
-
-    Attributes
-    ----------
-    name, unit : str
-        What it is.
-    before, after : float
-        As described, and at the start.
-    """
+    """A coordinate or given velocity that was changed to make a start consistent: as described, and at the start."""
 
     name: str
     unit: str
@@ -95,7 +85,7 @@ def notes_of(held: Held, summary: Array, changes: Sequence[Change], info: ModelI
         notes.append(f"the start holds {held.told(info)}" + (f"; {follow}" if follow else ""))
     elif positions:
         notes.append(f"initial positions were closed by the shortest changes: {_told(positions)}")
-    if summary[_VELOCITIES]:
+    if summary[e.START_VELOCITIES]:
         speeds = (change for change in changes if change.name not in names)
         largest = max(speeds, key=lambda change: abs(change.after - change.before), default=None)
         what = "" if largest is None else f"; {largest.name} changed from {_from_to(largest)}"
@@ -130,7 +120,7 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
     info : ModelInfo
         The model.
     """
-    code, where, size = int(summary[_START]), int(summary[_WHERE]), float(summary[_SIZE])
+    code, where, size = int(summary[e.START]), int(summary[e.START_WHERE]), float(summary[e.START_SIZE])
     if code == e.UNDEFINED:
         return InputError("parameters or start", "values for which every formula is finite", "others")
     if code == e.NO_MASS:
@@ -156,7 +146,7 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
         )
     found = "given velocities contradicted by the constraints"
     if code == e.MOVED:
-        found = f"positions that closing moves by up to {float(summary[_MOVED]):.3g}"
+        found = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
     return InputError("initial state", "a consistent start (--strict)", found)
 
 

@@ -19,17 +19,11 @@ from symgen.runtime.exact import exact
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, speed_of, weigh_rows
 from symgen.runtime.start_records import ASKED, INSTANT, LAYOUT, SOLVE, TURNS, WORK, Asked, Instant
 
-_START, _MOVED, _VELOCITIES = (e.SUMMARY.index("start" + end) for end in ("", "_moved", "_velocities"))
-_WHERE, _SIZE = e.SUMMARY.index("start_where"), e.SUMMARY.index("start_size")
-_REDUNDANT, _LIGHT = e.SUMMARY.index("redundant_rows"), e.SUMMARY.index("light")
 _A, _I = types.float64[::1], types.int64[::1]
 
 
 @exact(
-    types.int64(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS),
-        *(LAYOUT, INSTANT, ASKED, WORK),
-    )
+    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK))
 )
 def close_row(
     geometry: Any,
@@ -79,21 +73,21 @@ def close_row(
     if code == e.ASSEMBLED:
         code = complete_velocities(spread, solve, layout, now, work, asked.given)
     if code == e.PROJECTED:
-        summary[_VELOCITIES] = 1.0
+        summary[e.START_VELOCITIES] = 1.0
         code = e.ASSEMBLED
     if code == e.ASSEMBLED:
         undetermined = find_undetermined(spread, solve, layout, now, work)
         if undetermined >= 0:
-            summary[_WHERE] = undetermined
+            summary[e.START_WHERE] = undetermined
             code = e.UNDETERMINED
     if code == e.ASSEMBLED:
-        summary[_REDUNDANT] = mask_redundant(geometry, measure, move, spread, solve, layout, now, work)
+        summary[e.REDUNDANT_ROWS] = mask_redundant(geometry, measure, move, spread, solve, layout, now, work)
         weigh_rows(layout, now)
         w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
         w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
         if layout.ask_light != 0 and is_light(rhs, geometry, layout, now, work):
-            summary[_LIGHT] = 1.0
-    summary[_START] = code
+            summary[e.LIGHT] = 1.0
+    summary[e.START] = code
     return int(code)
 
 
@@ -105,7 +99,7 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
         finite = finite and math.isfinite(y[i])
     for j in range(layout.nv):
         if finite and massless[j] == 0 and not w[layout.mass + j] > 0.0:
-            summary[_WHERE], summary[_SIZE] = j, w[layout.mass + j]
+            summary[e.START_WHERE], summary[e.START_SIZE] = j, w[layout.mass + j]
             return int(e.NO_MASS)
     for i in range(p.shape[0]):
         finite = finite and math.isfinite(p[i])
@@ -136,7 +130,7 @@ def _reach(
                 change = abs(y[i] - first[i])
                 if change > moved and change > decisions.MOVED * (length if layout.lengths[i] != 0.0 else 1.0):
                     moved = change
-            asked.summary[_MOVED] = moved
+            asked.summary[e.START_MOVED] = moved
             for h in range(targets.shape[0]):
                 i = held[2 * h]
                 first[i] = y[i]
@@ -153,10 +147,7 @@ def _reach(
 
 
 @exact(
-    types.int64(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS),
-        *(LAYOUT, INSTANT, ASKED, WORK, _I, _I),
-    )
+    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK, _I, _I))
 )
 def close_rows(
     geometry: Any,

@@ -7,7 +7,6 @@ of the mechanism here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +15,6 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
-from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
 from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
@@ -33,7 +31,7 @@ NOTHING = 1e-9
 
 
 def settle_tree(
-    compiled: CompiledModel, y: Array, p: Array, t: float, turned: Sequence[float], scales: tuple[float, float, Array]
+    compiled: CompiledModel, y: Array, p: Array, t: float, turned: Array, scales: tuple[float, float, Array]
 ) -> tuple[Array, int, tuple[str, ...]]:
     """Return the scratch of a start, the rank of D there, and the rows that depend on others.
 
@@ -47,20 +45,18 @@ def settle_tree(
         Parameters; prepared here.
     t : float
         Time [s].
-    turned : sequence of float
+    turned : Array, shape (windings,)
         Angles that count turns.
     scales : tuple of float, float, Array
         Length and speed of the mechanism, and the section ``gauge``: the lengths of bodies, measured where they have
         coordinates of their own.
     """
     info, w = compiled.info, compiled.scratch()
-    model, law = compiled.model, compiled.law_module
     with np.errstate(all="ignore"):
-        for module in (model, law):
-            Ready(module.prepare, e.PREPARE)(p)
-        Ready(model.masses, abi.MOVE)(p, w)
+        compiled.prepare(p)
+        Ready(compiled.model.masses, abi.MOVE)(p, w)
         w[abi.WINDING : abi.WINDING + info.windings] = turned
-        geometry = Ready(model.geometry, abi.MEASURE)
+        geometry = Ready(compiled.model.geometry, abi.MEASURE)
         layout = Assembly.of(compiled).layout._replace(t=t)
         now = Instant(y, p, w)
         w[abi.LENGTH], w[abi.SPEED], gauge = scales

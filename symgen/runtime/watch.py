@@ -9,21 +9,7 @@ from symgen.ir.numerics import SKIP
 from symgen.runtime import abi
 from symgen.runtime.vectors import finite, largest
 
-_PHI_MEASURE, _DRIFT_MEASURE = abi.PHI_MEASURE, abi.DRIFT_MEASURE
-_PHI, _DRIFT, _KINETIC, _POTENTIAL, _PIVOT, _RANK = abi.PHI, abi.DRIFT, abi.KINETIC, abi.POTENTIAL, abi.PIVOT, abi.RANK
-_LENGTH, _SPEED, _TIME = abi.LENGTH, abi.SPEED, abi.TIME
-_MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.MAX_PHI, abi.MAX_DRIFT, abi.MAX_ENERGY
-_START, _SCALE, _POTENTIAL_START = abi.ENERGY_START, abi.ENERGY_SCALE, abi.POTENTIAL_START
-_LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI, abi.LIMIT_DRIFT, abi.LIMIT_ENERGY
-_WARN, _SMALLEST, _ENTRY, _JUMP = abi.WARN_PIVOT, abi.SMALLEST_PIVOT, abi.ENERGY_ENTRY, abi.MAX_ENERGY_JUMP
-_EVENTS, _IN_ZONE, _LAST_RANK = abi.EVENTS, abi.IN_ZONE, abi.LAST_RANK
 _N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
-_IN, _OUT, _EVENT_RANK, _EVENT_PIVOT = abi.EVENT_IN, abi.EVENT_OUT, abi.EVENT_RANK, abi.EVENT_PIVOT
-_MASKED, _SHORTEST, _VANISHED = abi.MASKED, abi.SHORTEST_ROW, abi.VANISHED
-_LAST_SHORT, _SHORT_FALL = abi.LAST_SHORT, abi.SHORT_FALL
-_LAST_TIME, _LAST_SINE, _FALL = abi.LAST_TIME, abi.LAST_SINE, abi.FALL
-_STEPS, _REJECTED, _MARK, _MARKED = abi.STEPS, abi.REJECTED, abi.MARK, abi.MARKED
-_DONE, _NOT_FINITE, _POSITION, _VELOCITY, _ENERGY = abi.DONE, abi.NOT_FINITE, abi.POSITION, abi.VELOCITY, abi.ENERGY
 
 #: Attempts over which progress is judged, at least: as many as all before them.
 _WINDOW = 10_000
@@ -41,25 +27,25 @@ def remember_rank(sizes: Any, run: Any) -> None:
             masked += 1
         elif run.w[sizes.pivots + i] >= SKIP:
             rank += 1
-    run.control[_LAST_RANK], run.control[_MASKED] = rank, masked
+    run.control[abi.LAST_RANK], run.control[abi.MASKED] = rank, masked
 
 
 def begin(run: Any) -> None:
     """Take the energies of the first accepted state as those the balance starts from."""
-    run.gauges[_START] = run.w[_KINETIC] + run.w[_POTENTIAL]
-    run.gauges[_POTENTIAL_START] = run.w[_POTENTIAL]
+    run.gauges[abi.ENERGY_START] = run.w[abi.KINETIC] + run.w[abi.POTENTIAL]
+    run.gauges[abi.POTENTIAL_START] = run.w[abi.POTENTIAL]
 
 
 def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
     """Update the largest violations and energy error from the status of the state `y`; return the energy error."""
     w, gauges = run.w, run.gauges
-    if w[_PHI] > gauges[_MAX_PHI]:
-        gauges[_MAX_PHI] = w[_PHI]
-    if w[_DRIFT] > gauges[_MAX_DRIFT]:
-        gauges[_MAX_DRIFT] = w[_DRIFT]
-    error = w[_KINETIC] + w[_POTENTIAL] - gauges[_START] - y[sizes.nq + sizes.nv]
-    if abs(error) > gauges[_MAX_ENERGY]:
-        gauges[_MAX_ENERGY] = abs(error)
+    if w[abi.PHI] > gauges[abi.MAX_PHI]:
+        gauges[abi.MAX_PHI] = w[abi.PHI]
+    if w[abi.DRIFT] > gauges[abi.MAX_DRIFT]:
+        gauges[abi.MAX_DRIFT] = w[abi.DRIFT]
+    error = w[abi.KINETIC] + w[abi.POTENTIAL] - gauges[abi.ENERGY_START] - y[sizes.nq + sizes.nv]
+    if abs(error) > gauges[abi.MAX_ENERGY]:
+        gauges[abi.MAX_ENERGY] = abs(error)
     return float(error)
 
 
@@ -69,10 +55,10 @@ def approach(h: float, gauges: Any) -> float:
     Inside the zone that counts as near the step is free again, so a passage costs about as many further steps as there
     are halvings from the last regular step to the zone.
     """
-    sine, fall = gauges[_LAST_SINE], gauges[_FALL]
-    if fall > 0.0 and sine * sine >= gauges[_WARN] and h * fall > 0.5 * sine:
+    sine, fall = gauges[abi.LAST_SINE], gauges[abi.FALL]
+    if fall > 0.0 and sine * sine >= gauges[abi.WARN_PIVOT] and h * fall > 0.5 * sine:
         h = 0.5 * sine / fall
-    short, fall = gauges[_LAST_SHORT], gauges[_SHORT_FALL]
+    short, fall = gauges[abi.LAST_SHORT], gauges[abi.SHORT_FALL]
     if fall > 0.0 and h * fall > 0.5 * short:
         h = 0.5 * short / fall
     return h
@@ -83,13 +69,13 @@ def stuck(span: Any, run: Any, t: float) -> bool:
 
     The rate is that of a window of attempts as long as all before it: a passage that takes many of them is none.
     """
-    attempts, mark = run.control[_STEPS] + run.control[_REJECTED], run.control[_MARKED]
+    attempts, mark = run.control[abi.STEPS] + run.control[abi.REJECTED], run.control[abi.MARKED]
     if attempts - mark < max(_WINDOW, mark):
         return bool(attempts >= span.most)
-    rate = (t - run.clock[_MARK]) / (attempts - mark)
+    rate = (t - run.clock[abi.MARK]) / (attempts - mark)
     if mark > 0 and span.until - t > rate * (span.most - attempts):
         return True
-    run.clock[_MARK], run.control[_MARKED] = t, attempts
+    run.clock[abi.MARK], run.control[abi.MARKED] = t, attempts
     return False
 
 
@@ -108,65 +94,66 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         Its time [s].
     """
     w, gauges, control, events = run.w, run.gauges, run.control, run.events
-    run.clock[_TIME] = t
+    run.clock[abi.TIME] = t
     moving, behind = sizes.nq, sizes.nq + sizes.nv
     work = y[behind]
     # the scale that corrections go by stays that of the start
-    length = max(w[_LENGTH], largest(sizes.width, y, run.metric, 0, moving))
-    speed = w[_SPEED] = max(w[_SPEED], largest(sizes.width, y, run.metric, moving, behind))
+    length = max(w[abi.LENGTH], largest(sizes.width, y, run.metric, 0, moving))
+    speed = w[abi.SPEED] = max(w[abi.SPEED], largest(sizes.width, y, run.metric, moving, behind))
     error = keep_maxima(sizes, run, y)
-    scale = max(w[_KINETIC], abs(w[_POTENTIAL] - gauges[_POTENTIAL_START]), abs(work))
-    if scale > gauges[_SCALE]:
-        gauges[_SCALE] = scale
+    scale = max(w[abi.KINETIC], abs(w[abi.POTENTIAL] - gauges[abi.POTENTIAL_START]), abs(work))
+    if scale > gauges[abi.ENERGY_SCALE]:
+        gauges[abi.ENERGY_SCALE] = scale
 
-    pivot, rank = w[_PIVOT], int(w[_RANK])
-    if pivot < gauges[_SMALLEST]:
-        gauges[_SMALLEST] = pivot
+    pivot, rank = w[abi.PIVOT], int(w[abi.RANK])
+    if pivot < gauges[abi.SMALLEST_PIVOT]:
+        gauges[abi.SMALLEST_PIVOT] = pivot
     # the root of a pivot is the sine of an angle: it falls to 0 and rises again in a straight line, so a step that
     # would have met 0 has passed a singular position even if both its ends are far from it
     sine = math.sqrt(max(pivot, 0.0))
-    elapsed = t - gauges[_LAST_TIME]
-    met = gauges[_FALL] > 0.0 and gauges[_LAST_SINE] - gauges[_FALL] * elapsed < math.sqrt(gauges[_WARN])
-    near = pivot < gauges[_WARN] or met
-    entered = gauges[_LAST_TIME] if met and pivot >= gauges[_WARN] else t
-    gauges[_FALL] = (gauges[_LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
+    elapsed = t - gauges[abi.LAST_TIME]
+    met = gauges[abi.FALL] > 0.0 and gauges[abi.LAST_SINE] - gauges[abi.FALL] * elapsed < math.sqrt(
+        gauges[abi.WARN_PIVOT]
+    )
+    near = pivot < gauges[abi.WARN_PIVOT] or met
+    entered = gauges[abi.LAST_TIME] if met and pivot >= gauges[abi.WARN_PIVOT] else t
+    gauges[abi.FALL] = (gauges[abi.LAST_SINE] - sine) / elapsed if elapsed > 0.0 else 0.0
     # so does the length of a gradient that vanishes; what the row says behind that nobody knows
-    short, fell = math.sqrt(max(w[_SHORTEST], 0.0)), gauges[_SHORT_FALL]
-    vanished = short < VANISHING or (fell > 0.0 and gauges[_LAST_SHORT] - fell * elapsed < VANISHING)
-    gauges[_SHORT_FALL] = (gauges[_LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
-    gauges[_LAST_TIME], gauges[_LAST_SINE], gauges[_LAST_SHORT] = t, sine, short
-    if near or control[_IN_ZONE] == 1 or rank != control[_LAST_RANK]:
-        if near and control[_IN_ZONE] == 0:
-            gauges[_ENTRY] = error
-        elif not near and control[_IN_ZONE] == 1:
-            gauges[_JUMP] = max(gauges[_JUMP], abs(error - gauges[_ENTRY]))
-        k = control[_EVENTS] - 1
-        fresh = (near and control[_IN_ZONE] == 0) or (
-            not near and control[_IN_ZONE] == 0 and rank != control[_LAST_RANK]
-        )
-        if fresh:
+    short, fell = math.sqrt(max(w[abi.SHORTEST_ROW], 0.0)), gauges[abi.SHORT_FALL]
+    vanished = short < VANISHING or (fell > 0.0 and gauges[abi.LAST_SHORT] - fell * elapsed < VANISHING)
+    gauges[abi.SHORT_FALL] = (gauges[abi.LAST_SHORT] - short) / elapsed if elapsed > 0.0 else 0.0
+    gauges[abi.LAST_TIME], gauges[abi.LAST_SINE], gauges[abi.LAST_SHORT] = t, sine, short
+    if near or control[abi.IN_ZONE] == 1 or rank != control[abi.LAST_RANK]:
+        if near and control[abi.IN_ZONE] == 0:
+            gauges[abi.ENERGY_ENTRY] = error
+        elif not near and control[abi.IN_ZONE] == 1:
+            gauges[abi.MAX_ENERGY_JUMP] = max(gauges[abi.MAX_ENERGY_JUMP], abs(error - gauges[abi.ENERGY_ENTRY]))
+        k = control[abi.EVENTS] - 1
+        if control[abi.IN_ZONE] == 0:
             k += 1
-            control[_EVENTS] += 1
+            control[abi.EVENTS] += 1
             if k < _MAX_EVENTS:
-                events[k * _N_EVENT + _IN] = entered
-                events[k * _N_EVENT + _EVENT_PIVOT] = pivot
-                events[k * _N_EVENT + _EVENT_RANK] = rank
+                events[k * _N_EVENT + abi.EVENT_IN] = entered
+                events[k * _N_EVENT + abi.EVENT_PIVOT] = pivot
+                events[k * _N_EVENT + abi.EVENT_RANK] = rank
         if 0 <= k < _MAX_EVENTS:
-            events[k * _N_EVENT + _OUT] = t
-            events[k * _N_EVENT + _EVENT_PIVOT] = min(pivot, events[k * _N_EVENT + _EVENT_PIVOT])
-            events[k * _N_EVENT + _EVENT_RANK] = min(rank, events[k * _N_EVENT + _EVENT_RANK])
-        control[_IN_ZONE] = 1 if near else 0
-        control[_LAST_RANK] = rank
+            events[k * _N_EVENT + abi.EVENT_OUT] = t
+            events[k * _N_EVENT + abi.EVENT_PIVOT] = min(pivot, events[k * _N_EVENT + abi.EVENT_PIVOT])
+            events[k * _N_EVENT + abi.EVENT_RANK] = min(rank, events[k * _N_EVENT + abi.EVENT_RANK])
+        control[abi.IN_ZONE] = 1 if near else 0
+        control[abi.LAST_RANK] = rank
 
-    if not (math.isfinite(w[_PHI] + w[_DRIFT] + error) and finite(sizes.width, y)):
-        return _NOT_FINITE
+    if not (math.isfinite(w[abi.PHI] + w[abi.DRIFT] + error) and finite(sizes.width, y)):
+        return abi.NOT_FINITE
     if vanished:
-        return _VANISHED
-    if w[_PHI_MEASURE] > gauges[_LIMIT_PHI] * length:
-        return _POSITION
-    if w[_DRIFT_MEASURE] > gauges[_LIMIT_DRIFT] * speed:
-        return _VELOCITY
+        return abi.VANISHED
+    if w[abi.PHI_MEASURE] > gauges[abi.LIMIT_PHI] * length:
+        return abi.POSITION
+    if w[abi.DRIFT_MEASURE] > gauges[abi.LIMIT_DRIFT] * speed:
+        return abi.VELOCITY
     # energies are no more exact than the rounding of what they are sums of
-    if abs(error) > gauges[_LIMIT_ENERGY] * gauges[_SCALE] + NEGLIGIBLE * (w[_KINETIC] + abs(w[_POTENTIAL])):
-        return _ENERGY
-    return _DONE
+    if abs(error) > gauges[abi.LIMIT_ENERGY] * gauges[abi.ENERGY_SCALE] + NEGLIGIBLE * (
+        w[abi.KINETIC] + abs(w[abi.POTENTIAL])
+    ):
+        return abi.ENERGY
+    return abi.DONE

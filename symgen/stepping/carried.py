@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from symgen.errors import InputError
 from symgen.runtime import abi
-from symgen.runtime import ensemble_abi as e
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
@@ -48,8 +47,7 @@ class CarriedBodies:
         numbers, found = state.p.copy(), np.zeros(self._size)
         if p is not None:
             numbers[: len(p)] = p
-            for module in (compiled.model, compiled.law_module):
-                Ready(module.prepare, e.PREPARE)(numbers)
+            compiled.prepare(numbers)
         observe = Ready(compiled.model.bodies, abi.OBSERVE)
         observe(float(state.clock[abi.TIME]), state.y.copy(), numbers, state.w.copy(), np.zeros(len(state.y)), found)
         return found[: len(self.names)]

@@ -15,7 +15,7 @@ from support.emitted import Emitted, mechanism_of
 
 from symgen.api import load
 from symgen.describe.parser import Names, parse
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.errors import InputError
 from symgen.formulate.translate import Translator, to_sympy
 from symgen.ir.expression import build
@@ -101,7 +101,7 @@ def compiled(graph: Graph, nodes: list[int]) -> Any:
     """The printed code of nodes as emitted functions are compiled."""
     layout = Layout(2, 0, 0, 0, {"result": (0, len(nodes))})
     block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
-    lines = print_block(block, ElementAccess(layout, {}))
+    lines = Printer(block, ElementAccess(layout, {})).lines()
     body = "\n    ".join([*lines.inputs, *lines.terms, *lines.outputs])
     namespace: dict[str, Any] = {"math": math}
     exec(f"def f(y, w):\n    {body}\n", namespace)

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from support.checks import RANDOM
 from support.graph_values import node_values
 
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Layout, Target
 
@@ -80,7 +80,7 @@ def test_printed_code_is_what_was_built(steps):
     graph, nodes, _ = run(steps)
     layout = Layout(nq=len(X), nv=0, m=0, parameters=0, sections={"result": (0, len(nodes))})
     block = Block("f", "test", graph, tuple((Target("result", i), n) for i, n in enumerate(nodes)), ("y", "w"))
-    lines = print_block(block, ElementAccess(layout, {}))
+    lines = Printer(block, ElementAccess(layout, {})).lines()
     w = [0.0] * len(nodes)
     exec("\n".join([*lines.inputs, *lines.terms, *lines.outputs]), {"math": math, "y": list(X), "w": w})
     expected = node_values(graph, nodes, {("q", i): x for i, x in enumerate(X)})

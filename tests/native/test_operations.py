@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from symgen.emit.printer import ElementAccess, print_block
+from symgen.emit.printer import ElementAccess, Printer
 from symgen.ir.graph import FUNCTIONS, Graph
 from symgen.ir.program import Block, Layout, Target
 from symgen.store.modules import load_module
@@ -84,7 +84,7 @@ def printed(graph: Graph, outputs: list[int], flag: int | None) -> str:
     """Return nodes as an emitted function."""
     block = Block("f", "test", graph, tuple((Target("out", i), n) for i, n in enumerate(outputs)), ("y", "out"), flag)
     layout = Layout(nq=INPUTS, nv=0, m=0, parameters=0, sections={})
-    lines = print_block(block, ElementAccess(layout, {}))
+    lines = Printer(block, ElementAccess(layout, {})).lines()
     body = [*lines.inputs, *lines.terms, *lines.outputs, f"return {f'int({lines.flag})' if lines.flag else 0}"]
     return "def f(y, out):\n" + "".join(f"    {line}\n" for line in body)
 

@@ -6,73 +6,14 @@ end of ``w`` as unsigned 32-bit numbers; the last element of ``w`` says, as an i
 
 from __future__ import annotations
 
-#: Numbers at the head of the tables: sizes, sections of ``w``, parts of ``p``, then where tables begin.
-HEAD = (
-    "nq",
-    "nv",
-    "m",
-    # parts of p
-    "method_parameters",
-    "mass_diagonal",
-    "inverse_mass",
-    "gram_base",
-    # sections of w
-    "multipliers",
-    "mask",
-    "saved",
-    "residual",
-    "nu",
-    "pivot",
-    "change",
-    "mass",
-    "gauge",
-    "row_weight",
-    "jacobian",
-    "lower",
-    "records",
-    "force",
-    "gamma",
-    "phi",
-    "left",
-    "diagonal",
-    "panel",
-    "kept_rows",
-    "stage",  # k of the descriptor form
-    "unknowns",  # length of k
-    "equations",  # length of F with the rows behind it
-    "vectors",  # scratch vectors of a law, each as long as the longer of v and lambda
-    "vector_size",
-    # tables
-    "frames",
-    "speeds",
-    "rates",
-    "move",
-    "turn",
-    "normalise",
-    "wind",
-    "geometry",
-    "motion",
-    "full",
-    "energy",
-    "report",
-    "residuals",
-    "slopes",
-    "jacobian_rows",
-    "jacobian_columns",
-    "jacobian_size",
-    "angular_rows",
-    "weights",
-    "mass_blocks",
-    "gram_terms",
-    "gram_factor",
-    "gram_size",
-    "augmented_terms",
-    "augmented_factor",
-    "augmented_size",
-    "driven",
-    "joint_coordinates",
-    "tables",  # where the tables begin in w
-    "generic",  # where the addresses of generic code begin, in 64-bit numbers
+from symgen.ir.program import SECTIONS as SHARED
+
+#: Sections of ``w`` that every law has, with their sizes in words of `symgen.lower.looped.shape.Shape.sizes`.
+SECTIONS = (
+    *SHARED,
+    *(("lower", "gram"), ("records", "records"), ("force", "nv"), ("gamma", "m"), ("phi", "m")),
+    *(("left", "jacobian"), ("diagonal", "longest"), ("panel", "panel"), ("kept_rows", "m")),
+    ("stage", "unknowns"),  # k of the descriptor form
 )
 
 #: Lists of kernels that are called one after the other, and the functions of kernels that each calls, by kind.
@@ -92,6 +33,23 @@ STAGES: dict[str, tuple[tuple[str, str], ...]] = {
     "residuals": (("body", "residual"), ("joint", "residual"), ("force", "residual")),
     "slopes": (("body", "tangent"), ("joint", "tangent"), ("force", "tangent")),
 }
+
+#: Numbers at the head of the tables: sizes, parts of ``p``, sections of ``w``, then where tables begin.
+HEAD = (
+    *("nq", "nv", "m"),
+    *("method_parameters", "mass_diagonal", "inverse_mass", "gram_base"),
+    *(name for name, _ in SECTIONS),
+    "unknowns",  # length of k
+    "equations",  # length of F with the rows behind it
+    "vectors",  # scratch vectors of a law, each as long as the longer of v and lambda
+    "vector_size",
+    *STAGES,
+    *("jacobian_rows", "jacobian_columns", "jacobian_size", "angular_rows", "weights", "mass_blocks"),
+    *("gram_terms", "gram_factor", "gram_size", "augmented_terms", "augmented_factor", "augmented_size"),
+    *("driven", "joint_coordinates"),
+    "tables",  # where the tables begin in w
+    "generic",  # where the addresses of generic code begin, in 64-bit numbers
+)
 
 #: Generic functions that are called through the tables, in the order of their addresses.
 GENERIC = ("rows_times", "columns_times", "blocks_times", "weigh", "gauge", "gram", "augment", "factorise", "solve")

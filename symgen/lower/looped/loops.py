@@ -50,12 +50,8 @@ class Loops(Replay):
 
     Parameters
     ----------
-    record : Record
-        The law.
-    part : Part
-        The function.
-    parameters : sequence of str
-        Parameters of the method.
+    parameters : tuple of str
+        Names of the parameters of the method.
     first_vector : int
         Scratch vectors that generic code has for itself.
     """
@@ -212,15 +208,16 @@ class Loops(Replay):
     def _on_power(self, operation: Operation) -> int:
         return self.graph.input(STATE, STATUS.index("power"))
 
-    def _on_flag(self, operation: Operation) -> None:
-        return None
+    def _nothing(self, operation: Operation, *operands: Any) -> None:
+        """Leave what is done elsewhere: D and its factorisation stand in their places when a function begins."""
+
+    _on_flag = _on_rank = _on_constraints = _on_stored_constraints = _on_keep_constraints = _nothing
+    #: Of a root of M^-1 only products with its transposed are formed, beside another one.
+    _on_times_transposed = _nothing
 
     def _on_geometry(self, operation: Operation, rank: None) -> None:
         self._call("constrain", "t", "y", "p", "w", "T")
         self._call("decide_rank", "T", "p", "w")
-
-    def _on_rank(self, operation: Operation) -> None:
-        return None
 
     def _on_dot(self, operation: Operation, a: Nodes, b: Nodes) -> int:
         node = self.graph.mul(a[0], b[0])
@@ -241,17 +238,8 @@ class Loops(Replay):
         self._call(helper, "T", "p", "w", source, target)
         return self._leaf(target, operation.size)
 
-    def _on_constraints(self, operation: Operation) -> None:
-        return None
-
-    def _on_stored_constraints(self, operation: Operation) -> None:
-        return None
-
     def _on_inverse_mass_root(self, operation: Operation) -> str:
-        return "root"  # of which only products with its transposed are formed, beside another one
-
-    def _on_times_transposed(self, operation: Operation, matrix: None, root: str) -> None:
-        return None
+        return "root"
 
     def _on_product(self, operation: Operation, matrix: None, x: Nodes) -> Nodes:
         return self._times("rows_times", operation, x)
@@ -272,11 +260,10 @@ class Loops(Replay):
 
     # -- factorisations ------------------------------------------------------------------------------------------------
 
-    def _on_schur(self, operation: Operation) -> _Factor:
+    def _on_schur(self, operation: Operation, matrix: None = None) -> _Factor:
         return _Factor("schur", "schur_lower")
 
-    def _on_pseudoinverse(self, operation: Operation, matrix: None) -> _Factor:
-        return _Factor("schur", "schur_lower")
+    _on_pseudoinverse = _on_schur
 
     def _on_weighted_mass(self, operation: Operation, rank: None) -> _Factor:
         return _Factor("weighted", "law_lower")
@@ -287,8 +274,7 @@ class Loops(Replay):
     def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
 
-    def _on_augmented_metric(self, operation: Operation, penalties: Nodes | None) -> _Factor:
-        return self._on_augmented(operation, penalties)
+    _on_augmented_metric = _on_augmented
 
     def _on_stored_factor(self, operation: Operation, factor: _Factor) -> _Factor:
         return replace(factor, section=f"{operation.payload[0]}lower", stored=True)
@@ -326,9 +312,6 @@ class Loops(Replay):
 
     def _on_keep(self, operation: Operation, x: Nodes | None) -> Nodes:
         return self._leaf(str(operation.payload[0]), operation.size) if x is None else x
-
-    def _on_keep_constraints(self, operation: Operation, matrix: None) -> None:
-        return None
 
     def _on_keep_factor(self, operation: Operation, factor: None) -> _Factor:
         matrix = self.operations[operation.operands[0]].kind

@@ -8,33 +8,8 @@ from dataclasses import dataclass
 
 from symgen.ir.program import STATUS
 from symgen.lower.looped.forms import FormInfo
-from symgen.lower.looped.layout import GENERIC, HEAD, STAGES
+from symgen.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
 from symgen.lower.looped.shape import Group, RowBlock, Shape
-
-#: Sections of ``w`` that every law has, with their sizes in words of `Shape.sizes`.
-SECTIONS = (
-    ("multipliers", "m"),
-    ("mask", "m"),
-    ("saved", "m"),
-    ("residual", "m"),
-    ("nu", "m"),
-    ("pivot", "m"),
-    ("change", "nv"),
-    ("mass", "nv"),
-    ("gauge", "nv"),
-    ("row_weight", "m"),
-    ("jacobian", "jacobian"),
-    ("lower", "gram"),
-    ("records", "records"),
-    ("force", "nv"),
-    ("gamma", "m"),
-    ("phi", "m"),
-    ("left", "jacobian"),
-    ("diagonal", "longest"),
-    ("panel", "panel"),
-    ("kept_rows", "m"),
-    ("stage", "unknowns"),
-)
 
 
 @dataclass(frozen=True)

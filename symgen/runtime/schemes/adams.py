@@ -22,10 +22,8 @@ from symgen.runtime.records import MULTISTEP
 from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.vectors import combine, copied, weigh
 
-_EVALUATIONS, _POINTS, _ORDER, _REFUSED = abi.EVALUATIONS, abi.POINTS, abi.ORDER, abi.REFUSED
 #: Derivatives kept; the highest order of the corrector.
 DEPTH = 9
-_DEPTH = DEPTH
 #: As in the frame: whether steps and order vary.
 ADAPTIVE = False
 
@@ -99,9 +97,9 @@ def extrapolated(system: Any, run: Any, t: float, h: float, stage: Any, rate: An
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     """Begin the history: derivatives, newest first, then their times."""
     evaluate(system, run, run.clock[abi.TIME], run.y, part(run.memory, 0, system.sizes.width))
-    run.control[_EVALUATIONS] += 1
-    run.memory[_DEPTH * system.sizes.width] = run.clock[abi.TIME]
-    run.control[_POINTS] = 1
+    run.control[abi.EVALUATIONS] += 1
+    run.memory[DEPTH * system.sizes.width] = run.clock[abi.TIME]
+    run.control[abi.POINTS] = 1
 
 
 @called
@@ -109,24 +107,24 @@ def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
 ) -> float:
     """Try a step by predictor, evaluation and corrector; the difference of both is the error."""
-    width, count = system.sizes.width, run.control[_POINTS]
-    past = part(run.memory, _DEPTH * width, _DEPTH)
+    width, count = system.sizes.width, run.control[abi.POINTS]
+    past = part(run.memory, DEPTH * width, DEPTH)
     predicted, rate = part(run.room, 0, width), part(run.room, width, width)
     used = min(count, scheme.order)
-    run.control[_ORDER] = used + 1
+    run.control[abi.ORDER] = used + 1
     if not ADAPTIVE and count < scheme.order:  # no history yet
         if scheme.order > 4:
             spare = part(run.room, 2 * width, width)
-            run.control[_EVALUATIONS] += extrapolated(system, run, t, h, predicted, rate, spare)
+            run.control[abi.EVALUATIONS] += extrapolated(system, run, t, h, predicted, rate, spare)
         else:
-            run.control[_EVALUATIONS] += classical(system, run, t, h, predicted, rate)
+            run.control[abi.EVALUATIONS] += classical(system, run, t, h, predicted, rate)
         return 0.0
-    coefficients = part(run.room, 3 * width, 2 * _DEPTH)
-    times = part(run.room, 3 * width + 2 * _DEPTH, _DEPTH + 1)
+    coefficients = part(run.room, 3 * width, 2 * DEPTH)
+    times = part(run.room, 3 * width + 2 * DEPTH, DEPTH + 1)
     weights(used, past, t, following, scheme.nodes, scheme.factors, coefficients)
     combine(width, 1.0, 0, used, scheme.count, coefficients, run.memory, run.y, predicted)
     evaluate(system, run, following, predicted, rate)
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     # the corrector has the new derivative in front; with varying steps it is of one order more than the predictor
     corrected = used if ADAPTIVE else used - 1
     times[0] = following
@@ -135,7 +133,7 @@ def attempt(
     weights(corrected + 1, times, t, following, scheme.nodes, scheme.factors, coefficients)
     for i in range(width):
         run.trial[i] = run.y[i] + coefficients[0] * rate[i]
-    older = part(coefficients, 1, _DEPTH)
+    older = part(coefficients, 1, DEPTH)
     combine(width, 1.0, 0, corrected, scheme.count, older, run.memory, run.trial, run.trial)
     if not ADAPTIVE or between:
         return 0.0
@@ -148,31 +146,31 @@ def attempt(
 
 def refuse(run: Any) -> None:
     """Forget the history where two attempts in a row were refused: it misleads."""
-    if run.control[_REFUSED] == 1:
-        run.control[_POINTS] = 1
+    if run.control[abi.REFUSED] == 1:
+        run.control[abi.POINTS] = 1
 
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Put the derivative at the accepted state in front of the history."""
-    width, count, history = system.sizes.width, run.control[_POINTS], run.memory
-    past = part(history, _DEPTH * width, _DEPTH)
-    for j in range(min(count, _DEPTH - 1), 0, -1):
+    width, count, history = system.sizes.width, run.control[abi.POINTS], run.memory
+    past = part(history, DEPTH * width, DEPTH)
+    for j in range(min(count, DEPTH - 1), 0, -1):
         past[j] = past[j - 1]
         copied(width, part(history, (j - 1) * width, width), part(history, j * width, width))
     past[0] = t
     evaluate(system, run, t, run.y, part(history, 0, width))
-    run.control[_EVALUATIONS] += 1
-    run.control[_POINTS] = min(count + 1, _DEPTH)
+    run.control[abi.EVALUATIONS] += 1
+    run.control[abi.POINTS] = min(count + 1, DEPTH)
 
 
 def memory(width: int) -> int:
     """Return the numbers of a history."""
-    return _DEPTH * (width + 1)
+    return DEPTH * (width + 1)
 
 
 def room(width: int) -> int:
     """Return the working memory of a step behind the state that is tried."""
-    return 3 * width + 3 * _DEPTH + 1
+    return 3 * width + 3 * DEPTH + 1
 
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}

@@ -25,9 +25,6 @@ from symgen.runtime.manifold import advance
 from symgen.runtime.records import ALPHA
 from symgen.runtime.sparse import leave_out_rest, multiply, solve, turn_rows
 
-_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
-_EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
-_DIVERGED, _TOO_LARGE = DIVERGED, TOO_LARGE
 _MOST_ITERATIONS = 20
 
 
@@ -49,7 +46,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     for i in range(nv):
         a0[i] = begun[nq + i] + (scheme.alpha_m - scheme.alpha_f) * h * (ahead[nq + i] - begun[nq + i]) / probe
     evaluate(system, run, t, run.y, begun)
-    run.control[_EVALUATIONS] += 3
+    run.control[abi.EVALUATIONS] += 3
     for i in range(nv):
         k[nq + i] = begun[nq + i]
     for i in range(n - nq - nv):
@@ -94,14 +91,14 @@ def attempt(
             turn_rows(scheme.plan, scheme.slopes, change)
             factors[0], factors[1], factors[2], factors[3] = 1.0, by_velocity, by_position, -by_position
             if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
-                return _TOO_LARGE
-            run.control[_JACOBIANS] += 1
+                return TOO_LARGE
+            run.control[abi.JACOBIANS] += 1
             fresh = False
         system.residual(following, run.trial, k, run.p, run.w, right)
         leave_out_rest(sizes, run.w, k, right)
-        run.control[_EVALUATIONS] += 1
+        run.control[abi.EVALUATIONS] += 1
         solve(scheme.plan, scheme.numbers, part(right, nq, size), change)
-        run.control[_ITERATIONS] += 1
+        run.control[abi.NEWTON_ITERATIONS] += 1
         moved, total, length = 0.0, 0.0, 1.0
         for i in range(size):
             k[nq + i] -= change[i]
@@ -111,7 +108,7 @@ def attempt(
         for i in range(nq):
             length = max(length, run.scales[i] * abs(run.trial[i]))
         # rounding of positions is divided by the square of the step in accelerations: it decides where those stall
-        rate = run.w[_SPEED] / run.w[_LENGTH]
+        rate = run.w[abi.SPEED] / run.w[abi.LENGTH]
         at_floor = math.sqrt(moved) * rate * by_position < 1e-12 * length
         moved = math.sqrt(moved) / (rate + math.sqrt(total))
         if not math.isfinite(moved):
@@ -122,7 +119,7 @@ def attempt(
         fresh = moved > 0.05 * last
         last = moved
     if not converged:
-        return _DIVERGED
+        return DIVERGED
     move(system, scheme, run, h, k, a1, change)
     for i in range(sizes.ny - first):
         right[i] = run.w[sizes.auxiliary + i]
@@ -154,6 +151,5 @@ def room(width: int, nv: int, unknowns: int) -> int:
     return max(width, 3 * unknowns + nv + 4)
 
 
-_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
-
-constant = loop(__name__, "constant", ALPHA, "turn", "residual", "tangent", **_PARTS)
+_FUNCTIONS = "turn", "residual", "tangent"
+constant = loop(__name__, "constant", ALPHA, *_FUNCTIONS, prepare=prepare, attempt=attempt, renew=renew)

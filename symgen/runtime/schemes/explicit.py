@@ -19,9 +19,6 @@ from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.vectors import combine, copied, follow, total, weigh
 from symgen.runtime.watch import keep_maxima
 
-_EVALUATIONS, _OUTPUTS, _KNOWN, _ORDER = abi.EVALUATIONS, abi.OUTPUTS, abi.KNOWN, abi.ORDER
-_NEXT, _STEP, _ALLOWED = abi.NEXT, abi.STEP, abi.ALLOWED
-_N_STATUS, _IN_ZONE = abi.N_STATUS, abi.IN_ZONE
 #: By how much the step that the tolerance allows may grow from one step to the next: an estimate that says more passes
 #: through zero. Nothing is known where the last step was shorter than this part of what it allowed, at the start or
 #: where its error is rounding, and near singular positions.
@@ -39,7 +36,7 @@ def attempt_constant(
         follow(width, h, start[s], start[s + 1], column, value, run.room, run.y, run.trial)
         if s < scheme.stages:
             evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(run.room, s * width, width))
-    run.control[_EVALUATIONS] += scheme.stages
+    run.control[abi.EVALUATIONS] += scheme.stages
     return 0.0
 
 
@@ -51,9 +48,9 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     """Evaluate the first stage; choose a first step as Hairer, Norsett, Wanner, Solving ODEs I, section II.4, do."""
     t, y, width = run.clock[abi.TIME], run.y, system.sizes.width
     first, rate = part(run.memory, 0, width), part(run.memory, width, width)
-    run.control[_ORDER] = scheme.order + 1
+    run.control[abi.ORDER] = scheme.order + 1
     evaluate(system, run, t, y, first)
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     if span.step > 0.0:
         return
     count, share, least = system.sizes.controlled, weights_of(span, run), 1e-6 * span.duration
@@ -65,7 +62,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     for i in range(width):
         run.trial[i] = y[i] + h0 * first[i]
     evaluate(system, run, t + h0, run.trial, rate)
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     for i in range(width):
         rate[i] -= first[i]
     d2 = math.sqrt(weigh(width, rate, share, y, y, span.rtol, span.atol) / count) / h0
@@ -73,7 +70,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     unit = 100.0 * h0
     largest = max(d1 * unit, d2 * unit * unit)
     h1 = max(least, 1e-3 * h0) if largest <= 1e-15 else unit * (0.01 / largest) ** (1.0 / (scheme.order + 1.0))
-    run.clock[_NEXT] = min(100.0 * h0, h1)
+    run.clock[abi.NEXT] = min(100.0 * h0, h1)
 
 
 def attempt(
@@ -87,8 +84,8 @@ def attempt(
         follow(width, h, start[s], start[s + 1], column, value, stages, run.y, run.trial)
         if s < last + scheme.ends:
             evaluate(system, run, t + scheme.nodes[s] * h, run.trial, part(stages, s * width, width))
-    run.control[_EVALUATIONS] += last - 1 + scheme.ends
-    run.control[_KNOWN] = scheme.ends
+    run.control[abi.EVALUATIONS] += last - 1 + scheme.ends
+    run.control[abi.KNOWN] = scheme.ends
     copied(width, run.trial, new)
     # error weights stand behind all stages in the table
     row, count, share = scheme.nodes.shape[0], system.sizes.controlled, weights_of(span, run)
@@ -105,9 +102,9 @@ def attempt(
     if before != 0.0:
         done = before * before / math.sqrt(before * before + 0.01 * done * done)
         size = with_work(span, run, work, done, size)
-    allowed = run.clock[_ALLOWED]
-    if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[_IN_ZONE] == 0:
-        least = h / (_GROWTH * allowed * run.clock[_STEP])
+    allowed = run.clock[abi.ALLOWED]
+    if allowed > 0.0 and _SETTLED * allowed < 1.0 and run.control[abi.IN_ZONE] == 0:
+        least = h / (_GROWTH * allowed * run.clock[abi.STEP])
         least *= least  # and twice more: the combination goes with the eighth power of the step
         least *= least
         least *= least
@@ -118,9 +115,9 @@ def attempt(
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Have the first stage of the next step: the last of this one, unless a correction has changed the state."""
     width, first = system.sizes.width, part(run.memory, 0, system.sizes.width)
-    if changed or run.control[_KNOWN] == 0:
+    if changed or run.control[abi.KNOWN] == 0:
         evaluate(system, run, t, run.y, first)
-        run.control[_EVALUATIONS] += 1
+        run.control[abi.EVALUATIONS] += 1
     else:
         copied(width, part(run.memory, scheme.stages * width, width), first)
 
@@ -136,17 +133,17 @@ def interpolate(
     degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
     new, kept = part(run.room, 0, width), part(run.room, width, width)
     powers, weights = part(run.room, 3 * width, lanes), part(run.room, 3 * width + lanes, lanes)
-    for i in range(_N_STATUS):
+    for i in range(abi.N_STATUS):
         kept[i] = run.w[i]
-    if run.control[_KNOWN] == 0:
+    if run.control[abi.KNOWN] == 0:
         evaluate(system, run, following, new, part(stages, last * width, width))
-        run.control[_EVALUATIONS] += 1
-        run.control[_KNOWN] = 1
+        run.control[abi.EVALUATIONS] += 1
+        run.control[abi.KNOWN] = 1
     for s in range(last + 1, every):
         follow(width, h, start[s], start[s + 1], column, value, stages, run.y, new)
         evaluate(system, run, t + scheme.nodes[s] * h, new, part(stages, s * width, width))
-        run.control[_EVALUATIONS] += 1
-    out = run.control[_OUTPUTS]
+        run.control[abi.EVALUATIONS] += 1
+    out = run.control[abi.OUTPUTS]
     while out < outputs.times.shape[0] and outputs.times[out] < following:
         x = (outputs.times[out] - t) / h
         power = 1.0
@@ -159,8 +156,8 @@ def interpolate(
         keep_maxima(system.sizes, run, new)
         store(system.sizes, run.w, outputs, out, new)
         out += 1
-    run.control[_OUTPUTS] = out
-    for i in range(_N_STATUS):
+    run.control[abi.OUTPUTS] = out
+    for i in range(abi.N_STATUS):
         run.w[i] = kept[i]
 
 

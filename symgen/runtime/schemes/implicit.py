@@ -19,10 +19,6 @@ from symgen.runtime.scales import weights_of, with_work
 from symgen.runtime.sparse import leave_out_rest, solve
 from symgen.runtime.vectors import copied, weigh
 
-_EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
-_KNOWN, _ORDER = abi.KNOWN, abi.ORDER
-_LENGTH, _SPEED = abi.LENGTH, abi.SPEED
-_DIVERGED, _TOO_LARGE = DIVERGED, TOO_LARGE
 _MOST_ITERATIONS = 15
 #: As in the frame: whether steps follow the error estimate.
 ADAPTIVE = False
@@ -35,7 +31,7 @@ def begin_step(system: Any, run: Any, t: float) -> None:
     first, n, m = sizes.nq + sizes.nv, sizes.unknowns, sizes.m
     rate = part(run.room, 0, sizes.width)
     evaluate(system, run, t, run.y, rate)
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     for i in range(n):
         if i < first:
             run.memory[i] = rate[i]
@@ -43,7 +39,7 @@ def begin_step(system: Any, run: Any, t: float) -> None:
             run.memory[i] = run.w[sizes.multipliers + i - first] if i < first + m else 0.0
     for i in range(first, sizes.ny):
         run.memory[n + i - first] = rate[i]
-    run.control[_KNOWN] = 1
+    run.control[abi.KNOWN] = 1
 
 
 @called
@@ -68,7 +64,7 @@ def attempt(
     sizes, s_count = system.sizes, scheme.stages
     first, n, ny, count = sizes.nq + sizes.nv, sizes.unknowns, sizes.ny, scheme.entries.shape[0] // 2
     more = ny - first
-    if run.control[_KNOWN] == 0:
+    if run.control[abi.KNOWN] == 0:
         begin_step(system, run, t)
     k = part(run.room, sizes.width, s_count * n)
     rates = part(run.room, sizes.width + s_count * n, s_count * more)
@@ -97,8 +93,8 @@ def attempt(
                     for j in range(low, high):
                         factors[1 + (s - low) * (high - low) + j - low] = h * scheme.a[s * s_count + j]
                 if sparse.prepare(scheme.plan, scheme.slopes, factors, scheme.numbers) < 0:
-                    return _TOO_LARGE
-                run.control[_JACOBIANS] += 1
+                    return TOO_LARGE
+                run.control[abi.JACOBIANS] += 1
                 fresh = False
             moved, size = 0.0, 0.0
             for s in range(low, high):
@@ -112,9 +108,9 @@ def attempt(
                     moved += share * (rate - rates[s * more + i]) ** 2
                     size += share * rate**2
                     rates[s * more + i] = rate
-                run.control[_EVALUATIONS] += 1
+                run.control[abi.EVALUATIONS] += 1
             solve(scheme.plan, scheme.numbers, right, change)
-            run.control[_ITERATIONS] += 1
+            run.control[abi.NEWTON_ITERATIONS] += 1
             for s in range(low, high):
                 for i in range(n):
                     k[s * n + i] -= change[(s - low) * n + i]
@@ -126,7 +122,7 @@ def attempt(
             for i in range(first):
                 length = max(length, run.scales[i] * abs(run.trial[i]))
             at_floor = math.sqrt(moved) * h < 1e-12 * length
-            moved = math.sqrt(moved) / (run.w[_SPEED] / run.w[_LENGTH] + math.sqrt(size))
+            moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
             if not math.isfinite(moved):
                 break
             if moved < 1e-13 or (moved > 0.3 * last and (moved < 1e-9 or at_floor)):
@@ -135,7 +131,7 @@ def attempt(
             fresh = moved > 0.05 * last
             last = moved
         if not converged:
-            return _DIVERGED
+            return DIVERGED
     if n > first + sizes.m:
         # multipliers of index 2 are of lower order than the state: these rates come from the law's own
         of_law = part(run.room, 0, sizes.width)
@@ -144,7 +140,7 @@ def attempt(
             evaluate(system, run, t + scheme.c[s] * h, run.trial, of_law)
             for i in range(more):
                 rates[s * more + i] = of_law[first + i]
-        run.control[_EVALUATIONS] += s_count
+        run.control[abi.EVALUATIONS] += s_count
     copied(sizes.width, run.y, run.trial)
     for s in range(s_count):
         for i in range(first):
@@ -162,7 +158,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
     more, size = ny - first, max(n, sizes.width)
     at = sizes.width + s_count * (n + more)
     right, change = part(run.room, at, size), part(run.room, at + size, size)
-    run.control[_ORDER] = scheme.order + 1
+    run.control[abi.ORDER] = scheme.order + 1
     for i in range(size):
         right[i] = change[i] = 0.0
     for i in range(first):
@@ -178,7 +174,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
                 right[scheme.entries[e]] += scheme.slopes[e] * change[scheme.entries[count + e]]
         factors[0], factors[1] = 1.0, h * scheme.filtered
         if sparse.prepare(scheme.filter_plan, scheme.slopes, factors, scheme.filter_numbers) < 0:
-            return _TOO_LARGE
+            return TOO_LARGE
         solve(scheme.filter_plan, scheme.filter_numbers, right, change)
     for i in range(first, sizes.width):
         change[i] = 0.0
@@ -196,7 +192,7 @@ def step_error(system: Any, scheme: Any, span: Any, run: Any, t: float, h: float
 
 def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool) -> None:
     """Have the next step evaluate its beginning."""
-    run.control[_KNOWN] = 0
+    run.control[abi.KNOWN] = 0
 
 
 def memory(unknowns: int, more: int) -> int:

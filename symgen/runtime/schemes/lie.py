@@ -18,8 +18,6 @@ from symgen.runtime.manifold import advance
 from symgen.runtime.records import ROTATIONS
 from symgen.runtime.vectors import total
 
-_EVALUATIONS = abi.EVALUATIONS
-
 
 def exponential_rate(v: Any, at: int, u: Any, spins: Any, nv: int, rate: Any) -> None:
     """Write u' for velocities that begin at index `at` of `v` to `rate`."""
@@ -55,7 +53,7 @@ def attempt(
             exponential_rate(trial, nq, moved, scheme.spins, nv, stage)
             for i in range(nq, ny):
                 stage[nv + i - nq] = rate[i]
-    run.control[_EVALUATIONS] += tableau.stages
+    run.control[abi.EVALUATIONS] += tableau.stages
     return 0.0
 
 

@@ -22,9 +22,6 @@ from symgen.runtime.manifold import advance
 from symgen.runtime.records import PROJECTION
 from symgen.runtime.sparse import multiply, solve, turn_rows
 
-_LENGTH = abi.LENGTH
-_EVALUATIONS, _JACOBIANS, _ITERATIONS = abi.EVALUATIONS, abi.JACOBIANS, abi.NEWTON_ITERATIONS
-_DIVERGED, _TOO_LARGE = DIVERGED, TOO_LARGE
 _MOST_ITERATIONS = 100
 #: h^2/4 a is at least this many times the largest mass: below, the iterations of short steps would not converge.
 _LEAST_PENALTY = 1e3
@@ -56,7 +53,7 @@ def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
     sizes, t = system.sizes, run.clock[abi.TIME]
     width, n = sizes.width, sizes.unknowns
     evaluate(system, run, t, run.y, part(run.memory, 0, width))
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     for c in range(sizes.m):
         run.memory[width + c] = run.w[sizes.multipliers + c]
     k, heaviest = part(run.room, 0, n), 0.0
@@ -105,16 +102,16 @@ def attempt(
                 held[c] += penalty * rest[first + c]
             k[first + c] = held[c] + penalty * rest[first + c]
         system.residual(following, run.trial, k, run.p, run.w, rest)
-        run.control[_EVALUATIONS] += 2
+        run.control[abi.EVALUATIONS] += 2
         if fresh:
             if not lead(system, scheme, run, following, h, penalty, k, shift):
-                return _TOO_LARGE
-            run.control[_JACOBIANS] += 1
+                return TOO_LARGE
+            run.control[abi.JACOBIANS] += 1
             fresh = False
         for i in range(nv):
             right[i] = quarter * rest[nq + i]
         solve(scheme.plan, scheme.numbers, right, change)
-        run.control[_ITERATIONS] += 1
+        run.control[abi.NEWTON_ITERATIONS] += 1
         moved, total, violation = 0.0, 0.0, 0.0
         for i in range(nv):
             shift[i] -= change[i]
@@ -124,7 +121,7 @@ def attempt(
             total += (run.scales[i] * run.trial[i]) ** 2
         for c in range(m):
             violation += rest[first + c] ** 2
-        moved = max(math.sqrt(moved), math.sqrt(violation)) / (run.w[_LENGTH] * (1.0 + math.sqrt(total)))
+        moved = max(math.sqrt(moved), math.sqrt(violation)) / (run.w[abi.LENGTH] * (1.0 + math.sqrt(total)))
         if not math.isfinite(moved):
             break
         if moved < 1e-14 or (moved > 0.5 * last and moved < 1e-11):
@@ -133,17 +130,17 @@ def attempt(
         fresh = moved > 0.5 * last
         last = moved
     if not converged:
-        return _DIVERGED
+        return DIVERGED
     follow(system, run, h, shift, k)
     if not lead(system, scheme, run, following, h, penalty, k, shift):
-        return _TOO_LARGE
+        return TOO_LARGE
     for level in range(2):  # velocities, then accelerations
         last = math.inf
         for _ in range(_MOST_ITERATIONS):
             for i in range(nv):
                 k[i] = run.trial[nq + i]
             system.residual(following, run.trial, k, run.p, run.w, rest)
-            run.control[_EVALUATIONS] += 1
+            run.control[abi.EVALUATIONS] += 1
             violation = 0.0
             for c in range(m):
                 violation += rest[n + level * m + c] ** 2
@@ -161,7 +158,7 @@ def attempt(
     # multipliers of the iteration belong to accelerations before their projection, of order 1: rates of auxiliary
     # states come from those of the law
     evaluate(system, run, following, run.trial, rate)
-    run.control[_EVALUATIONS] += 1
+    run.control[abi.EVALUATIONS] += 1
     for i in range(first, sizes.ny):
         run.trial[i] = run.y[i] + 0.5 * h * (run.memory[i] + rate[i])
     for i in range(nv):  # the accelerations are those of the projection
@@ -190,6 +187,5 @@ def room(width: int, nv: int, m: int, unknowns: int) -> int:
     return 8 + 2 * unknowns + 3 * m + 3 * nv + width
 
 
-_PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}
-
-constant = loop(__name__, "constant", PROJECTION, "turn", "residual", "tangent", **_PARTS)
+_FUNCTIONS = "turn", "residual", "tangent"
+constant = loop(__name__, "constant", PROJECTION, *_FUNCTIONS, prepare=prepare, attempt=attempt, renew=renew)
