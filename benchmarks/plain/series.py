@@ -133,6 +133,21 @@ def _of_acos(x: float) -> tuple[float, float, float]:
     return math.pi / 2 - value if not math.isnan(value) else value, -slope, -bend
 
 
+def _of_asinh(x: float) -> tuple[float, float, float]:
+    s = 1.0 / math.hypot(1.0, x)
+    return math.asinh(x), s, -x * s**3
+
+
+def _of_acosh(x: float) -> tuple[float, float, float]:
+    s = divided(1.0, quiet(math.sqrt, x - 1.0) * quiet(math.sqrt, x + 1.0))
+    return quiet(math.acosh, x), s, -x * s**3
+
+
+def _of_atanh(x: float) -> tuple[float, float, float]:
+    s = divided(1.0, (1.0 - x) * (1.0 + x))
+    return quiet(math.atanh, x), s, 2.0 * x * s * s
+
+
 #: Name of a function -> its value and first two derivatives at a number.
 UNARY: dict[str, Callable[[float], tuple[float, float, float]]] = {
     "sqrt": _of_sqrt,
@@ -147,6 +162,7 @@ UNARY: dict[str, Callable[[float], tuple[float, float, float]]] = {
     "sinh": lambda x: (quiet(math.sinh, x), quiet(math.cosh, x), quiet(math.sinh, x)),
     "cosh": lambda x: (quiet(math.cosh, x), quiet(math.sinh, x), quiet(math.cosh, x)),
     "tanh": _tanh,
+    **{"asinh": _of_asinh, "acosh": _of_acosh, "atanh": _of_atanh},
     "abs": lambda x: (abs(x), _sign(x), 0.0),
     "sign": lambda x: (_sign(x), 0.0, 0.0),
 }

@@ -102,7 +102,7 @@ def _spin(f: Frames, k: Constants) -> Any:
 
 def _rim_height(f: Frames, k: Constants) -> Any:
     plane, centre = f[0].locate(k[0]), f[1].locate(k[1])
-    normal, axis = f[0].rotate(k[2]), f[1].rotate(k[3])
+    normal, axis = f[2].rotate(k[2]), f[3].rotate(k[3])
     return _dot(normal, _minus(centre, plane)) - k[4] * sp.sqrt(1 - _dot(normal, axis) ** 2)
 
 
@@ -135,7 +135,8 @@ def _spatial(f: Frames) -> tuple[SpatialFrame, ...]:
 
 
 #: Kind -> (expression of frames and constants, number of frames, its constants: v for a vector, s for a scalar, whether
-#: it is a velocity already)
+#: it is a velocity already). Those of a measure come from its fields: frames of bodies, points and directions; points,
+#: directions, then numbers.
 _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
     "component": (_component, 3, "vvv", False),
     "distance": (_distance, 2, "vv", False),
@@ -143,7 +144,7 @@ _MEASURES: dict[str, tuple[_Build, int, str, bool]] = {
     "point-speed": (_point_speed, 2, "vv", True),
     "dot": (_direction_product, 2, "vv", False),
     "spin": (_spin, 3, "v", True),
-    "rim-height": (_rim_height, 2, "vvvvs", False),
+    "rim-height": (_rim_height, 4, "vvvvs", False),
     "sphere-speed": (_sphere_speed, 2, "vvvs", True),
     "disc-speed": (_disc_speed, 2, "vvvsv", True),
     "blade-speed": (_blade_speed, 2, "vvv", True),

@@ -21,15 +21,14 @@ from symgen.vocabulary.measures import (
     Angle,
     BladeSpeed,
     Component,
-    Distance,
+    Direction,
     Dot,
     Driven,
     Exerted,
     Integral,
-    LinkStretch,
+    Marker,
     Measure,
     PointSpeed,
-    RimHeight,
     RollingSpeed,
     Speed,
     Spin,
@@ -198,23 +197,16 @@ class Model(Formulas):
         # the angular velocity is no rate of a measure, so that there is nothing to report as its value
         return Derived(self.graph.zero, derived.row, derived.bias) if isinstance(m, Spin) else derived
 
-    def _parts(
-        self, m: Component | Distance | LinkStretch | Dot | Spin | RimHeight
-    ) -> tuple[tuple[str, ...], list[int]]:
-        """Return the bodies of a measure's frames, and its constants."""
-        if isinstance(m, Component):
-            return (m.a.body, m.b.body, m.along.body), [*self.local(m.a), *self.local(m.b), *self.direction(m.along)]
-        if isinstance(m, Distance):
-            return (m.a.body, m.b.body), [*self.local(m.a), *self.local(m.b)]
-        if isinstance(m, LinkStretch):
-            return (m.a.body, m.b.body), [*self.local(m.a), *self.local(m.b), self.expression(m.length)]
-        if isinstance(m, Dot):
-            return (m.u.body, m.v.body), [*self.direction(m.u), *self.direction(m.v)]
-        if isinstance(m, Spin):
-            return (m.a, m.b, m.along.body), self.direction(m.along)
-        directions = [*self.direction(m.normal), *self.direction(m.axis)]
-        constants = [*self.local(m.plane), *self.local(m.centre), *directions, self.expression(m.radius)]
-        return (m.plane.body, m.centre.body), constants
+    def _parts(self, m: Measure) -> tuple[tuple[str, ...], list[int]]:
+        """Return the bodies of a measure's frames, and its constants: points, then directions, then numbers."""
+        fields = [getattr(m, name) for name in m.__struct_fields__]
+        points = [x for x in fields if isinstance(x, Marker)]
+        directions = [x for x in fields if isinstance(x, Direction)]
+        numbers = [x for x in fields if not isinstance(x, Marker | Direction | str)]
+        bodies = [x for x in fields if isinstance(x, str)] + [x.body for x in points] + [x.body for x in directions]
+        located = [node for x in points for node in self.local(x)]
+        turned = [node for x in directions for node in self.direction(x)]
+        return tuple(bodies), [*located, *turned, *map(self.expression, numbers)]
 
     def motion(self, m: Measure | Speed) -> Derived:
         """Return a measure, or a velocity that is no rate of one, whose value is 0."""

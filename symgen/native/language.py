@@ -12,7 +12,15 @@ from typing import Literal
 
 import msgspec
 
+from symgen.vocabulary.functions import ELEMENTARY
+
 Scalar = Literal["float", "int", "bool", "unsigned"]
+
+#: Functions of ``math``: number of arguments, which are floats.
+FUNCTIONS = {
+    **dict.fromkeys((*ELEMENTARY, "fabs", "floor", "ceil"), 1),
+    **dict.fromkeys(("atan2", "copysign", "pow"), 2),
+}
 
 
 class Parameter(msgspec.Struct, frozen=True, gc=False):

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 
 from symgen.native import language as lang
 from symgen.native import sines
-from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Values, handed, literal, slot
+from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Values, called, handed, literal, slot
 
 #: The same as one value, as functions in C's convention get it.
 _STRUCT = "{ptr, ptr, i64, i64, ptr, [1 x i64], [1 x i64]}"
@@ -83,16 +83,10 @@ def declarations(texts: Iterable[str]) -> list[str]:
     """Return declarations of the mathematical functions that texts call."""
     text = "\n".join(texts)
     found = []
-    for name in INTRINSICS.values():
-        if f"@llvm.{name}.f64(" in text:
-            found.append(
-                f"declare double @llvm.{name}.f64({'double, double' if name in ('copysign', 'pow') else 'double'})"
-            )
-    for name in "sqrt tan asin acos atan sinh cosh tanh floor ceil".split():
-        if f"@{name}(" in text:
-            found.append(f"declare double @{name}(double) nounwind memory(read)")
-    if "@atan2(" in text:
-        found.append("declare double @atan2(double, double) nounwind memory(read)")
+    for name, count in {**lang.FUNCTIONS, "round": 1}.items():
+        if f"{called(name)}(" in text:
+            attributes = "" if name in INTRINSICS else " nounwind memory(read)"
+            found.append(f"declare double {called(name)}({', '.join(['double'] * count)}){attributes}")
     return found
 
 

@@ -23,6 +23,11 @@ _COMPARED = {
 INTRINSICS = {name: name for name in ("sin", "cos", "exp", "log", "fabs", "copysign", "pow")} | {"round": "rint"}
 
 
+def called(name: str) -> str:
+    """Return what a mathematical function is called."""
+    return f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
+
+
 class Values:
     """Prints the expressions of one function.
 
@@ -208,8 +213,7 @@ class Values:
 
     def function_of_math(self, name: str, values: list[str]) -> str:
         """Print a call of a mathematical function."""
-        called = f"@llvm.{INTRINSICS[name]}.f64" if name in INTRINSICS else f"@{name}"
-        value = self.put(f"call{self.flag} double {called}({', '.join(f'double {v}' for v in values)})")
+        value = self.put(f"call{self.flag} double {called(name)}({', '.join(f'double {v}' for v in values)})")
         return self.put(f"fptosi double {value} to i64") if name in ("floor", "ceil", "round") else value
 
     def take_sines(self, angles: tuple[lang.Expression, ...]) -> None:

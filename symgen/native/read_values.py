@@ -14,11 +14,7 @@ import numpy as np
 
 from symgen.native import language as lang
 
-#: Functions of ``math``: number of arguments. All take floats and return one, but for ``floor`` and ``ceil``.
-FUNCTIONS = {
-    **dict.fromkeys("sqrt exp log sin cos tan asin acos atan sinh cosh tanh fabs floor ceil".split(), 1),
-    **dict.fromkeys(("atan2", "copysign", "pow"), 2),
-}
+#: Functions of ``math`` that return an integer.
 _INTEGER = ("floor", "ceil")
 _ARITHMETIC = {ast.Add: "add", ast.Sub: "sub", ast.Mult: "mul", ast.Div: "div", ast.FloorDiv: "floordiv"}
 _ARITHMETIC |= {ast.Mod: "mod", ast.Pow: "pow", ast.BitAnd: "and", ast.BitOr: "or"}
@@ -202,7 +198,7 @@ class Values(ABC):
             return self.call_builtin(builtin, [self.expression(x) for x in node.args], node)
         if isinstance(node.func, ast.Attribute) and self.of_math(node.func):
             name = node.func.attr
-            if FUNCTIONS.get(name) != len(node.args):
+            if lang.FUNCTIONS.get(name) != len(node.args):
                 raise Foreign(f"the function 'math.{name}'", node)
             values = tuple(as_type("float", self.expression(x)) for x in node.args)
             return lang.Operation("int" if name in _INTEGER else "float", f"math.{name}", values)

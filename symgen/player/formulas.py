@@ -7,10 +7,12 @@ from typing import Any
 
 from symgen.errors import SymgenError
 from symgen.vocabulary.expressions import Expr, Name, Number, Reading
+from symgen.vocabulary.functions import ELEMENTARY
 
 _SIGNS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 _TESTS = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&&", "or": "||"}
-_PLAIN = frozenset("sqrt exp log sin cos tan asin acos atan sinh cosh tanh atan2 abs sign min max pow".split())
+#: Functions that are called alike in scripts.
+_PLAIN = frozenset((*ELEMENTARY, *"atan2 abs sign min max pow".split()))
 
 
 class NotInPages(SymgenError):

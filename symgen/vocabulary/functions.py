@@ -37,6 +37,13 @@ def _cosine(g: Any, a: int) -> int:
     return found
 
 
+def _between(g: Any, a: int) -> int:
+    """Return sqrt(a - 1) sqrt(a + 1): undefined below -1, as the function is, and exact near 1."""
+    roots = g.call("sqrt", g.sub(a, g.one)), g.call("sqrt", g.add(a, g.one))
+    found: int = g.mul(*roots)
+    return found
+
+
 ELEMENTARY: Mapping[str, Elementary] = {
     "sqrt": Elementary(math.sqrt, lambda g, a, n: g.div(g.constant(0.5), n), everywhere=False),
     "exp": Elementary(math.exp, lambda g, a, n: n),
@@ -50,4 +57,7 @@ ELEMENTARY: Mapping[str, Elementary] = {
     "sinh": Elementary(math.sinh, lambda g, a, n: g.call("cosh", a)),
     "cosh": Elementary(math.cosh, lambda g, a, n: g.call("sinh", a)),
     "tanh": Elementary(math.tanh, lambda g, a, n: g.sub(g.one, g.mul(n, n))),
+    "asinh": Elementary(math.asinh, lambda g, a, n: g.div(g.one, g.call("sqrt", g.add(g.one, g.mul(a, a))))),
+    "acosh": Elementary(math.acosh, lambda g, a, n: g.div(g.one, _between(g, a)), everywhere=False),
+    "atanh": Elementary(math.atanh, lambda g, a, n: g.div(g.one, g.sub(g.one, g.mul(a, a))), everywhere=False),
 }

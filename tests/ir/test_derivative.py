@@ -15,10 +15,11 @@ TABLE = ((-2.0, -0.5, 0.3, 2.0), (0.4, -1.0, 0.7, 2.5))
 #: What every node is wrapped in where an operation is defined on a part of the numbers only.
 ROOM = {
     **dict.fromkeys(("sqrt", "log"), "positive"),
-    **dict.fromkeys(("asin", "acos"), "within"),
-    **dict.fromkeys(("exp", "tan", "sinh", "cosh", "tanh", "atan"), "bounded"),
+    **dict.fromkeys(("asin", "acos", "atanh"), "within"),
+    **dict.fromkeys(("exp", "tan", "sinh", "cosh", "tanh", "atan", "asinh"), "bounded"),
+    **{"acosh": "above 1"},
 }
-UNARY = ("neg", "sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "abs")
+UNARY = ("neg", "abs", *"sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh".split())
 BINARY = ("add", "sub", "mul", "div", "atan2", "min", "max", "where", "power", "sign", "step", "table")
 EXPONENTS = (2.0, 3.0, -1.0, 0.5, 1.5, -2.5, 0.3, None)
 
@@ -79,7 +80,8 @@ def apply(g, op, a, b, exponent):
     room = ROOM.get(op)
     if room is not None:
         bounded = g.call("sin", a)
-        a = {"positive": square, "within": g.mul(g.constant(0.7), bounded), "bounded": bounded}[room]
+        within, above = g.mul(g.constant(0.7), bounded), g.add(g.one, square)
+        a = {"positive": square, "within": within, "bounded": bounded, "above 1": above}[room]
     if op == "div":
         return g.div(b, square)
     if op == "power":

@@ -59,12 +59,14 @@ FORMULAS = (
         "max(1, 1/(1 + a**2))",
         "sign(a) + max(a, b, 0)",
     ),
+    *("max(1, acosh(a))", "sign(atanh(a))", "min(asinh(a), b)", "1 if acosh(b) > 1 else atanh(a/4)"),
     *("max(1, 1 if sqrt(a) > 1 else 2)", "max(max(1, sqrt(a)), 5) + min(b, 1)", "abs(max(1, log(b)))"),
 )
 STATES = [(a, b) for a in (-2.0, -0.5, 0.005, 0.5, 3.0) for b in (-1.5, 0.0, 0.05, 2.0)]
 _COMPARE = {"lt": operator.lt, "le": operator.le, "gt": operator.gt, "ge": operator.ge}
 _PLAIN = {
     **{"add": np.add, "sub": np.subtract, "mul": np.multiply, "neg": np.negative, "abs": np.abs, "div": np.divide},
+    **{"asinh": np.arcsinh, "acosh": np.arccosh, "atanh": np.arctanh},
     **{"sqrt": np.sqrt, "log": np.log, "asin": np.arcsin, "pow": np.power, "min": min, "max": max, "sign": np.sign},
 }
 

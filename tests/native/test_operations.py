@@ -19,7 +19,7 @@ from symgen.store.modules import load_module
 from .twofold import apart, arguments_of, differences, load_twice, written
 
 INPUTS, OUTPUTS = 12, 8
-UNARY = ("neg", *"sqrt exp log sin cos tan asin acos atan sinh cosh tanh abs floor sign".split())
+UNARY = ("neg", *"sqrt exp log sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh abs floor sign".split())
 BINARY = tuple("add sub mul div pow atan2 min max step".split())
 COMPARISONS = tuple("lt le gt ge".split())
 TABLES = ("table:bump", "table:~hump", "table:~hump''")

@@ -63,7 +63,7 @@ def test_what_is_no_number_stays_none(text: str) -> None:
 def test_functions_have_their_derivatives() -> None:
     h = 1e-4
     for name, function in UNARY.items():
-        for x in (0.3, 0.7):
+        for x in (1.3, 1.7) if name == "acosh" else (0.3, 0.7):
             f, slope, bend = function(x)
             up, down = function(x + h)[0], function(x - h)[0]
             assert slope == pytest.approx((up - down) / (2 * h), abs=1e-6), name
