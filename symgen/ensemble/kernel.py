@@ -262,7 +262,7 @@ class Kernel:
         picks = picked, values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0) and info.m * info.nv <= LARGEST
         layout = model.assembly.layout
-        places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + 1) if redundant else 0)
+        places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + info.m + 2) if redundant else 0)
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)

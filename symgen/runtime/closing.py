@@ -173,7 +173,9 @@ def mask_redundant(
 def _rank(layout: Any, w: Any, work: Any) -> int:
     """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
     places, room = (layout.jacobian, layout.gauge), work.numbers
-    return int(farthest(layout.m, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room))
+    return int(
+        farthest(layout.m, layout.nv, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room)
+    )
 
 
 @exact()

@@ -19,13 +19,25 @@ _A, _I, _N = types.float64[::1], types.int64[::1], types.int64
 
 #: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
 FALLEN = 0.25
+#: A row that is left out stays so unless another one's factor is that much larger.
+STAYING = 1.25
 #: Up to this many entries of a dense D rows are chosen anew; above, those of the start stay.
 LARGEST = 250_000
 
 
-@exact(_N(_N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
+@exact(_N(_N, _N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
 def farthest(
-    m: int, n: int, kept: int, least: float, entries: Any, constants: Any, jacobian: int, gauge: int, w: Any, room: Any
+    m: int,
+    n: int,
+    width: int,
+    kept: int,
+    least: float,
+    entries: Any,
+    constants: Any,
+    jacobian: int,
+    gauge: int,
+    w: Any,
+    room: Any,
 ) -> int:
     """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
 
@@ -34,8 +46,9 @@ def farthest(
 
     Parameters
     ----------
-    m, n, kept : int
-        Rows and columns of D, and how many rows are chosen at most.
+    m, n, width, kept : int
+        Rows and columns of D, numbers kept of a row, and how many rows are chosen at most. With `width` n + m there
+        stand, behind what is left of a row, the lengths of all rows in the sum that it is.
     least : float
         Square of the sine of the angle between a row and those chosen below which it is not chosen.
     entries, constants : Array
@@ -44,28 +57,30 @@ def farthest(
         Where these sections of w begin.
     w : Array
         Scratch; D is that of the present position.
-    room : Array, shape (m * n + m,)
+    room : Array, shape (m * width + m,)
         Working memory; of its last m numbers, those of the rows that were chosen are negative.
     """
-    for i in range(m * n + m):
+    for i in range(m * width + m):
         room[i] = 0.0
     for k in range(constants.shape[0]):
         row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
         value = constants[k] if slot < 0 else w[jacobian + slot]
-        room[row * n + column] = value * math.sqrt(w[gauge + column])
-    lengths = m * n
+        room[row * width + column] = value * math.sqrt(w[gauge + column])
+    lengths = m * width
     for i in range(m):
         square = 0.0
         for j in range(n):
-            square += room[i * n + j] * room[i * n + j]
+            square += room[i * width + j] * room[i * width + j]
         room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
+        if width > n:
+            room[i * width + n + i] = math.sqrt(square) if square > 0.0 else 1.0
     for chosen in range(kept):
         best, most = -1, -1.0
         for i in range(m):
             if room[lengths + i] >= 0.0:  # of the rows that wait
                 square = 0.0
                 for j in range(n):
-                    square += room[i * n + j] * room[i * n + j]
+                    square += room[i * width + j] * room[i * width + j]
                 if square * room[lengths + i] > most:
                     best, most = i, square * room[lengths + i]
         if most < least:
@@ -76,9 +91,9 @@ def farthest(
                 if i != best and room[lengths + i] >= 0.0:
                     total = 0.0
                     for j in range(n):
-                        total += room[i * n + j] * room[best * n + j]
-                    for j in range(n):
-                        room[i * n + j] -= total / square * room[best * n + j]
+                        total += room[i * width + j] * room[best * width + j]
+                    for j in range(width):
+                        room[i * width + j] -= total / square * room[best * width + j]
         room[lengths + best] = -1.0
     return kept
 
@@ -87,7 +102,11 @@ def farthest(
 def choose_rows(
     m: int, n: int, kept: int, entries: Any, constants: Any, jacobian: int, gauge: int, mask: int, w: Any, room: Any
 ) -> int:
-    """Mask all rows but `kept` ones, each the one that is farthest from those chosen before it.
+    """Mask all rows but `kept` ones, of which the others are sums with small factors.
+
+    An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
+    chosen that is farthest from those before it (`farthest`) are sums of all rows that vanish. Of these sums the
+    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen.
 
     Parameters
     ----------
@@ -99,7 +118,7 @@ def choose_rows(
         Where these sections of w begin.
     w : Array
         Scratch; D is that of the present position.
-    room : Array, shape (m * n + m,)
+    room : Array, shape (m * (n + m) + 2 * m,)
         Working memory.
 
     Returns
@@ -107,12 +126,28 @@ def choose_rows(
     int
         1 where other rows are kept than before.
     """
-    farthest(m, n, kept, 0.0, entries, constants, jacobian, gauge, w, room)
-    lengths, changed = m * n, 0
+    width = n + m
+    farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, w, room)
+    lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
-        left_out = math.inf if room[lengths + i] >= 0.0 else 0.0
-        changed = changed if w[mask + i] == left_out else 1
-        w[mask + i] = left_out
+        room[masked + i] = 0.0
+    for _ in range(m - kept):
+        sum_, row, most = -1, -1, -1.0
+        for i in range(m):
+            for k in range(m if room[lengths + i] >= 0.0 else 0):
+                # rows that are left out stay so where others are hardly better
+                size = abs(room[i * width + n + k]) * (STAYING if w[mask + k] != 0.0 else 1.0)
+                if room[masked + k] == 0.0 and size > most:
+                    sum_, row, most = i, k, size
+        room[masked + row], room[lengths + sum_] = math.inf, -1.0
+        for i in range(m):
+            if room[lengths + i] >= 0.0:
+                share = room[i * width + n + row] / room[sum_ * width + n + row]
+                for k in range(m):
+                    room[i * width + n + k] -= share * room[sum_ * width + n + k]
+    for i in range(m):
+        changed = changed if w[mask + i] == room[masked + i] else 1
+        w[mask + i] = room[masked + i]
     return changed
 
 

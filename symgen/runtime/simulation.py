@@ -394,7 +394,7 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
         return lambda w: False
     entries, constants = entries_of(info)
     places = tuple(info.sections[name][0] for name in ("jacobian", "gauge", "mask"))
-    room, choose = np.zeros(info.m * (info.nv + 1)), compiled_form(choose_rows)
+    room, choose = np.zeros(info.m * (info.nv + info.m + 2)), compiled_form(choose_rows)
 
     def chosen(w: Array) -> bool:
         kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))

@@ -131,7 +131,7 @@ def new_work(layout: Layout, nw: int) -> Work:
     """Return working memory for a model whose scratch has `nw` numbers."""
     n, m, k = layout.nv, layout.m, layout.windings
     ny = layout.ny
-    solver = 2 * (m + n) if layout.sparse else m * n + m * min(m, n) + m + n
+    solver = 2 * (m + n) if layout.sparse else m * n + m * m + 2 * m + n
     sizes = m, n, n, layout.nq, ny, ny, nw, max(solver, m * k + 2 * k + m)
     integers = (np.zeros(size, dtype=np.int64) for size in (m, abi.N_COUNTERS))
     return Work._make((*(np.zeros(size) for size in sizes), *integers))
