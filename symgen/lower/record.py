@@ -16,6 +16,14 @@ from symgen.methods._recorder import Recorder
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
+#: Arguments of the functions of a law.
+ARGUMENTS = {
+    **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
+    **dict.fromkeys(("begin", "aim", "geometry"), ("t", "y", "p", "w")),
+    **dict.fromkeys(("iterate", "weigh", "expand", "refactor", "spread"), ("p", "w")),
+    "finish": ("t", "y", "p", "w", "ydot"),
+    "strike": ("w",),
+}
 
 
 @dataclass(frozen=True)
