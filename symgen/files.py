@@ -145,3 +145,19 @@ def _place(sibling: Path, target: Path, replace: bool) -> None:
         if target.exists():
             raise FileExistsError(str(target)) from None
         os.replace(sibling, target)
+
+
+def templates_folder() -> Path:
+    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
+
+    Raises
+    ------
+    FileNotFoundError
+        If neither exists.
+    """
+    package = Path(__file__).resolve().parent
+    inside, beside = package / "templates", package.parent / "templates"
+    for folder in (inside, beside):
+        if (folder / "parts").is_dir():
+            return folder
+    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")

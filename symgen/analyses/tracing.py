@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
 from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
 from symgen.runtime import abi, decisions
-from symgen.runtime import following_records as f
+from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
-from symgen.runtime.following import follow
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, velocity_of
 from symgen.runtime.probe import Ready
@@ -130,7 +129,7 @@ class Tracer:
 
     @property
     def clock(self) -> Array:
-        """Time, sine and the like, see `symgen.runtime.following_records`."""
+        """Time, sine and the like, see `symgen.runtime.following`."""
         clock: Array = self.stand.clock
         return clock
 
@@ -169,7 +168,7 @@ class Tracer:
     def follow(self, times: Array, seen: Any) -> int:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
-        return int(follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
+        return int(f.follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
 
     def _shortened(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""

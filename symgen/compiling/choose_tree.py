@@ -7,9 +7,8 @@ mechanism has the same tree everywhere. What was chosen is kept beside the emitt
 
 from __future__ import annotations
 
-import hashlib
-
-from symgen.compiling.pipeline import folder_of, generator_digest
+from symgen.compiling.pipeline import folder_of
+from symgen.compiling.side import stem_of
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, with_joint_coordinates
 from symgen.store.entries import Entries
@@ -28,8 +27,7 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)
     store, folder = Entries(), folder_of(mechanism)
-    said = hashlib.sha256(f"{sorted(mechanism.cuts)} {generator_digest()}".encode()).hexdigest()[:16]
-    stem = f"tree_{said}"
+    stem = stem_of("tree", sorted(mechanism.cuts))
     known = store.get(folder, stem)
     if known is None:
         cut = _cheapest(mechanism, first)

@@ -22,6 +22,7 @@ from symgen.compiling.straight_model import law_info, load_compiled, model_info
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, finite_numbers
+from symgen.files import templates_folder
 from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.methods import METHODS
 from symgen.methods._base import Method
@@ -87,9 +88,7 @@ def folder_of(mechanism: Mechanism) -> str:
 @lru_cache(maxsize=1)
 def generator_digest() -> str:
     """Return the digest of everything that shapes emitted code: sources, templates and SymPy's version."""
-    package = Path(__file__).resolve().parents[1]
-    inside, beside = package / "templates", package.parent / "templates"
-    templates = inside if inside.is_dir() else beside
+    package, templates = Path(__file__).resolve().parents[1], templates_folder()
     digest = hashlib.sha256(_sympy_version().encode())
     for folder in ("vocabulary", "formulate", "ir", "lower", "emit", "methods"):
         for path in sorted((package / folder).rglob("*.py")):
@@ -143,9 +142,8 @@ def generate(
         began = time.perf_counter()
         found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
-    with finite_numbers(
-        f"mechanism '{mechanism.name}'"
-    ):  # that only meet where equations are solved; others have names
+    # numbers that only meet where equations are solved; others have names
+    with finite_numbers(f"mechanism '{mechanism.name}'"):
         return _generate_straight(mechanism, choices, target)
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
-from symgen.emit.parts import Parts, accept_kind
+from symgen.emit.parts import law_loops
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
@@ -71,7 +71,10 @@ def emit_law(
     blocks = program.blocks
     own = {("p", program.parameter_offset + i): name for i, (name, _) in enumerate(program.parameters)}
     printed = straight(blocks, program.layout, equations, target, of_model(equations, model.jacobian) | own)
-    pieces = [*zip((b.role for b in blocks), printed, strict=True), *_loops(program, equations, target)]
+    layout = LiteralLayout(program, "y" if equations.spins else "", PLATFORMS[target].decorator)
+    names, flagged = {b.name for b in blocks}, any(b.flag is not None for b in blocks)
+    loops = law_loops(layout, program.correction, program.form, names, flagged, program.closed)
+    pieces = [*zip((b.role for b in blocks), printed, strict=True), *loops]
     metric = program.correction.metric if program.correction.any else "measured"
     model_stem = f"model{SUFFIXES[target]}"
     return law_modules(
@@ -140,31 +143,6 @@ class LiteralLayout:
         """Return nothing before a function's own lines, and the sections that were asked for."""
         found, self.sections = self.sections, set()
         return [], set(), found
-
-
-def _loops(program: LawProgram, equations: Equations, target: str) -> list[tuple[str, Code]]:
-    """Return the functions of a law that are not straight-line code, with their roles, in the order of their text."""
-    correction = program.correction
-    parts = Parts(LiteralLayout(program, "y" if equations.spins else "", PLATFORMS[target].decorator), correction)
-    if any(b.name == "refactor" for b in program.blocks):
-        parts.add("metric", "metric")
-    if program.form in ("iterated", "dense"):
-        parts.add(program.form, "acceleration")
-    if program.form == "tangent":
-        parts.add("choose", "acceleration")
-        parts.add("tangent", "acceleration")
-    if program.closed:
-        parts.add("choose", "correction")
-        parts.add("closed", "closed", close="correction")
-    if any(b.flag is not None for b in program.blocks):
-        parts.add("confirm", "confirmation")
-    if program.form == "tangent":
-        parts.add("accept_tangent", "correction")
-    elif correction.metric == "independent":
-        parts.add("accept_partition", "correction")
-    else:
-        parts.add(f"accept_{accept_kind(correction)}", "correction")
-    return parts.pieces
 
 
 def table_names(tables: Sequence[Interpolation], slopes: bool = True) -> list[str]:

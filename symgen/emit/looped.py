@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, render
-from symgen.emit.parts import Parts, accept_kind
+from symgen.emit.parts import law_loops
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
@@ -14,6 +14,7 @@ from symgen.ir.program import FORMAT, STATUS, Block, Target
 from symgen.lower.looped import statements as data
 from symgen.lower.looped.law import LoopedLaw
 from symgen.lower.looped.layout import GENERIC, HEAD
+from symgen.lower.record import ARGUMENTS
 
 _STATUS = {name: i for i, name in enumerate(STATUS)}
 #: How a factorisation treats pivots; see ``templates/looped/factorisation.j2``.
@@ -66,14 +67,9 @@ def emit_shared_model(generator: str) -> str:
 
 def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
-    parts = Parts(TableLayout([name for name, _ in law.parameters]), law.correction)
-    if any(f.part.name == "refactor" for f in law.functions):
-        parts.add("metric", "metric")
-    if law.form == "iterated":
-        parts.add("iterated", "acceleration")
-    if any(f.flagged for f in law.functions):
-        parts.add("confirm", "confirmation")
-    parts.add(f"accept_{accept_kind(law.correction)}", "correction")
+    names = {f.part.name for f in law.functions}
+    flagged = any(f.flagged for f in law.functions)
+    loops = law_loops(TableLayout([name for name, _ in law.parameters]), law.correction, law.form, names, flagged)
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     made = f"format {FORMAT}, generator {generator}"
     header = [
@@ -85,7 +81,7 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(law.sections)}
     metric = law.correction.metric if law.correction.any else "measured"
     return law_modules(
-        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *parts.pieces],
+        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *loops],
         {"acceleration": law.form, "metric": metric, "correction": metric},
         "for any mechanism, in the looped shape",
         made,
@@ -96,10 +92,6 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
         offsets={**_STATUS, **places},
         note="places in w and T",
     )
-
-
-_ARGUMENTS = {"rhs": "t, y, p, w, iw, ydot", "begin": "t, y, p, w", "iterate": "p, w", "finish": "t, y, p, w, ydot"}
-_ARGUMENTS |= {"refactor": "p, w", "spread": "p, w"}
 
 
 class Bases:
@@ -196,7 +188,8 @@ def print_function(f: data.LoopedFunction) -> Code:
     called |= names | access.functions
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
-    return function(f.part.name, _ARGUMENTS[f.part.name], purpose, [*before, *lines], calls=called, sections=sections)
+    arguments = ", ".join(ARGUMENTS[f.part.name])
+    return function(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
 
 
 def _printed(

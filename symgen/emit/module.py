@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import lru_cache
-from pathlib import Path
 from textwrap import fill
 from typing import Any, NamedTuple
 
@@ -15,6 +14,7 @@ import jinja2
 from jinja2 import meta
 
 from symgen.emit.text import harmless
+from symgen.files import templates_folder
 
 
 class Platform(NamedTuple):
@@ -76,22 +76,6 @@ class Code:
         return self.name, *self.also
 
 
-def templates_folder() -> Path:
-    """Return the folder of the templates: inside the installed package, else beside it in a checkout.
-
-    Raises
-    ------
-    FileNotFoundError
-        If neither exists.
-    """
-    package = Path(__file__).resolve().parent.parent
-    inside, beside = package / "templates", package.parent / "templates"
-    for folder in (inside, beside):
-        if (folder / "parts").is_dir():
-            return folder
-    raise FileNotFoundError(f"templates found neither in {inside} nor in {beside}")
-
-
 @lru_cache(maxsize=1)
 def _environment() -> jinja2.Environment:
     return jinja2.Environment(
@@ -146,7 +130,7 @@ def templates_digest() -> str:
     Those of curves, which few mechanisms have, are not among them.
     """
     digest = hashlib.sha256()
-    for path in sorted(path for folder in ("parts",) for path in (templates_folder() / folder).glob("*.j2")):
+    for path in sorted((templates_folder() / "parts").glob("*.j2")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from types import SimpleNamespace
 from typing import Any, Protocol
 
@@ -100,3 +100,33 @@ class Parts:
 def accept_kind(correction: Correction) -> str:
     """Return how accepted states are treated: ``measured``, ``augmented`` or ``corrected``."""
     return "measured" if not correction.any else "augmented" if correction.metric == "augmented" else "corrected"
+
+
+def law_loops(
+    layout: PartsLayout, correction: Correction, form: str, names: Collection[str], flagged: bool, closed: bool = False
+) -> list[tuple[str, Code]]:
+    """Return the functions of a law that are no formulas, with their roles, in the order of their text.
+
+    Parameters
+    ----------
+    form, names : str, collection of str
+        How v' is found, and the law's functions that are formulas.
+    flagged, closed : bool
+        Whether one of these says that a pivot is suspicious; whether dependent coordinates are closed at every stage.
+    """
+    parts = Parts(layout, correction)
+    if "refactor" in names:
+        parts.add("metric", "metric")
+    if form in ("iterated", "dense"):
+        parts.add(form, "acceleration")
+    if form == "tangent":
+        parts.add("choose", "acceleration")
+        parts.add("tangent", "acceleration")
+    if closed:
+        parts.add("choose", "correction")
+        parts.add("closed", "closed", close="correction")
+    if flagged:
+        parts.add("confirm", "confirmation")
+    by_metric = "partition" if correction.metric == "independent" else accept_kind(correction)
+    parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
+    return parts.pieces

@@ -10,7 +10,7 @@ from symgen.ir.derivative import jacobian
 from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
-from symgen.lower.record import EQUATIONS, Part, Record, record_form, record_law
+from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, Record, record_form, record_law
 from symgen.lower.scalar import Scalars
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
@@ -19,14 +19,6 @@ from symgen.methods._base import Method
 _SPARE_DEGREES = 6
 #: Functions that leave M in w for those that are called behind them.
 _KEEPS_MASS = frozenset(("begin", "aim", "geometry"))
-#: Arguments of the functions of a law.
-_ARGUMENTS = {
-    **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
-    **dict.fromkeys(("begin", "aim", "geometry"), ("t", "y", "p", "w")),
-    **dict.fromkeys(("iterate", "weigh", "expand", "refactor", "spread"), ("p", "w")),
-    "finish": ("t", "y", "p", "w", "ydot"),
-    "strike": ("w",),
-}
 
 
 def lower_law(
@@ -87,13 +79,13 @@ def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:
     """Return a function of a law as a block."""
     flag = None if part.flag is None else scalars.values[part.flag]
     purpose = part.purpose + ("" if flag is None else "; 1 where a pivot of S is suspicious")
-    block = hoister.block(part.name, purpose, part_outputs(scalars, part), _ARGUMENTS[part.name], flag)
+    block = hoister.block(part.name, purpose, part_outputs(scalars, part), ARGUMENTS[part.name], flag)
     return replace(block, role=part.role)
 
 
 def part_outputs(scalars: Scalars, part: Part) -> Outputs:
     """Return what a function of a law writes; where M changes with the position, those without the state read it."""
-    if scalars.mass_entries and "y" not in _ARGUMENTS[part.name]:
+    if scalars.mass_entries and "y" not in ARGUMENTS[part.name]:
         scalars = scalars.with_stored_mass
     found = [output for place, index in part.outputs for output in _outputs(scalars, place, index)]
     if part.name in _KEEPS_MASS:

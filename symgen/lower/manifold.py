@@ -76,16 +76,9 @@ def _exponential(g: Graph, half: list[int]) -> tuple[int, list[int]]:
     square = g.dot(half, half)
     small = g.call("lt", square, g.constant(1e-4))
     size = g.call("sqrt", g.call("where", small, g.one, square))
-    series = g.sub(
-        g.one,
-        g.mul(
-            square,
-            g.sub(
-                g.constant(1.0 / 6.0),
-                g.mul(square, g.sub(g.constant(1.0 / 120.0), g.mul(square, g.constant(1.0 / 5040.0)))),
-            ),
-        ),
-    )
+    series = g.constant(1.0 / 5040.0)
+    for coefficient in (1.0 / 120.0, 1.0 / 6.0, 1.0):
+        series = g.sub(g.constant(coefficient), g.mul(square, series))
     factor = g.call("where", small, series, g.div(g.call("sin", size), size))
     return g.call("cos", g.call("sqrt", square)), [g.mul(factor, h) for h in half]
 

@@ -16,6 +16,14 @@ from symgen.methods._recorder import Recorder
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
+#: Arguments of the functions of a law.
+ARGUMENTS = {
+    **dict.fromkeys(("rhs", "rates"), ("t", "y", "p", "w", "iw", "ydot")),
+    **dict.fromkeys(("begin", "aim", "geometry"), ("t", "y", "p", "w")),
+    **dict.fromkeys(("iterate", "weigh", "expand", "refactor", "spread"), ("p", "w")),
+    "finish": ("t", "y", "p", "w", "ydot"),
+    "strike": ("w",),
+}
 
 
 @dataclass(frozen=True)
@@ -232,10 +240,8 @@ class _Law:
         s = self.system
         rank = s.rank_factor()
         factor = s.weighted_factor(rank, "body")
-        entries, purpose = (
-            s.body_entries(),
-            "Phi, nu, D, the pivots that decide rank, and the factorisation of D W^-1 D^T",
-        )
+        entries = s.body_entries()
+        purpose = "Phi, nu, D, the pivots that decide rank, and the factorisation of D W^-1 D^T"
         self.sections["body_entry"] = ()
         self.metric("geometry", purpose, ("geometry", s.geometry(rank)), ("law_", factor), ("body_entry", entries))
         self.spread(s.body_inverse(_change(s, s.stored_factor(factor, "law_"))))
@@ -346,12 +352,8 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
     power: Scalar = {"whole": applied - drivers, "joint": -drivers}.get(kind, applied)
     if kind != "body":
         found.append(("power", power))
-    part = Part(
-        "residual",
-        "F(t, y, k) of the descriptor form, and the power",
-        tuple((g, v.index) for g, v in found),
-        role="form",
-    )
+    written = tuple((g, v.index) for g, v in found)
+    part = Part("residual", "F(t, y, k) of the descriptor form, and the power", written, role="form")
     return Record(tuple(s.tape.operations), (part,), form=form.level)
 
 

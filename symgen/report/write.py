@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from symgen.errors import InputError
-from symgen.files import Content, why, write_all, write_whole
+from symgen.files import Content, templates_folder, why, write_all, write_whole
 from symgen.report.document import Cell, Document, Picture, Section, Table
 from symgen.result.export import check_path
 
@@ -74,11 +74,8 @@ def _folder(path: Path) -> Path:
 def _templates() -> jinja2.Environment:
     import jinja2
 
-    package = Path(__file__).resolve().parent.parent
-    # inside the installed package, else beside it in a checkout
-    folders = [package / "templates" / "report", package.parent / "templates" / "report"]
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folders),
+        loader=jinja2.FileSystemLoader(templates_folder() / "report"),
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,

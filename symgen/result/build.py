@@ -20,7 +20,7 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.result import FAILED, Result
 from symgen.run_setup import made_of
 from symgen.runtime import abi
-from symgen.runtime.event_records import record_of, stopped
+from symgen.runtime.events import record_of, stopped
 from symgen.runtime.last_state import LastState
 from symgen.runtime.simulation import SHOWN
 from symgen.tree_run import CarriedOutcome

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from symgen.result.measured import Measured
     from symgen.result.parts import Rank, Seconds
     from symgen.result.reactions import Forces
-    from symgen.runtime.event_records import EventRecord
+    from symgen.runtime.events import EventRecord
     from symgen.runtime.last_state import LastState
     from symgen.runtime.outcome import Outcome, RankEvent
 

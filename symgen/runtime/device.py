@@ -220,13 +220,8 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     rates, observed_by = getattr(law, "rates", law.rhs), model.observe if need.joints else nothing
     width, n_p, nw, n_room, n_kept = need.width, max(1, need.n_p), need.nw, need.working, need.kept
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
-    n_events, n_memory, n_rows, wants_rates, wants_joints = (
-        N_EVENTS,
-        max(1, need.memory),
-        need.rows,
-        need.rates,
-        need.joints,
-    )
+    n_events, n_memory, n_rows = N_EVENTS, max(1, need.memory), need.rows
+    wants_rates, wants_joints = need.rates, need.joints
 
     def kernel(scheme: Any, sizes: Any, span: Any, starts: Any, results: Any) -> None:
         i = cuda.grid(1)

@@ -13,7 +13,8 @@ from symgen.runtime import abi, hunting, searching
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.outcome import Outcome
     from symgen.runtime.records import Sizes, State
 
 Array = NDArray[np.float64]
@@ -244,3 +245,65 @@ def gathered(names: Sequence[str], t: float) -> str:
     """Return why a run ended whose events of some names accumulate at a time [s]."""
     told = " and ".join(f"'{name}'" for name in names)
     return f"events of {told} accumulate at t = {t:.13g} s: nothing says how the motion goes on behind that"
+
+
+# -- events that happened, labelled as people and programs read them ---------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EventRecord:
+    """An event that happened during a run.
+
+    Attributes
+    ----------
+    t : float
+        When [s].
+    name, action : str
+        Which one, and what was done: ``record``, ``stop`` or ``reset``.
+    q, v : mapping
+        Coordinates and velocities there, before a reset.
+    v_after : mapping or None
+        Velocities after a reset.
+    impulses : mapping
+        Of a reset: those of constraint rows, signed as the multipliers, and those along the velocities that were given
+        values.
+    work : float
+        What a reset adds to the energy [J]; resets at the same time are one, whose work the first of them has.
+    """
+
+    t: float
+    name: str
+    action: str
+    q: Mapping[str, float]
+    v: Mapping[str, float]
+    v_after: Mapping[str, float] | None = None
+    impulses: Mapping[str, float] = field(default_factory=dict)
+    work: float = 0.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as JSON has it."""
+        after = None if self.v_after is None else dict(self.v_after)
+        state = {"q": dict(self.q), "v": dict(self.v), "v_after": after}
+        numbers = {"impulses": dict(self.impulses), "work": self.work}
+        return {"t": self.t, "name": self.name, "action": self.action, **state, **numbers}
+
+
+def stopped(outcome: Outcome) -> list[str]:
+    """Return at which event a run ended, where it did."""
+    names = [f"'{e.name}'" for e in outcome.happened if e.action == STOP and e.t == outcome.end]
+    if not names or outcome.code != abi.DONE:
+        return []
+    return [f"stopped at t = {outcome.end:.13g} s by the event {' and '.join(names)}"]
+
+
+def record_of(info: ModelInfo, event: Happening) -> EventRecord:
+    """Label an event of a run."""
+    q = {c.name: float(x) for c, x in zip(info.coordinates, event.state[: info.nq], strict=True)}
+    v = {c.name: float(x) for c, x in zip(info.velocities, event.state[info.nq :], strict=True)}
+    if event.after is None or event.impulses is None:
+        return EventRecord(event.t, event.name, event.action, q, v)
+    after = {c.name: float(x) for c, x in zip(info.velocities, event.after, strict=True)}
+    signs = [-1.0] * info.m + [1.0] * len(event.given)  # D^T lambda stands on the left of the equations of motion
+    names = [*(row.name for row in info.rows), *event.given]
+    impulses = {name: float(s * x) for name, s, x in zip(names, signs, event.impulses, strict=True)}
+    return EventRecord(event.t, event.name, event.action, q, v, after, impulses, event.energy)

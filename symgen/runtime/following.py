@@ -8,12 +8,11 @@ leads, and a step that would need a far correction is taken in shorter ones, so 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from numba import types
 
 from symgen.runtime import abi
-from symgen.runtime import following_records as f
 from symgen.runtime.bare import bare
 from symgen.runtime.redundancy import FALLEN
 from symgen.store.jit import jit
@@ -35,7 +34,103 @@ LONGEST = 0.5
 #: else where 0 may have been passed.
 LONG, LOOKED_AT = 0.1, 0.05
 
-_A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
+#: How a step, and the loop, ended.
+DONE, REFUSED, UNDEFINED, SINGULAR, PASSING, CHOOSE = range(6)
+
+#: What a clock holds: the time, the longest step to try, the sine, how fast it changes, the sign of the determinant,
+#: time, sine and predicted motion of the last attempt, and the largest sine since rows were chosen that stand for all.
+TIME, REACH, SINE, SLOPE, SIGN, TRIED, TRIED_SINE, FAR, BEST = range(9)
+N_CLOCK = 9
+#: What is counted: times that are done, steps, and whether a state was settled.
+AT, TAKEN, SETTLED = range(3)
+N_COUNTS = 3
+
+_A, _K, _M, _I8, _F = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.int64, types.float64
+
+
+class Course(NamedTuple):
+    """What the loop has to know of a model.
+
+    Attributes
+    ----------
+    nq, nv, m, ny, windings : int
+        Coordinates, velocities, constraint rows, length of the state, angles whose turns are counted.
+    residual, change, mask, jacobian : int
+        Where these sections of ``w`` begin.
+    masked, rank : int
+        Rows that depend on others for ever, and the rank of D where the position is not singular: as many as there are
+        velocities.
+    tolerance, least : float
+        Of the violation of positions [m], and the shortest step [s].
+    entries, constants : Array
+        D's structural entries, see `symgen.runtime.model_arrays.entries_of`.
+    scale : Array, shape (nv,)
+        What makes numbers of changes: 1 for angles, one over the length of the mechanism for lengths.
+    """
+
+    nq: int
+    nv: int
+    m: int
+    ny: int
+    windings: int
+    residual: int
+    change: int
+    mask: int
+    jacobian: int
+    masked: int
+    rank: int
+    tolerance: float
+    least: float
+    entries: Any
+    constants: Any
+    scale: Any
+
+
+class Stand(NamedTuple):
+    """Where the loop stands, and room for what it tries.
+
+    Attributes
+    ----------
+    y, a, jerk : Array, shapes (ny,), (nv,), (nv,)
+        State, accelerations, and how these changed in the last step over its length.
+    clock, counts : Array
+        See `TIME` and `AT`, and what stands beside them.
+    trial, rates : Array, shape (ny,)
+        The state that is tried, and its rates.
+    rows : Array
+        What ``observe`` writes.
+    turned : Array, shape (windings,)
+        Angles whose turns are counted, as they are in the accepted state.
+    dense : Array
+        A square D.
+    """
+
+    y: Any
+    a: Any
+    jerk: Any
+    clock: Any
+    counts: Any
+    trial: Any
+    rates: Any
+    rows: Any
+    turned: Any
+    dense: Any
+
+
+class Followed(NamedTuple):
+    """What the loop writes: states, accelerations and status, one row a time.
+
+    The status is that of `symgen.runtime.outcome.Motion`.
+    """
+
+    states: Any
+    accelerations: Any
+    status: Any
+
+
+COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
+STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
+FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
 
 
 @jit()
@@ -100,7 +195,7 @@ def attempt(
 ) -> int:
     """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
-    t = stand.clock[f.TIME] + h
+    t = stand.clock[TIME] + h
     for i in range(nq):
         z[i] = y[i]
     far = 0.0
@@ -113,23 +208,23 @@ def attempt(
             w[course.change + j] = change
         z[nq + j] = y[nq + j] + h * (a[j] + 0.5 * h * jerk[j])
         rates[nq + j] = a[j] + h * jerk[j]
-    stand.clock[f.FAR] = far
+    stand.clock[FAR] = far
     if far > LONGEST:
-        return f.REFUSED
+        return REFUSED
     if nq != nv:
         move(z, w)
     for i in range(course.windings):
         w[abi.WINDING + i] = stand.turned[i]
     moved = close(geometry, move, spread, course, t, p, w, z)
     if math.isnan(moved):
-        return f.UNDEFINED
+        return UNDEFINED
     if moved < 0.0:
-        return f.REFUSED
+        return REFUSED
     if w[abi.RANK] < course.rank:
-        return f.SINGULAR
+        return SINGULAR
     sine = math.sqrt(w[abi.PIVOT])
-    if moved > BESIDE_SINE * sine and stand.counts[f.SETTLED] != 0:
-        return f.REFUSED
+    if moved > BESIDE_SINE * sine and stand.counts[SETTLED] != 0:
+        return REFUSED
     part_of, enough = 1.0, REFINED * w[abi.PIVOT]
     for _ in range(ROUNDS):
         measure(t, z, p, w)
@@ -146,25 +241,25 @@ def attempt(
             break
     for j in range(nv):
         if not math.isfinite(z[nq + j] + rates[nq + j]):
-            return f.UNDEFINED
-    return f.DONE
+            return UNDEFINED
+    return DONE
 
 
 @jit()
 def take(course: Any, h: float, w: Any, stand: Any) -> bool:
     """Make the state that was tried the present one, unless a singular position lies between; return whether it is."""
     clock, nq = stand.clock, course.nq
-    sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[f.SINE], clock[f.SLOPE], clock[f.SIGN]
+    sine, before, slope, sign = math.sqrt(w[abi.PIVOT]), clock[SINE], clock[SLOPE], clock[SIGN]
     fresh = abs(sine - before) / abs(h) if h != 0.0 else math.inf
     steepest = slope if slope > fresh else fresh
-    clock[f.TRIED_SINE] = sine
+    clock[TRIED_SINE] = sine
     # a sine falls to 0 and rises again in a straight line
-    if h == 0.0 or clock[f.FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
+    if h == 0.0 or clock[FAR] > LONG or sine < LOOKED_AT or before + sine <= 2.0 * steepest * abs(h):
         sign = sign_of(course, w, stand.dense)
-        if h != 0.0 and sign * clock[f.SIGN] < 0.0:
+        if h != 0.0 and sign * clock[SIGN] < 0.0:
             return False
-    clock[f.SINE], clock[f.SLOPE], clock[f.SIGN] = sine, fresh, sign
-    clock[f.BEST] = sine if h == 0.0 or sine > clock[f.BEST] else clock[f.BEST]
+    clock[SINE], clock[SLOPE], clock[SIGN] = sine, fresh, sign
+    clock[BEST] = sine if h == 0.0 or sine > clock[BEST] else clock[BEST]
     for i in range(course.ny):
         stand.y[i] = stand.trial[i]
     for j in range(course.nv):
@@ -217,7 +312,7 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
 
 
 @from_its_source(
-    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(f.COURSE, _A, _A, _A, f.STAND, f.FOLLOWED, _K))
+    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K))
 )
 def follow(
     geometry: Any,
@@ -261,36 +356,36 @@ def follow(
     """
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
     clock, counts = stand.clock, stand.counts
-    if counts[f.SETTLED] == 0:
+    if counts[SETTLED] == 0:
         code = attempt(geometry, measure, move, spread, observe, course, 0.0, p, w, stand)
-        if code != f.DONE:
+        if code != DONE:
             return int(code)
         take(course, 0.0, w, stand)
-        counts[f.SETTLED] = 1
-    for k in range(counts[f.AT], times.shape[0]):
+        counts[SETTLED] = 1
+    for k in range(counts[AT], times.shape[0]):
         if control[abi.STOP] != 0:
             break
         target = times[k]
-        while clock[f.TIME] != target:
-            if course.masked != 0 and clock[f.SINE] * clock[f.SINE] < FALLEN * clock[f.BEST] * clock[f.BEST]:
-                return f.CHOOSE
-            h = target - clock[f.TIME]
-            whole = abs(h) <= clock[f.REACH]
-            h = h if whole else math.copysign(clock[f.REACH], h)
-            clock[f.TRIED] = target if whole else clock[f.TIME] + h
+        while clock[TIME] != target:
+            if course.masked != 0 and clock[SINE] * clock[SINE] < FALLEN * clock[BEST] * clock[BEST]:
+                return CHOOSE
+            h = target - clock[TIME]
+            whole = abs(h) <= clock[REACH]
+            h = h if whole else math.copysign(clock[REACH], h)
+            clock[TRIED] = target if whole else clock[TIME] + h
             code = attempt(geometry, measure, move, spread, observe, course, h, p, w, stand)
-            if code == f.SINGULAR:
-                return f.SINGULAR
-            if code != f.DONE:
-                clock[f.REACH] = 0.5 * abs(h)
-                if clock[f.REACH] < course.least:
+            if code == SINGULAR:
+                return SINGULAR
+            if code != DONE:
+                clock[REACH] = 0.5 * abs(h)
+                if clock[REACH] < course.least:
                     return int(code)
                 continue
             if not take(course, h, w, stand):
-                return f.PASSING
-            clock[f.TIME] = clock[f.TRIED]
-            clock[f.REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[f.REACH] else clock[f.REACH]
-            counts[f.TAKEN] += 1
+                return PASSING
+            clock[TIME] = clock[TRIED]
+            clock[REACH] = 2.0 * abs(h) if 2.0 * abs(h) > clock[REACH] else clock[REACH]
+            counts[TAKEN] += 1
         for i in range(course.ny):
             seen.states[k, i] = stand.y[i]
         for j in range(course.nv):
@@ -299,5 +394,5 @@ def follow(
             seen.status[k, i] = w[i]
         for i in range(course.windings):
             seen.status[k, abi.N_STATUS + i] = stand.turned[i]
-        counts[f.AT] = k + 1
-    return f.DONE
+        counts[AT] = k + 1
+    return DONE

@@ -279,11 +279,10 @@ def run_lanes(
     z, at = part(room, 0, numbers), numbers
     y, gauges = part(room, at, width), part(room, at + width, _N_LANE_GAUGES * _L)
     at += width + _N_LANE_GAUGES * _L
-    states, status = (
-        part(room, at, times.shape[0] * n * _L),
-        part(room, at + times.shape[0] * n * _L, times.shape[0] * columns * _L),
-    )
-    at += times.shape[0] * (n + columns) * _L
+    states = part(room, at, times.shape[0] * n * _L)
+    at += times.shape[0] * n * _L
+    status = part(room, at, times.shape[0] * columns * _L)
+    at += times.shape[0] * columns * _L
     w, counters = part(z, 2 * width + n_p * _L, nw * _L), part(z, 2 * width + (n_p + nw) * _L, _SPARE * _L)
     outputs = Outputs(times, states, status)
     clock, control, rest = state.clock, state.control, part(room, at, room.shape[0] - at)

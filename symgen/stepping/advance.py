@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from symgen.errors import InputError, StepError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin, begin_anew
-from symgen.runtime.event_records import EventRecord, record_of
-from symgen.runtime.events import STOP
+from symgen.runtime.events import STOP, EventRecord, record_of
 from symgen.runtime.run import reason_of
 
 if TYPE_CHECKING:

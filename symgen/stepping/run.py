@@ -15,7 +15,7 @@ from symgen.describe.events import in_words
 from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
-from symgen.runtime.event_records import EventRecord, record_of
+from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.simulation import RESOLVED, Simulation
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies

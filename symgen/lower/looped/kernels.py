@@ -149,6 +149,7 @@ class _Kernel:
             blocks += manifold_blocks(self.hoister, self.e)
         prepare = self.prepare()
         hoisted = len(self.hoister.slots)
+        assert len(self.e.windings) == len(self.instance.angles), "angles are counted in the order of derivation"
         if prepare.outputs:
             blocks.append(prepare)
         e, info = self.e, self.element.frames
@@ -159,7 +160,7 @@ class _Kernel:
             hoisted=hoisted,
             rows=self.rows(),
             coordinates=len(e.joint_coordinates),
-            windings=self.angles(),
+            windings=len(e.windings),
             spins=e.spins if self.instance.kind == "body" else (),
             mass=tuple(b.columns for b in e.mass) if self.instance.kind == "body" else (),
             massless=tuple(j for b in e.mass for k, j in enumerate(b.columns) if e.graph.value(b.entries[k][k]) == 0.0),
@@ -252,11 +253,6 @@ class _Kernel:
             motion.append((Target("power", 0), power))
         energy: Outputs = [(Target("potential", 0), potential)] if potential != g.zero else []
         return {"motion": motion, "energy": energy, "wind": self.winding()}
-
-    def angles(self) -> int:
-        """Return how many angles count turns: as many as the instance says."""
-        assert len(self.e.windings) == len(self.instance.angles), "angles are counted in the order of derivation"
-        return len(self.e.windings)
 
     def winding(self) -> Outputs:
         """Return the angles whose turns are counted."""

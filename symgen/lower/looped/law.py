@@ -63,7 +63,7 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
     """
     expected = "a method whose cost grows linearly with the mechanism"
     if options.get("solver") == "dense":
-        why = "with a dense factorisation of D"
+        why = " with a dense factorisation of D"
     elif method.dense:
         why = f", {method.dense}"
     elif strange := _strange(record_law(method, options), KINDS, _FUNCTIONS):
@@ -72,7 +72,6 @@ def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> 
         expected, why = "constraints that each joint gives alone", f", whose constraints ask for '{strange}'"
     else:
         return
-    why = why if why.startswith(",") else f" {why}"
     raise InputError("--shape looped", expected, f"'{method.name}'{why}; the straight shape is for it")
 
 

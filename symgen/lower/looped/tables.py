@@ -82,32 +82,30 @@ def build_tables(
     return _Builder(shape, more, vectors, augmented, stages, forms).tables()
 
 
+@dataclass
 class _Builder:
-    def __init__(
-        self,
-        shape: Shape,
-        more: Sequence[tuple[str, str]],
-        vectors: int,
-        augmented: bool,
-        stages: Sequence[str],
-        forms: Forms | None,
-    ) -> None:
-        self.shape, self.more, self.vectors, self.augmented = shape, more, vectors, augmented
-        self.parts = {} if forms is None else forms.parts
-        self.level = "" if forms is None else forms.level
+    shape: Shape
+    more: Sequence[tuple[str, str]]
+    vectors: int
+    augmented: bool
+    called: Sequence[str]
+    forms: Forms | None
+
+    def __post_init__(self) -> None:
+        self.parts, self.level = ({}, "") if self.forms is None else (self.forms.parts, self.forms.level)
         self.tangent: list[tuple[int, int]] = []
         self.head: dict[str, int] = {}
-        self.stages = {name: stage if name in stages else () for name, stage in STAGES.items()}
+        self.stages = {name: stage if name in self.called else () for name, stage in STAGES.items()}
         self.functions = tuple(
             dict.fromkeys(
                 found
                 for stage in self.stages.values()
                 for kind, function in stage
-                for group in shape.groups
+                for group in self.shape.groups
                 if group.info.kind == kind and (found := self.function(group, function)) is not None
             )
         )
-        length = len(HEAD) + len(more)
+        length = len(HEAD) + len(self.more)
         length += length % 2
         self.addresses = length // 2
         self.numbers = [0] * (length + 2 * (len(GENERIC) + len(self.functions)))
@@ -166,16 +164,8 @@ class _Builder:
         sections["tables"] = (offset, len(self.numbers) // 2 + 1)
         offset += len(self.numbers) // 2 + 1
         groups = tuple((g.stem, "prepare" in g.info.functions, places[g.stem]) for g in shape.groups)
-        return Tables(
-            array("I", self.numbers),
-            self.functions,
-            self.addresses,
-            sections,
-            offset,
-            groups,
-            self.unknowns,
-            tuple(self.tangent),
-        )
+        numbers, tangent = array("I", self.numbers), tuple(self.tangent)
+        return Tables(numbers, self.functions, self.addresses, sections, offset, groups, self.unknowns, tangent)
 
     def begin(self, name: str) -> None:
         """Let a table begin here."""
@@ -189,8 +179,7 @@ class _Builder:
         index = shape.constant_index
         for k in group.members:
             instance = shape.instances[k]
-            names = (instance.name,) if info.kind == "body" else instance.frames
-            bodies = [shape.body[name] for name in names]
+            bodies = [shape.body[name] for name in instance.frames]
             self.numbers += [b[2] for b in bodies]
             if info.kind == "body":
                 self.numbers += bodies[0][:2]
@@ -210,8 +199,7 @@ class _Builder:
         owners = [[(f, i) for f, sizes in enumerate(group.info.frames) for i in range(sizes[s])] for s in (0, 1)]
         for k in group.members:
             instance = shape.instances[k]
-            names = (instance.name,) if group.info.kind == "body" else instance.frames
-            bodies = [shape.body[name] for name in names]
+            bodies = [shape.body[name] for name in instance.frames]
             row = shape.row_of[k] if group.info.kind == "joint" else 0
             rows = shape.nq + shape.nv + row
             place = {("q", j): bodies[f][0] + i for j, (f, i) in enumerate(owners[0])}
