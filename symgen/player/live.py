@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symgen.compiling.checked import checked
 from symgen.describe.derived import derived
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
@@ -20,7 +21,6 @@ from symgen.runtime.model_arrays import lengths_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
-    from symgen.native.read import Kind
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
 
@@ -33,13 +33,6 @@ NONE = "the page has no live part"
 
 #: Sections of the scratch that a start finds and evaluations do not.
 _KEPT = ("status", "mask", "gauge", "row_weight", "mass", "pivot")
-
-_T: Kind = ("float", False)
-_A: Kind = ("float", True)
-_I: Kind = ("int", True)
-_LAW = {"rhs": (_T, _A, _A, _A, _I, _A), "accept": (_T, _A, _A, _A, _I), "geometry": (_T, _A, _A, _A)}
-_LAW |= {"confirm": (_T, _A, _A, _A, _I, _A)}
-_MODEL = {"masses": (_A, _A), "move": (_A, _A), "bodies": (_T, _A, _A, _A, _A, _A), "measure": (_T, _A, _A, _A)}
 
 
 @dataclass(frozen=True)
@@ -86,7 +79,7 @@ def live_part(
         fewer = "" if hasattr(compiled.model, "bodies") else "; in joint coordinates they may be a tenth"
         return None, f"{NONE}: {operations} operations are more than the {limit} that a page {where} may have{fewer}"
     try:
-        code = emitted(compiled)
+        code = javascript(checked(compiled))
     except Foreign as error:
         return None, f"{NONE}: its code has {error}"
     if len(code) > MOST[spatial]:
@@ -123,30 +116,11 @@ def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]
     spec, found = _rates_spec(compiled, start), list[Live]()
     try:
         for names in (("rhs", "confirm", "masses"), ("rhs", "masses")):
-            code = HELPERS + emitted(compiled, names)
+            code = HELPERS + javascript(checked(compiled, names))
             found.append(Live(code, {**spec, "partial": "confirm" not in names}))
     except Foreign as error:
         return [], f"its code has {error}"
     return (found if len(found[1].code) < len(found[0].code) else found[:1]), ""
-
-
-def emitted(compiled: CompiledModel, names: Container[str] = (*_LAW, *_MODEL)) -> str:
-    """Return the functions of a compiled model that a page calls, as JavaScript.
-
-    Raises
-    ------
-    Foreign
-        If they are not in the language that is printed.
-    """
-    wanted: dict[str, Any] = {}
-    for module, table in ((compiled.law_module, _LAW), (compiled.model, _MODEL)):
-        kept = [name for name in table if name in names and hasattr(module, name)]
-        wanted |= {name: getattr(module, name).read(table[name]) for name in kept}
-    wanted["prepareModel"] = compiled.model.prepare.read((_A,))
-    wanted["prepareLaw"] = compiled.law_module.prepare.read((_A,))
-    if "geometry" in names and "geometry" not in wanted:
-        wanted["geometry"] = compiled.model.geometry.read(_LAW["geometry"])
-    return javascript(wanted)
 
 
 def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
@@ -260,4 +234,4 @@ def _fixed(mechanism: Mechanism, compiled: CompiledModel) -> list[int]:
     return sorted(found)
 
 
-__all__ = ["Live", "Script", "emitted", "live_part", "rates_parts"]
+__all__ = ["Live", "Script", "live_part", "rates_parts"]

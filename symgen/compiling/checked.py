@@ -1,0 +1,54 @@
+"""Emitted functions of a compiled model in the checked language, from which printers for other targets begin."""
+
+from __future__ import annotations
+
+from collections.abc import Container
+from typing import TYPE_CHECKING, Any
+
+from symgen.native.language import Function
+from symgen.native.library import kinds_of
+from symgen.runtime import abi
+from symgen.runtime.ensemble_abi import PREPARE
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
+
+_LAW = {"rhs": abi.RHS, "accept": abi.ACCEPT, "geometry": abi.MEASURE, "confirm": abi.RHS}
+_MODEL = {"masses": abi.MOVE, "move": abi.MOVE, "bodies": abi.OBSERVE, "measure": abi.MEASURE}
+#: What runs call of a law and of its model, as far as it is the same for all.
+NAMES = (*_LAW, *_MODEL)
+
+
+def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str, Function]:
+    """Return functions of a compiled model, as far as it has them, and both that fill the hoisted numbers.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Straight code of one method.
+    names : container of str
+        Which, of `NAMES`.
+
+    Returns
+    -------
+    dict of str to Function
+        By name; ``prepareModel`` and ``prepareLaw`` stand behind them.
+
+    Raises
+    ------
+    symgen.native.read.Foreign
+        If one is not in the language.
+    """
+    model, law, found = compiled.model, compiled.law_module, dict[str, Function]()
+    for module, table in ((law, _LAW), (model, _MODEL)):
+        kept = [name for name in table if name in names and hasattr(module, name)]
+        found |= {name: _read(getattr(module, name), table[name]) for name in kept}
+    found |= {"prepareModel": _read(model.prepare, PREPARE), "prepareLaw": _read(law.prepare, PREPARE)}
+    if "geometry" in names and "geometry" not in found:
+        found["geometry"] = _read(model.geometry, abi.MEASURE)
+    return found
+
+
+def _read(function: Any, kind: Any) -> Function:
+    read: Function = function.read(kinds_of(kind.signature.args))
+    return read
