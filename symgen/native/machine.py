@@ -6,6 +6,7 @@ called stands in memory already.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 from typing import Any
 
@@ -23,6 +24,12 @@ LARGEST_LEFT = 16_000
 def codegen() -> Any:
     """Return what Numba compiles with on this processor."""
     return cpu_target.target_context.codegen()
+
+
+@functools.cache
+def processor() -> str:
+    """Return what machine code depends on of this processor."""
+    return repr(codegen().magic_tuple())
 
 
 def compiled(text: str, symbol: str) -> bytes:

@@ -23,6 +23,7 @@ from symgen.store.emitted import FromSource, compiler, explain, syntax_tree
 from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest
 from symgen.store.jit import LazySignatures, jit
 from symgen.store.machine_code import Loading, MachineCode
+from symgen.store.objects import made
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 
@@ -163,7 +164,7 @@ class LoopCode(MachineCode):
 
     def _result(self, sig: Any, symbol: str, code: bytes) -> Any:
         """Put machine code into memory."""
-        library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol))
+        library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol), made)
         returned = sigutils.normalize_signature(sig)[1]
         kind: Scalar = "float" if returned is types.float64 else "int"
         return result(self._dispatcher.py_func, _arguments(sig), kind, symbol, library, lambda f: None, known=True)
