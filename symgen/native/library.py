@@ -20,7 +20,7 @@ from numba.core.runtime import rtsys
 from numba.core.typing import signature
 
 from symgen.errors import SimulationError
-from symgen.native.machine import codegen
+from symgen.native.machine import codegen, compiled
 from symgen.native.trampoline import FIRST, FUNCTION, RESULT, numbers, slots, trampoline
 
 if TYPE_CHECKING:  # what compiles is not loaded by runs that find everything in the cache
@@ -58,13 +58,21 @@ class Library:
         Where its functions stand.
     linkable : Callable
         Gives the text of a module with the function and all that it calls, for callers that Numba compiles.
+    made : Callable
+        Gives the object file of a module in LLVM's language with the function of a name: of what calls a function with
+        arguments from a block.
     """
 
     has_dynamic_globals = False
     _reload_init: frozenset[Any] = frozenset()
 
-    def __init__(self, addresses: dict[str, int], linkable: Callable[[], str]) -> None:
-        self._addresses, self._linkable = addresses, linkable
+    def __init__(
+        self,
+        addresses: dict[str, int],
+        linkable: Callable[[], str],
+        made: Callable[[str, str], bytes] = compiled,
+    ) -> None:
+        self._addresses, self._linkable, self.made = addresses, linkable, made
 
     def get_pointer_to_function(self, name: str) -> int:
         """Return the address of a function, 0 where there is none of the name."""
@@ -140,7 +148,7 @@ class FromPython:
         """Return the function behind its address, on arguments that are laid out in memory at every call."""
         found = self.result
         expected, returned = found.signature.args, found.signature.return_type
-        call = trampoline(returned, expected)
+        call = trampoline(returned, expected, found.library.made)
         if call is None:  # Numba is not as expected
             return cast("Callable[..., Any]", self.wrapper(release_gil=True))
         address = found.library.get_pointer_to_function(found.fndesc.llvm_func_name)

@@ -6,6 +6,7 @@ called stands in memory already.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Iterable
 from typing import Any
 
@@ -25,7 +26,13 @@ def codegen() -> Any:
     return cpu_target.target_context.codegen()
 
 
-def compiled(text: str, symbol: str) -> bytes:
+@functools.cache
+def processor() -> str:
+    """Return what machine code depends on of this processor."""
+    return repr(codegen().magic_tuple())
+
+
+def compiled(text: str, symbol: str, vectors: bool = True) -> bytes:
     """Return the object file of a module in LLVM's language.
 
     Parameters
@@ -34,11 +41,13 @@ def compiled(text: str, symbol: str) -> bytes:
         The module.
     symbol : str
         Its function, which is divided into blocks if it is long.
+    vectors : bool
+        Whether operations may be taken together in vectors, which takes the compiler a third of its time.
     """
     from symgen.native.blocks import split
 
     target = codegen()
-    module = optimised(text)
+    module = optimised(text, vectors)
     machine = target._tm
     divided = split(str(module), symbol, LARGEST_BLOCK, LARGEST_LEFT)
     if divided is not None:
@@ -47,7 +56,7 @@ def compiled(text: str, symbol: str) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def optimised(text: str) -> Any:
+def optimised(text: str, vectors: bool = True) -> Any:
     """Return a module after the passes that Numba ends with.
 
     Of these, straight code needs few to become what all make of it: instructions in their plainest form, operands in
@@ -56,7 +65,8 @@ def optimised(text: str) -> Any:
     target = codegen()
     module = llvm.parse_assembly(text)
     module.triple, module.data_layout = target._llvm_module.triple, target._data_layout
-    passes, builder = target._module_pass_manager()
+    asked = {} if vectors else {"loop_vectorize": False, "slp_vectorize": False}
+    passes, builder = target._module_pass_manager(**asked)
     # the function of `symgen.native.sines` jumps by a ``switch``: it needs no more than straight code
     if " br " not in text and "available_externally" not in text:
         passes = llvm.create_new_module_pass_manager()

@@ -28,17 +28,16 @@ class Exact:
         Its source. What it calls may be such functions as well.
     """
 
-    def __init__(self, function: Callable[..., Any], signatures: tuple[Any, ...]) -> None:
-        self.py_func, self._signatures = function, signatures
+    def __init__(self, function: Callable[..., Any], signatures: tuple[Any, ...], once: bool) -> None:
+        self.py_func, self._signatures, self._once = function, signatures, once
 
     @cached_property
     def compiled(self) -> Any:
         """The compiled function; one without signatures is for calls from compiled code, and has no wrappers."""
-        wrappers = (
-            {} if self._signatures else {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
-        )
-        made = from_its_source if self._signatures else jit
-        return made(*self._signatures, fastmath=False, **wrappers)(self.py_func)
+        if self._signatures:
+            return from_its_source(*self._signatures, once=self._once, fastmath=False)(self.py_func)
+        wrappers = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True, "forceinline": True}
+        return jit(fastmath=False, **wrappers)(self.py_func)
 
     @cached_property
     def plain(self) -> Any:
@@ -53,9 +52,12 @@ class Exact:
         return Dispatcher(self.compiled)
 
 
-def exact(*signatures: Any) -> Callable[[Callable[..., Any]], Any]:
-    """Return a decorator that makes a function `Exact`; plain Python where nothing is compiled."""
-    return lambda function: function if config.DISABLE_JIT else Exact(function, signatures)
+def exact(*signatures: Any, once: bool = False) -> Callable[[Callable[..., Any]], Any]:
+    """Return a decorator that makes a function `Exact`; plain Python where nothing is compiled.
+
+    One that is called `once` a run is compiled in less time; its bits are the same.
+    """
+    return lambda function: function if config.DISABLE_JIT else Exact(function, signatures, once)
 
 
 def plain_form(function: Any) -> Any:

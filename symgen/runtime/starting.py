@@ -23,7 +23,11 @@ _A, _I = types.float64[::1], types.int64[::1]
 
 
 @exact(
-    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK))
+    types.int64(
+        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS),
+        *(LAYOUT, INSTANT, ASKED, WORK),
+    ),
+    once=True,
 )
 def close_row(
     geometry: Any,

@@ -30,7 +30,7 @@ from numba.core.registry import CPUDispatcher
 
 from symgen.errors import InputError, nearest
 from symgen.native.library import Library, arguments_of, kinds_of, kinds_of_function, result
-from symgen.native.machine import codegen, compiled, load
+from symgen.native.machine import compiled, load, processor
 from symgen.store import private
 from symgen.store.identity import NotDescribable, digest, source_stamp, sources_digest
 from symgen.store.jit import attach, unusable
@@ -88,7 +88,7 @@ class EmittedFunction(FromSource):
 
     _origin: Origin | None = None
     _together = True  # sines and cosines of several angles
-    _symbols: dict[tuple[Kind, ...], str]
+    _keys: dict[tuple[Kind, ...], str]
     _foreign: set[tuple[Kind, ...]]
 
     @classmethod
@@ -115,7 +115,7 @@ class EmittedFunction(FromSource):
         if type(dispatcher) is CPUDispatcher and not unusable():
             # An object of its own would take as long to make as all else that loading does with a function.
             dispatcher.__class__ = cls
-            dispatcher._origin, dispatcher._symbols, dispatcher._foreign = origin, {}, set()
+            dispatcher._origin, dispatcher._keys, dispatcher._foreign = origin, {}, set()
             dispatcher._together = compiler() != "libm"
 
     def compile(self, sig: Any) -> Any:
@@ -146,14 +146,18 @@ class EmittedFunction(FromSource):
 
     def symbol(self, kinds: tuple[Kind, ...]) -> str:
         """Return the name in machine code, which holds a digest of all that the machine code depends on."""
-        if kinds not in self._symbols:
-            name = f"{self.__name__}_{digest(self._key(kinds))[:32]}"
-            self._symbols[kinds] = f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
-        return self._symbols[kinds]
+        name = f"{self.__name__}_{digest(self._key(kinds))[:32]}"
+        return f"_ZN6symgen{len(name)}{name}E"  # as of a function in a namespace
 
     def _key(self, kinds: tuple[Kind, ...]) -> str:
+        """Return all that the machine code depends on."""
+        if kinds not in self._keys:
+            self._keys[kinds] = self._made_key(kinds)
+        return self._keys[kinds]
+
+    def _made_key(self, kinds: tuple[Kind, ...]) -> str:
         assert self._origin is not None, "a function of an emitted module"
-        parts = (self.__name__, self._origin.stamp, repr(kinds), repr(codegen().magic_tuple()), environment())
+        parts = (self.__name__, self._origin.stamp, repr(kinds), processor(), environment())
         sines = () if self._together else ("sines one by one",)
         return "\n".join(("from the source", *parts, *sines, sources_digest("native")))
 

@@ -89,8 +89,10 @@ def attach(dispatcher: Any, stamp: str | None = None) -> None:
         return
     function = dispatcher.py_func
     try:
+        # a stamp that is given covers the function's text, so its place there says which one it is
+        own = f"{function.__qualname__} {function.__code__.co_firstlineno}" if stamp else describe_function(function)
         stamp = stamp or source_stamp(function)
-        identity = digest(stamp, describe_function(function), describe(dict(dispatcher.targetoptions)))
+        identity = digest(stamp, own, describe(dict(dispatcher.targetoptions)))
     except (NotDescribable, OSError, ValueError):  # an empty closure cell is a ValueError
         return
     _name(function, identity)

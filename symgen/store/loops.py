@@ -23,6 +23,7 @@ from symgen.store.emitted import FromSource, compiler, explain, syntax_tree
 from symgen.store.identity import NotDescribable, digest, file_digest, sources_digest
 from symgen.store.jit import LazySignatures, jit
 from symgen.store.machine_code import Loading, MachineCode
+from symgen.store.objects import made
 from symgen.store.paths import cache_location
 from symgen.store.stats import counters
 
@@ -33,24 +34,26 @@ if TYPE_CHECKING:
 _OPTIONS = {"error_model": ("numpy",), "fastmath": ({"contract"}, False, None)}
 
 
-def from_source(loop: Any) -> Any:
+def from_source(loop: Any, once: bool = False) -> Any:
     """Have a compiled loop made from its source, where that can be; return it.
 
     Parameters
     ----------
     loop : Dispatcher
         Made by ``symgen.store.jit.jit`` with signatures; the plain function where nothing is compiled.
+    once : bool
+        Whether it is called about once a run: then it is compiled in less time, without operations in vectors.
     """
     eager = getattr(loop, "_eager", None)
     if eager is not None and isinstance(eager._cache, MachineCode):
-        eager._cache = LoopCode(eager)
+        eager._cache = LoopCode(eager, once)
         loop.__class__, eager.__class__ = _Loop, FromSource
     return loop
 
 
-def from_its_source(*signatures: Any, **options: Any) -> Callable[[Any], Any]:
+def from_its_source(*signatures: Any, once: bool = False, **options: Any) -> Callable[[Any], Any]:
     """Return a decorator as `symgen.store.jit.jit` does, for functions of the runtime with records and functions."""
-    return lambda function: from_source(jit(*signatures, **options)(function))
+    return lambda function: from_source(jit(*signatures, **options)(function), once)
 
 
 class _Loop(FromSource, LazySignatures):
@@ -72,10 +75,13 @@ class LoopCode(MachineCode):
     ----------
     dispatcher : Dispatcher
         With a cache for what Numba compiles.
+    once : bool
+        Whether it is called about once a run.
     """
 
-    def __init__(self, dispatcher: Any) -> None:
+    def __init__(self, dispatcher: Any, once: bool = False) -> None:
         self.__dict__.update(dispatcher._cache.__dict__)
+        self._once = once
         self._dispatcher = dispatcher
         self._read: dict[Any, Function | None] = {}
         self._by_numba = compiler() == "numba"
@@ -156,14 +162,14 @@ class LoopCode(MachineCode):
         if function is None:
             return None
         try:
-            return compiled(loop_module(function, symbol, _arguments(sig)), symbol)
+            return compiled(loop_module(function, symbol, _arguments(sig)), symbol, vectors=not self._once)
         except RuntimeError as error:  # an LLVM that does not know the language any more
             explain(self._name, str(error))
             return None
 
     def _result(self, sig: Any, symbol: str, code: bytes) -> Any:
         """Put machine code into memory."""
-        library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol))
+        library = Library(load(code, (symbol, f"cfunc.{symbol}")), lambda: self._linkable(sig, symbol), made)
         returned = sigutils.normalize_signature(sig)[1]
         kind: Scalar = "float" if returned is types.float64 else "int"
         return result(self._dispatcher.py_func, _arguments(sig), kind, symbol, library, lambda f: None, known=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from symgen.native.machine import codegen, compiled
+from symgen.native.machine import compiled, processor
 from symgen.store import private
 from symgen.store.identity import digest
 from symgen.store.machine_code import environment, plain_name
@@ -20,7 +20,7 @@ def made(text: str, symbol: str) -> bytes:
     symbol : str
         Its function.
     """
-    key = "\n".join((text, repr(codegen().magic_tuple()), environment()))
+    key = "\n".join((text, processor(), environment()))
     place = cache_location()
     path = place.path / NATIVE / plain_name(symbol.rpartition(".")[0], 100) / f"{digest(key)[:32]}{private.SUFFIX}"
     known = private.read(path, key)

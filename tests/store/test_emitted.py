@@ -178,7 +178,7 @@ class TestCache:
     def test_an_edited_translator_makes_everything_anew(self, law, cache, monkeypatch):
         function = load_module(law).rhs
         before = function.symbol(KINDS)
-        function._symbols.clear()
+        function._keys.clear()
         monkeypatch.setattr(emitted, "sources_digest", lambda *folders: "another")
         assert function.symbol(KINDS) != before
 
@@ -194,10 +194,10 @@ class TestCache:
     def test_another_version_has_code_of_its_own(self, law, monkeypatch, package):
         function = load_module(law).rhs
         before = function.symbol(KINDS)
-        function._symbols.clear()
+        function._keys.clear()
         machine_code.environment.cache_clear()
         assert function.symbol(KINDS) == before
-        function._symbols.clear()
+        function._keys.clear()
         machine_code.environment.cache_clear()
         monkeypatch.setattr(package, "__version__", "0.1")
         try:
