@@ -60,18 +60,18 @@ def are_lost(
     y, rate = state.y.copy(), np.zeros_like(state.y)
     rhs(t, y, p, w, iw, rate)
     g, slope = at(t, y, rate)
-    ahead, later = _AHEAD * duration, rate.copy()
-    moved = y + ahead * rate
-    rhs(t + ahead, moved, p, w, iw, later)
-    curve = (at(t + ahead, moved, later)[1] - slope) / ahead
-    rhs(t, y, p, w, iw, rate)
     rounding = np.abs(at(t + _RELATIVE * abs(t), y, rate)[0] - g)
-    for i in range(info.nq):
-        other = y.copy()
-        other[i] += _RELATIVE * abs(y[i])
-        if other[i] != y[i]:
-            rounding += np.abs(at(t, other, rate)[0] - g)
+    index, other = np.arange(info.nq), y.copy()
+    # with signs by the digits of their numbers, so that no two coordinates hide each other, in few evaluations
+    for digit in range(info.nq.bit_length() + 1):
+        signs = 1.0 - 2.0 * (index >> digit & 1)
+        other[: info.nq] = y[: info.nq] * (1.0 + _RELATIVE * signs)
+        rounding += np.abs(at(t, other, rate)[0] - g)
     rounding *= _EPSILON / _RELATIVE
+    ahead = _AHEAD * duration
+    y += ahead * rate
+    rhs(t + ahead, y, p, w, iw, rate)
+    curve = (at(t + ahead, y, rate)[1] - slope) / ahead
     for k, direction in events:
         back = -np.sign(slope[k])  # the direction in which it would happen again
         if direction not in (0, back) or not slope[k] * curve[k] < 0.0 or abs(g[k]) > _FEWEST * rounding[k]:
