@@ -73,7 +73,7 @@ def _checked(name: str, value: Any) -> Any:
     if name == "options":
         return option_pairs(value)
     if name == "inputs":
-        return dict(_pair(where, word) for word in value)
+        return _pairs(where, value)
     return known.check(where, number_list(where, value) if known.kind is tuple else value)
 
 
@@ -98,11 +98,17 @@ def json_option(function: F) -> F:
     )
 
 
-def _pair(option: str, text: str) -> tuple[str, str]:
-    name, equals, value = text.partition("=")
-    if not equals or not name.strip() or not value.strip():
-        raise InputError(option, "NAME=VALUE", quoted(text))
-    return name.strip(), value.strip()
+def _pairs(option: str, texts: Sequence[str]) -> dict[str, str]:
+    """Return the values of ``NAME=VALUE`` words by name; names may not repeat."""
+    found = dict[str, str]()
+    for text in texts:
+        name, equals, value = (part.strip() for part in text.partition("="))
+        if not equals or not name or not value:
+            raise InputError(option, "NAME=VALUE", quoted(text))
+        if name in found:
+            raise InputError(f"{option} {name}", "each name once", "it twice")
+        found[name] = value
+    return found
 
 
 def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
@@ -111,15 +117,15 @@ def assignments(option: str, texts: Sequence[str]) -> dict[str, float]:
     Raises
     ------
     InputError
-        If a word has another form or a value is not a finite number.
+        If a word has another form, a name repeats or a value is not a finite number.
     """
-    pairs = [_pair(option, text) for text in texts]
-    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in pairs}
+    pairs = _pairs(option, texts)
+    return {name: _number(f"{option} {name}", "a finite number", value) for name, value in pairs.items()}
 
 
 def option_pairs(texts: Sequence[str]) -> dict[str, str | float]:
     """Return the values of ``KEY=VALUE`` words by key, not yet interpreted."""
-    return dict(_pair("--option", text) for text in texts)
+    return {**_pairs("--option", texts)}
 
 
 def _number(where: str, expected: str, text: str, above: float = -math.inf) -> float:

@@ -67,7 +67,7 @@ class Names:
         varied : iterable of str
             Names as they were written.
         given : iterable of str
-            Inputs that are something else already.
+            Names that are given values otherwise.
 
         Raises
         ------
@@ -88,7 +88,7 @@ class Names:
                     "write the orientation with a parameter, and vary that",
                 )
             if name in taken:
-                raise InputError(where, "one way of giving an input", "two")
+                raise InputError(where, "one way of giving it a value", "two")
             one = self.one(name)
             if one in seen:
                 raise InputError(where, "each thing once", f"{seen[one]} and {name}, which are the same")

@@ -191,7 +191,7 @@ def make_ensemble(
     from symgen.auto import resolve
 
     _check_settings(settings, target)
-    inputs = tuple(settings.inputs)
+    taken = (*settings.inputs, *settings.parameters, *settings.start)
     given = give_inputs(model.mechanism, settings)
     model, settings, mechanism = replace(model, mechanism=given.mechanism), given.settings, given.mechanism
     names = Names.of(mechanism)
@@ -211,7 +211,7 @@ def make_ensemble(
         refuse_events(f"target '{target}'", mechanism, chosen)
     plan = make_plan(mechanism, chosen)
     # before anything is derived
-    names.check((*vary, *runs), inputs)
+    names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
     # lanes and devices have nothing between two parts of a run: they go across kinks, as the error estimate lets them
     kinks = kinks_of(mechanism) if target == "cpu" and plan.spec.adaptive else ()

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi, hunting, searching
+from symgen.runtime.rebounds import are_lost
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
 
 if TYPE_CHECKING:
@@ -181,7 +182,7 @@ class Events:
             self._reset(state, resets)
         if any(event.action == STOP for _, event in here):
             return abi.MET
-        if resets and self._accumulates(resets):
+        if resets and (self._accumulates(resets) or self._is_back(resets, state)):
             return abi.GATHERED
         return abi.DONE
 
@@ -227,6 +228,20 @@ class Events:
             self.accumulation = resets[-1]
             return True
         return False
+
+    def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
+        """Return whether the rebound from a reset is lost in rounding; note that time does not get on from here."""
+        asked = [(number, self.watched.directions[number]) for number in numbers]
+        if not are_lost(self.compiled, self.watched.function, asked, state, self.until):
+            return False
+        now = float(state.clock[abi.TIME])
+        times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
+        rest = 0.0
+        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:  # of a geometric series (Aitken)
+            ratio = (times[2] - times[1]) / (times[1] - times[0])
+            rest = (times[2] - times[1]) * ratio / (1.0 - ratio)
+        self.accumulation = now + rest
+        return True
 
     @property
     def recent(self) -> tuple[str, ...]:

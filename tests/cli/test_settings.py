@@ -147,3 +147,26 @@ def test_steps_are_bounded_by_every_command_that_runs(capsys):
 def test_steps_are_bounded_in_stress_studies():
     found = stress_study(["pendulum"], ["gravity"], ["lagrange"], quick=True, max_steps=5.0)
     assert found.rows and all(row.outcome == "refused" and "max_steps" in row.reason for row in found.rows)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["run", "pendulum", "--set", "bob_mass=1", "--set", "bob_mass=2"], "--set bob_mass: expected each name once"),
+        (["run", "pendulum", "--start", "bob.vx=1", "--start", "bob.vx=1"], "--start bob.vx: expected each name once"),
+        (["run", "cart-pole", "--input", "force=1", "--input", "force=t"], "--input force: expected each name once"),
+        (["run", "pendulum", *["--option", "method.weight=mass"] * 2], "--option method.weight: expected each name"),
+        (
+            ["sweep", "pendulum", "--vary", "bob_mass=lin(1,2,2)", "--set", "bob_mass=3"],
+            "vary 'bob_mass': expected one",
+        ),
+        (
+            ["sweep", "pendulum", "--vary", "bob.vx=lin(1,2,2)", "--start", "bob.vx=3"],
+            "vary 'bob.vx': expected one way",
+        ),
+    ],
+)
+def test_nothing_is_given_two_values(words, said, capsys):
+    """The last one would be taken in silence."""
+    assert main([*words, "--until", "0.1"]) == 2
+    assert said in capsys.readouterr().err

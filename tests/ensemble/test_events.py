@@ -173,7 +173,7 @@ def test_samples_and_held_values_are_inputs_of_every_run(cart, tmp_path):
     number = symgen.sweep(cart, {"mass": mass}, inputs={"push": 3.0}, **ASKED)
     assert number.ensemble.recipe.singly is None
     np.testing.assert_allclose(number["block.vx"][:, 0], 3.0 / mass, rtol=1e-13)
-    with pytest.raises(InputError, match="vary 'push': expected one way of giving an input, got two"):
+    with pytest.raises(InputError, match="vary 'push': expected one way of giving it a value, got two"):
         symgen.sweep(cart, {"push": [1.0]}, inputs={"push": 3.0}, **ASKED)
 
 

@@ -59,6 +59,26 @@ def test_a_ball_bounces_until_its_impacts_accumulate(integrator, step):
     assert result.end < end and end - result.end < 1e-8 and result.t[-1] == result.end
 
 
+@pytest.mark.parametrize(("floor", "bounce"), [(1.0, 0.7), (100.0, 0.5), (-0.55, 0.1), (1.0, 1e-9)])
+@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
+def test_impacts_accumulate_on_a_floor_that_is_not_at_zero(integrator, floor, bounce):
+    """Height is known to fewer digits there, and to none that tell the last rebounds from the floor."""
+    raw = {**BALL, "bodies": {"ball": BALL["bodies"]["ball"] | {"position": [0.0, floor + 1.0]}}}
+    impact = {"when": f"ball.y < {floor}", "reset": {"ball.vy": f"-{bounce}*ball.vy"}}
+    result = symgen.load(mechanism_of(raw)).simulate(
+        method="lagrange", integrator=integrator, step=1e-2, events={"impact": impact}
+    )
+    found = times_of(result, "impact")
+    flights = 2.0 * FIRST * bounce ** np.arange(len(found))
+    expected = FIRST + np.concatenate([[0.0], np.cumsum(flights[1:])])
+    assert result.status == "failed" and result.reason.startswith("events of 'impact' accumulate at t = ")
+    # an impact is known to the height's rounding over the speed: at the last one, the slowest, a thousandth of a flight
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-3 * flights[-1] + 1e-14 * max(1.0, abs(floor)))
+    end = FIRST * (1.0 + 2.0 * bounce / (1.0 - bounce))
+    told = 1e-2 if len(found) > 2 else 1.0  # a single impact says nothing of what follows
+    assert abs(result.accumulation - end) < told * (end - found[-1]) + 1e-12
+
+
 @pytest.mark.parametrize("settings", [{"integrator": "rk4", "step": 0.03}, {"integrator": "dop853"}], ids=str)
 @pytest.mark.parametrize("when", ["ball.vy + 2.5", "ball.vy < -2.5", "2.5 + ball.vy < 0 and t > 0.1"])
 def test_a_speed_that_is_set_back_where_it_is_met_is_met_again_and_again(when, settings):

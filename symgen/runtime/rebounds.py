@@ -1,0 +1,82 @@
+"""Rebounds that are lost in rounding: an event whose reset brings its own function back before anybody could tell."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from symgen.runtime import abi
+from symgen.runtime.probe import Ready
+from symgen.runtime.searching import COUNT
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.hunting import HuntingState
+
+Array = NDArray[np.float64]
+
+_EPSILON = 2.0**-52
+#: A rebound of fewer roundings than this, of the switching function or of the time, is lost: where it ends is known to
+#: a thousandth of it.
+_FEWEST = 1e3
+#: Changes of a state by which derivatives are found: of each coordinate, and of the time as a part of the run.
+_RELATIVE, _AHEAD = 1e-6, 1e-9
+
+
+def are_lost(
+    compiled: CompiledModel, function: Any, events: Sequence[tuple[int, int]], state: HuntingState, duration: float
+) -> bool:
+    """Return whether a switching function comes back so soon after a reset that rounding decides when.
+
+    Right after the reset g is 0 up to rounding and leaves with the rate g'; with g'' against it, it gets as far as
+    g'^2 / (2 g'') and is back after 2 g' / g''. What rounding is of g is worked out from how it changes with each
+    coordinate, and with the time.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    function : emitted function
+        Switching functions, then their rates.
+    events : sequence of (int, int)
+        Numbers of the events whose resets have just been made, and the directions in which these happen, 0 for both.
+    state : HuntingState
+        Of the run, behind the resets; as it was on return.
+    duration : float
+        Of the run [s].
+    """
+    info, t = compiled.info, float(state.clock[abi.TIME])
+    rhs, happens = Ready(compiled.law_module.rhs, abi.RHS), Ready(function, abi.OBSERVE)
+    w, iw, p = state.w.copy(), state.iw.copy(), state.p
+
+    def at(moment: float, y: Array, rate: Array) -> tuple[Array, Array]:
+        out = np.zeros(2 * int(state.hunt[COUNT]))
+        happens(moment, y, p, w, rate, out)
+        return out[: len(out) // 2], out[len(out) // 2 :]
+
+    y, rate = state.y.copy(), np.zeros_like(state.y)
+    rhs(t, y, p, w, iw, rate)
+    g, slope = at(t, y, rate)
+    rounding = np.abs(at(t + _RELATIVE * abs(t), y, rate)[0] - g)
+    index, other = np.arange(info.nq), y.copy()
+    # with signs by the digits of their numbers, so that no two coordinates hide each other, in few evaluations
+    for digit in range(info.nq.bit_length() + 1):
+        signs = 1.0 - 2.0 * (index >> digit & 1)
+        other[: info.nq] = y[: info.nq] * (1.0 + _RELATIVE * signs)
+        rounding += np.abs(at(t, other, rate)[0] - g)
+    rounding *= _EPSILON / _RELATIVE
+    ahead = _AHEAD * duration
+    y += ahead * rate
+    rhs(t + ahead, y, p, w, iw, rate)
+    curve = (at(t + ahead, y, rate)[1] - slope) / ahead
+    for k, direction in events:
+        back = -np.sign(slope[k])  # the direction in which it would happen again
+        if direction not in (0, back) or not slope[k] * curve[k] < 0.0 or abs(g[k]) > _FEWEST * rounding[k]:
+            continue
+        far, long = 0.5 * slope[k] ** 2 / abs(curve[k]), 2.0 * abs(slope[k] / curve[k])
+        if far < _FEWEST * rounding[k] or long < _FEWEST * _EPSILON * abs(t):
+            return True
+    return False
