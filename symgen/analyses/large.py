@@ -87,12 +87,13 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     sparse = sparse_of(mechanism, settings)
     y, lam, steps = settled(sparse)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
-    if sparse.pattern.nv <= DENSE:
-        basis = split(rows.toarray())[0]
+    free = sparse.pattern.nv - len(sparse.kept)
+    if sparse.pattern.nv <= DENSE or free <= SAID:
+        basis = split(rows.toarray())[0] if sparse.pattern.nv <= DENSE else _along(rows, free)
         squares = reduced_squares(basis.T @ mass @ basis, basis.T @ stiffness @ basis)
         stability = stability_of(squares)
     else:
-        squares = _nearest(stiffness, mass, rows, min(SAID, sparse.pattern.nv - len(sparse.kept) - 1))[0]
+        squares = _nearest(stiffness, mass, rows, SAID)[0]
         stability = stability_of(np.append(squares, _far_below(stiffness, mass, rows, squares)))
     info, found = sparse.compiled.info, sparse.compiled.info.joint_coordinates
     out = np.zeros(info.m + 2 * len(found))
@@ -113,6 +114,17 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         y=y,
         lam=lam,
     )
+
+
+def _along(rows: Any, free: int) -> Array:
+    """Return an orthonormal basis of the few velocities that rows leave free, shape (nv, free)."""
+    from scipy.sparse import eye
+
+    n, none = rows.shape[1], np.zeros(rows.shape[0])
+    solve = _regular(eye(n, format="csc"), rows)
+    anything = np.random.default_rng(0).standard_normal((free, n))  # what is left of it is a basis almost surely
+    basis = np.linalg.qr(np.array([solve(x, none)[0] for x in anything]).reshape(free, n).T)[0]
+    return np.asarray(basis)
 
 
 def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
