@@ -18,7 +18,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
 from symgen.describe.kinks import kinks_of
-from symgen.errors import InputError, nearest
+from symgen.errors import InputError, nearest, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
@@ -221,8 +221,8 @@ def refuse_events(where: str, mechanism: Mechanism, s: Settings) -> None:
 def refuse_weightless(mechanism: Mechanism) -> None:
     """Refuse to simulate a mechanism in which nothing has a mass: joints and drivers alone say how it moves."""
     if mechanism.bodies and all(body.weightless for body in mechanism.bodies):
-        hint = "symgen kinematics and symgen inverse do without"
-        raise InputError("bodies", "one that has a mass", "a mechanism in which nothing has one", hint)
+        first, hint = quoted(mechanism.bodies[0].name), "symgen kinematics and symgen inverse do without"
+        raise InputError(f"body {first}", "a mass, of one body at least", "a mechanism in which nothing has one", hint)
 
 
 def expected_evaluations(tableau: Integrator, until: float, step: float | None, adaptive: bool) -> float:

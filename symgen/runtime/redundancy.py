@@ -19,8 +19,6 @@ _A, _I, _N = types.float64[::1], types.int64[::1], types.int64
 
 #: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
 FALLEN = 0.25
-#: A row that is left out stays so unless another one's factor is that much larger.
-STAYING = 1.25
 #: Up to this many entries of a dense D rows are chosen anew; above, those of the start stay.
 LARGEST = 250_000
 
@@ -106,7 +104,8 @@ def choose_rows(
 
     An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
     chosen that is farthest from those before it (`farthest`) are sums of all rows that vanish. Of these sums the
-    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen.
+    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen. The
+    position alone decides, not what was left out before.
 
     Parameters
     ----------
@@ -135,8 +134,7 @@ def choose_rows(
         sum_, row, most = -1, -1, -1.0
         for i in range(m):
             for k in range(m if room[lengths + i] >= 0.0 else 0):
-                # rows that are left out stay so where others are hardly better
-                size = abs(room[i * width + n + k]) * (STAYING if w[mask + k] != 0.0 else 1.0)
+                size = abs(room[i * width + n + k])
                 if room[masked + k] == 0.0 and size > most:
                     sum_, row, most = i, k, size
         room[masked + row], room[lengths + sum_] = math.inf, -1.0

@@ -180,7 +180,7 @@ def test_where_nothing_has_a_mass_there_is_kinematics_but_no_run():
     model = Model(raw.build())
     runs = [model.simulate, model.start, lambda: compare(model)]
     for refused in runs:
-        with pytest.raises(InputError, match="bodies: expected one that has a mass"):
+        with pytest.raises(InputError, match="body 'arm': expected a mass, of one body at least"):
             refused()
     times = np.linspace(0.0, 1.0, 5)
     found = model.kinematics(times)
