@@ -10,6 +10,7 @@ import json
 import os
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -27,24 +28,20 @@ TESTS = Path(__file__).resolve().parents[1]
 TOLERANCE = {"parallelogram": 2e-9, "bricard": 2e-9}
 
 
-@pytest.fixture(scope="module")
-def plain() -> dict[str, dict[str, float]]:
-    """Differences of all cases, from functions that run as plain Python."""
-    return differences("support.both_shapes")
+#: Small ones, and those that have every kind of element; the other entries of the catalogue are for the slow tests.
+SAMPLED = ("pendulum", "four-bar", "slider-crank", "spatial-slider-crank", "bricard")
+OWN = ("n-four-bar:3", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial")
+OTHERS = tuple(name for name in catalogue.names() if name not in (*SAMPLED, *OWN))
+MECHANISMS = [*SAMPLED, *OWN, *(pytest.param(name, marks=pytest.mark.slow) for name in OTHERS)]
 
 
-@pytest.fixture(scope="module")
-def plain_forms() -> dict[str, dict[str, float]]:
-    """The same for descriptor forms."""
-    return differences("support.both_forms")
-
-
-def differences(module: str) -> dict[str, dict[str, float]]:
-    """Run a module in a process in which nothing is compiled; return what it writes."""
+@cache
+def differences(module: str, left_out: tuple[str, ...]) -> dict[str, dict[str, float]]:
+    """Run a module in a process in which nothing is compiled; return the differences, which it writes, but of some."""
     path = os.pathsep.join([str(TESTS), str(TESTS.parent), os.environ.get("PYTHONPATH", "")])
     environment = os.environ | {"NUMBA_DISABLE_JIT": "1", "PYTHONPATH": path}
     done = subprocess.run(
-        [sys.executable, "-W", "ignore", "-m", module],
+        [sys.executable, "-W", "ignore", "-m", module, *(f"-{name}" for name in left_out)],
         env=environment,
         capture_output=True,
         text=True,
@@ -55,11 +52,9 @@ def differences(module: str) -> dict[str, dict[str, float]]:
     return found
 
 
-@pytest.mark.parametrize(
-    "mechanism",
-    [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial"],
-)
-def test_every_function_of_every_method_agrees(plain, mechanism):
+@pytest.mark.parametrize("mechanism", MECHANISMS)
+def test_every_function_of_every_method_agrees(mechanism):
+    plain = differences("support.both_shapes", (*SAMPLED, *OWN) if mechanism in OTHERS else OTHERS)
     cases = {case: found for case, found in plain.items() if case.split()[0] == mechanism}
     methods = {case.split()[1] for case in cases}
     assert {"lagrange", "direct-correction", "penalty", "mass-orthogonal-projection"} <= methods
@@ -73,18 +68,16 @@ def test_every_function_of_every_method_agrees(plain, mechanism):
     assert not apart
 
 
-def test_every_method_has_loops_or_says_why_not(plain):
-    covered = {case.split()[1] for case in plain}
+def test_every_method_has_loops_or_says_why_not():
+    covered = {case.split()[1] for case in differences("support.both_shapes", OTHERS)}
     for name in METHODS.names:
         method = METHODS.get(name)
         assert (name in covered) != bool(method.dense or not {"ode", "one-step"} & set(method.forms)), name
 
 
-@pytest.mark.parametrize(
-    "mechanism",
-    [*catalogue.names(), "n-four-bar:3", "chain:3", "everything", "reading", "rough", "parallelogram", "spatial"],
-)
-def test_residuals_and_their_jacobians_agree(plain_forms, mechanism):
+@pytest.mark.parametrize("mechanism", MECHANISMS)
+def test_residuals_and_their_jacobians_agree(mechanism):
+    plain_forms = differences("support.both_forms", (*SAMPLED, *OWN) if mechanism in OTHERS else OTHERS)
     cases = {case: found for case, found in plain_forms.items() if case.split()[0] == mechanism}
     assert "ggl" in {case.split()[1] for case in cases}
     apart = {
@@ -96,8 +89,8 @@ def test_residuals_and_their_jacobians_agree(plain_forms, mechanism):
     assert not apart
 
 
-def test_every_level_of_a_descriptor_form_is_covered(plain_forms):
-    covered = {case.split()[1] for case in plain_forms}
+def test_every_level_of_a_descriptor_form_is_covered():
+    covered = {case.split()[1] for case in differences("support.both_forms", OTHERS)}
     with_form = {
         name
         for name in METHODS.names

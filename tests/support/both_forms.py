@@ -57,9 +57,12 @@ def differences(model: Model, method: str) -> dict[str, float]:
 
 
 if __name__ == "__main__":
-    wanted = set(sys.argv[1:])
+    wanted = {word for word in sys.argv[1:] if not word.startswith("-")}
+    left_out = {word[1:] for word in sys.argv[1:]} - wanted
     results = {}
     for label, model in models().items():
+        if label in left_out:
+            continue
         for method in (*METHODS, PROJECTED):
             if wanted & {label, method} if wanted else label in DEEP or method == METHODS[0]:
                 results[f"{label} {method}"] = differences(model, method)

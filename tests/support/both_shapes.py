@@ -152,9 +152,12 @@ DEEP = ("slider-crank", "everything", "rough", "spatial", "n-four-bar:3")
 FEW = ({"lagrange": {}}, {"direct-correction": {"weight": "mass"}}, {"penalty": {}}, {"mass-orthogonal-projection": {}})
 
 if __name__ == "__main__":
-    wanted = set(sys.argv[1:])
+    wanted = {word for word in sys.argv[1:] if not word.startswith("-")}
+    left_out = {word[1:] for word in sys.argv[1:]} - wanted
     results = {}
     for label, model in models().items():
+        if label in left_out:
+            continue
         for method, options in choices():
             key = " ".join([label, method, *(f"{k}={x}" for k, x in options.items())])
             if wanted & {label, method} if wanted else label in DEEP or {method: options} in FEW:
