@@ -1,7 +1,8 @@
 """Size of the cache, and removal: of everything, or of what was not used for longest.
 
 The size is known from a tally: its first line says when everything was last counted and how much there was, every
-further line how much was written since. Where the sum passes the limit, and once a day, the cache is pruned.
+further line how much was written since; many lines become one again. Where the sum passes the limit, and once a day,
+the cache is pruned.
 
 Only files that this package writes are ever removed, told by folder and by name, so that a cache folder that was
 pointed at something else by mistake loses nothing. A file that another process removes or writes meanwhile is left to
@@ -35,6 +36,8 @@ MODEL_FOLDER = re.compile(
 
 _TALLY = "written"
 _DAY = 86400.0
+# The tally is read at every write: a day in which much is written must not make writing ever slower.
+_LINES = 200
 # Pruning leaves room: else every entry that is written would mean looking through all the others.
 _SHARE = 0.8
 # A temporary file older than this was left by a process that was killed.
@@ -153,12 +156,15 @@ def prune(root: Path, limit: int = LIMIT) -> CacheInfo:
 def note_written(root: Path, size: int) -> None:
     """Note that an entry of so many bytes was written, and prune if there is too much by now.
 
-    An entry that replaces another counts twice until everything is counted again.
+    An entry that replaces another counts twice until everything is counted again, and one that another process notes
+    while lines become one may not count until then.
     """
     with suppress(OSError):
-        total = _tally(root)
-        if total is None or total + size > LIMIT:
-            _count(root, prune(root, LIMIT if total is None else int(_SHARE * LIMIT)).bytes)
+        tally = _tally(root)
+        if tally is None or sum(tally[1:]) + size > LIMIT:
+            _count(root, time.time(), prune(root, LIMIT if tally is None else int(_SHARE * LIMIT)).bytes)
+        elif len(tally) > _LINES:
+            _count(root, tally[0], sum(tally[1:]) + size)
         else:
             _append(root, f"{size}\n")
 
@@ -168,18 +174,18 @@ def root_of(path: Path) -> Path | None:
     return next((folder.parent for folder in path.parents if folder.name in (MODELS, NATIVE, BYTECODE)), None)
 
 
-def _tally(root: Path) -> int | None:
-    """Return how much the cache holds, or None where it has to be counted."""
-    lines = (private.read_own(root / LOCKS / _TALLY) or b"").split(b"\n")
+def _tally(root: Path) -> list[int] | None:
+    """Return when the cache was counted, how much it held and what was written since; None where it is to be counted."""
     try:
-        when, *sizes = [int(word) for line in lines for word in line.split()]
-    except ValueError:
+        tally = [int(word) for word in (private.read_own(root / LOCKS / _TALLY) or b"").split()]
+        known = len(tally) > 1 and 0 <= time.time() - tally[0] < _DAY and min(tally) >= 0
+    except (ValueError, OverflowError):  # what stands there is no tally
         return None
-    return sum(sizes) if 0 <= time.time() - when < _DAY and all(size >= 0 for size in sizes) else None
+    return tally if known else None
 
 
-def _count(root: Path, total: int) -> None:
-    private.write_own(root / LOCKS / _TALLY, f"{int(time.time())} {total}\n".encode())
+def _count(root: Path, when: float, total: int) -> None:
+    private.write_own(root / LOCKS / _TALLY, f"{int(when)} {total}\n".encode())
 
 
 def _append(root: Path, line: str) -> None:
