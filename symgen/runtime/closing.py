@@ -172,7 +172,7 @@ def mask_redundant(
 @exact()
 def _rank(layout: Any, w: Any, work: Any) -> int:
     """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
-    places, room = (layout.jacobian, layout.gauge), work.numbers
+    places, room = (layout.jacobian, layout.gauge, -1), work.numbers
     return int(
         farthest(layout.m, layout.nv, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room)
     )
@@ -188,7 +188,7 @@ def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: 
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
     if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
-        places = layout.jacobian, layout.gauge, mask
+        places = layout.jacobian, layout.gauge, -1, mask
         choose_rows(m, layout.nv, m - count, layout.entries, layout.constants, *places, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]

@@ -273,7 +273,8 @@ def run_lanes(
     width = (n + 3) // 4 * 4 * _L  # as in `symgen.ir.program.lane_bases`
     wide = Sizes(
         *(sizes.nq, sizes.nv, sizes.m, n, width, sizes.controlled, sizes.unknowns),
-        *(sizes.pivots, sizes.multipliers, sizes.mask, sizes.change, sizes.gauge, sizes.jacobian, sizes.auxiliary),
+        *(sizes.pivots, sizes.multipliers, sizes.mask, sizes.change, sizes.gauge, sizes.row_weight),
+        *(sizes.jacobian, sizes.auxiliary),
     )
     numbers = 2 * width + (n_p + nw + _SPARE) * _L
     z, at = part(room, 0, numbers), numbers

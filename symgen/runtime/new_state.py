@@ -30,11 +30,11 @@ def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: floa
 def sizes_of(compiled: CompiledModel) -> Sizes:
     """Return what loops have to know of a model."""
     info, sections = compiled.info, compiled.info.sections
-    names = "pivot", "multipliers", "mask", "change", "gauge", "jacobian"
-    pivots, multipliers, mask, change, gauge, jacobian = (sections.get(name, (0, 0))[0] for name in names)
+    names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
+    places = (sections.get(name, (0, 0))[0] for name in names)
     lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
     auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
-    return Sizes(*lengths, pivots, multipliers, mask, change, gauge, jacobian, auxiliary)
+    return Sizes(*lengths, *places, auxiliary)
 
 
 def share_of(sizes: Sizes) -> Array:

@@ -33,10 +33,10 @@ class Sizes(NamedTuple):
         Elements of the state that take part in error control.
     unknowns : int
         Of a stage in the descriptor form; 0 where there is none.
-    pivots, multipliers, mask, change, gauge, jacobian, auxiliary : int
+    pivots, multipliers, mask, change, gauge, row_weight, jacobian, auxiliary : int
         Where these begin in ``w``: the pivots of D D^T, the multipliers, the mask of redundant rows, changes of
-        velocities, what makes rank independent of units, the entries of D that vary, and what ``residual`` leaves of
-        the rates of auxiliary states.
+        velocities, what makes rank independent of units, and rows of one length, the entries of D that vary, and what
+        ``residual`` leaves of the rates of auxiliary states.
     """
 
     nq: int
@@ -51,6 +51,7 @@ class Sizes(NamedTuple):
     mask: int
     change: int
     gauge: int
+    row_weight: int
     jacobian: int
     auxiliary: int
 

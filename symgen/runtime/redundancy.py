@@ -14,6 +14,7 @@ from numba import types
 
 from symgen.runtime import abi
 from symgen.runtime.exact import exact
+from symgen.runtime.scales import VANISHED
 
 _A, _I, _N = types.float64[::1], types.int64[::1], types.int64
 
@@ -23,7 +24,7 @@ FALLEN = 0.25
 LARGEST = 250_000
 
 
-@exact(_N(_N, _N, _N, _N, types.float64, _I, _A, _N, _N, _A, _A))
+@exact(_N(_N, _N, _N, _N, types.float64, _I, _A, _N, _N, _N, _A, _A))
 def farthest(
     m: int,
     n: int,
@@ -34,6 +35,7 @@ def farthest(
     constants: Any,
     jacobian: int,
     gauge: int,
+    weights: int,
     w: Any,
     room: Any,
 ) -> int:
@@ -51,8 +53,9 @@ def farthest(
         Square of the sine of the angle between a row and those chosen below which it is not chosen.
     entries, constants : Array
         D's structural entries, as in `symgen.runtime.start_records.Layout`.
-    jacobian, gauge : int
-        Where these sections of w begin.
+    jacobian, gauge, weights : int
+        Where the sections ``jacobian``, ``gauge`` and ``row_weight`` of w begin. By the weights rows are told that have
+        vanished: of these nothing is left. `weights` is negative where there are none yet.
     w : Array
         Scratch; D is that of the present position.
     room : Array, shape (m * width + m,)
@@ -69,6 +72,10 @@ def farthest(
         square = 0.0
         for j in range(n):
             square += room[i * width + j] * room[i * width + j]
+        if weights >= 0 and square * w[weights + i] < VANISHED:
+            for j in range(n):
+                room[i * width + j] = 0.0
+            square = 0.0
         room[lengths + i] = 1.0 / square if square > 0.0 else 0.0
         if width > n:
             room[i * width + n + i] = math.sqrt(square) if square > 0.0 else 1.0
@@ -96,9 +103,19 @@ def farthest(
     return kept
 
 
-@exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _A, _A))
+@exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _N, _A, _A))
 def choose_rows(
-    m: int, n: int, kept: int, entries: Any, constants: Any, jacobian: int, gauge: int, mask: int, w: Any, room: Any
+    m: int,
+    n: int,
+    kept: int,
+    entries: Any,
+    constants: Any,
+    jacobian: int,
+    gauge: int,
+    weights: int,
+    mask: int,
+    w: Any,
+    room: Any,
 ) -> int:
     """Mask all rows but `kept` ones, of which the others are sums with small factors.
 
@@ -113,8 +130,8 @@ def choose_rows(
         Rows and columns of D, and how many rows are kept.
     entries, constants : Array
         D's structural entries, as in `symgen.runtime.start_records.Layout`.
-    jacobian, gauge, mask : int
-        Where these sections of w begin.
+    jacobian, gauge, weights, mask : int
+        Where these sections of w begin, as for `farthest`.
     w : Array
         Scratch; D is that of the present position.
     room : Array, shape (m * (n + m) + 2 * m,)
@@ -126,7 +143,7 @@ def choose_rows(
         1 where other rows are kept than before.
     """
     width = n + m
-    farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, w, room)
+    farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, weights, w, room)
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
         room[masked + i] = 0.0

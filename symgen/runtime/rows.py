@@ -135,7 +135,7 @@ def follow_rows(sizes: Any, chunk: Any, state: Any, w: Any) -> int:
     if chunk.dense.shape[0] == 0:
         return 0
     m, kept = sizes.m, sizes.m - state.control[abi.MASKED]
-    places = sizes.jacobian, sizes.gauge, sizes.mask
+    places = sizes.jacobian, sizes.gauge, sizes.row_weight, sizes.mask
     return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, *places, w, chunk.dense))
 
 

@@ -19,6 +19,9 @@ _ENERGY_SCALE = abi.ENERGY_SCALE
 LEAST_LENGTH = 1e-2
 #: Rows count as at least this part of a usual one, squared.
 LEAST_ROW = 1e-2
+#: Rows below this part of a usual one, squared, have vanished: what is left of their numbers is rounding. A row of D in
+#: joint coordinates is a sum of products of size 1 along a chain, of which rounding leaves some 1e-16.
+VANISHED = 1e-18
 #: Speeds below this part of the scale of speeds are no motion, whatever tolerances are asked for.
 LEAST_SPEED = 1e-9
 #: Speeds are known to so many times their tolerance: the errors of many steps add up.
@@ -84,18 +87,32 @@ def mean_mass(layout: Any, w: Any) -> float:
 
 
 @exact()
-def weigh_rows(layout: Any, now: Any) -> None:
-    """Set the section ``row_weight`` to what makes 1 of the square of each row of D G^1/2 at the start.
-
-    Rows that are short there already count as a tenth of a usual one.
-    """
-    w, weights = now.w, layout.row_weight
+def square_rows(layout: Any, w: Any) -> None:
+    """Set the section ``row_weight`` to the square of each row of D G^1/2 at the present position."""
+    weights = layout.row_weight
     for i in range(layout.m):
         w[weights + i] = 0.0
     for k in range(layout.constants.shape[0]):
         row, column, slot = layout.entries[3 * k], layout.entries[3 * k + 1], layout.entries[3 * k + 2]
         value = layout.constants[k] if slot < 0 else w[layout.jacobian + slot]
         w[weights + row] += value * value * w[layout.gauge + column]
+
+
+@exact()
+def has_vanished(layout: Any, w: Any, i: int) -> bool:
+    """Whether nothing but rounding is left of row `i`, whose square `square_rows` has found."""
+    usual = row_weight(layout, w, i)
+    return bool(w[layout.row_weight + i] * usual * usual < VANISHED)
+
+
+@exact()
+def weigh_rows(layout: Any, now: Any) -> None:
+    """Set the section ``row_weight`` to what makes 1 of the square of each row of D G^1/2 at the start.
+
+    Rows that are short there already count as a tenth of a usual one.
+    """
+    w, weights = now.w, layout.row_weight
+    square_rows(layout, w)
     for i in range(layout.m):
         usual = LEAST_ROW / (row_weight(layout, w, i) * row_weight(layout, w, i))
         w[weights + i] = 1.0 / larger(w[weights + i], usual)

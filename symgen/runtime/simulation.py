@@ -393,7 +393,7 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
     if info.m * info.nv > LARGEST:
         return lambda w: False
     entries, constants = entries_of(info)
-    places = tuple(info.sections[name][0] for name in ("jacobian", "gauge", "mask"))
+    places = tuple(info.sections[name][0] for name in ("jacobian", "gauge", "row_weight", "mask"))
     room, choose = np.zeros(info.m * (info.nv + info.m + 2)), compiled_form(choose_rows)
 
     def chosen(w: Array) -> bool:

@@ -7,6 +7,7 @@ of the mechanism here.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,14 +21,11 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
-from symgen.runtime.scales import mean_mass, weigh_rows
+from symgen.runtime.scales import VANISHED, has_vanished, mean_mass, square_rows, weigh_rows
 from symgen.runtime.simulation import row_chooser
 from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
-
-#: A row of D, over the mechanism's length, below this is rounding.
-NOTHING = 1e-9
 
 
 def settle_tree(
@@ -62,15 +60,13 @@ def settle_tree(
         w[abi.LENGTH], w[abi.SPEED], gauge = scales
         compiled.section(w, "gauge")[:] = gauge
         w[abi.MEAN_MASS] = plain_form(mean_mass)(layout, w)
-        geometry(t, y, p, w)
-        masked = _dependent(compiled, geometry, y, p, w, t)
-        compiled.section(w, "mask")[masked] = np.inf
+        masked, rank = _dependent(compiled, geometry, layout, now)
+        compiled.section(w, "mask")[:] = np.where(masked, np.inf, 0.0)
+        plain_form(weigh_rows)(layout, now)
         geometry(t, y, p, w)
         if masked.any() and w[abi.PIVOT] < WARN and row_chooser(compiled)(w):
             geometry(t, y, p, w)
             masked = compiled.section(w, "mask") > 0.0
-        plain_form(weigh_rows)(layout, now)
-    rank = int(np.sum((compiled.section(w, "pivot") >= SKIP) & ~masked))
     return w, rank, tuple(info.rows[i].name for i in np.flatnonzero(masked))
 
 
@@ -155,20 +151,21 @@ def settle_rows(
             w_t[layout.gauge + j] = 1.0 if carrying.gauges[j] < 0 else w[carrying.gauges[j]]
         w_t[abi.MEAN_MASS] = mean_mass(layout, w_t)
         geometry(layout.t, y_t, p_t, w_t)
+        square_rows(layout, w_t)
         for i in range(layout.m):
-            if not w_t[layout.pivot + i] >= SKIP:
+            if not w_t[layout.pivot + i] >= SKIP or has_vanished(layout, w_t, i):
                 carrying.dependent[r] = 1
         geometry(layout.t, y_t, p_t, w_t)
         weigh_rows(layout, Instant(y_t, p_t, w_t))
     return int(selected.shape[0])
 
 
-def _dependent(compiled: CompiledModel, geometry: Ready, y: Array, p: Array, w: Array, t: float) -> NDArray[np.bool_]:
-    """Return the rows that depend on others at a position and near it."""
-    info = compiled.info
-    here = compiled.section(w, "pivot") < SKIP
-    least, found = int(here.sum()), here.copy()
-    length = float(w[abi.LENGTH])
+def _dependent(compiled: CompiledModel, geometry: Ready, layout: Any, now: Instant) -> tuple[NDArray[np.bool_], int]:
+    """Return the rows that depend on others at a position and near it, and the rank at the position."""
+    info, t, (y, p, w) = compiled.info, layout.t, now
+    here = _dependent_at(compiled, geometry, layout, now)
+    least, found = int(here.sum()), here
+    rank, length = info.m - least, float(w[abi.LENGTH])
     scale = length * np.sqrt(compiled.section(w, "gauge"))
     weight = np.array([length if row.unit in ("rad", "rad/s") else 1.0 for row in info.rows])
     for k in range(decisions.PROBES if least else 0):
@@ -179,7 +176,6 @@ def _dependent(compiled: CompiledModel, geometry: Ready, y: Array, p: Array, w: 
         if not size > decisions.STANDSTILL:
             break
         other, near = y.copy(), w.copy()
-        compiled.section(near, "mask")[:] = 0.0
         compiled.move(other, direction * scale * (decisions.PROBE_DISTANCE / size), near)
         for _ in range(20):
             geometry(t, other, p, near)
@@ -188,15 +184,31 @@ def _dependent(compiled: CompiledModel, geometry: Ready, y: Array, p: Array, w: 
                 break
             matrix = weight[:, np.newaxis] * compiled.jacobian(near) * scale
             compiled.move(other, -scale * _shortest(matrix, open_by, length), near)
-        geometry(t, other, p, near)
-        there = compiled.section(near, "pivot") < SKIP
+        there = _dependent_at(compiled, geometry, layout, Instant(other, p, near))
         if np.isfinite(near[abi.PHI]) and int(there.sum()) < least:
-            least, found = int(there.sum()), there.copy()
-    return found
+            least, found = int(there.sum()), there
+    return found, rank
+
+
+def _dependent_at(compiled: CompiledModel, geometry: Ready, layout: Any, now: Instant) -> NDArray[np.bool_]:
+    """Return the rows that depend on others at one position; those that have vanished take no part in elimination.
+
+    Rounding divided by rounding would decide which rows depend on those.
+    """
+    y, p, w = now
+    mask = compiled.section(w, "mask")
+    mask[:] = 0.0
+    geometry(layout.t, y, p, w)
+    plain_form(square_rows)(layout, w)
+    gone = np.array([plain_form(has_vanished)(layout, w, i) for i in range(compiled.info.m)], dtype=bool)
+    if gone.any():
+        mask[gone] = np.inf
+        geometry(layout.t, y, p, w)
+    return np.asarray(gone | (compiled.section(w, "pivot") < SKIP))
 
 
 def _shortest(matrix: Array, right: Array, length: float) -> Array:
     """Return the shortest x with matrix x = right, what is rounding left out."""
     left, singular, columns = np.linalg.svd(matrix, full_matrices=False)
-    kept = singular > max(NOTHING * length, decisions.RANK_CUTOFF * singular.max(initial=0.0))
+    kept = singular > max(math.sqrt(VANISHED) * length, decisions.RANK_CUTOFF * singular.max(initial=0.0))
     return np.asarray(columns[kept].T @ ((left[:, kept].T @ right) / singular[kept]))

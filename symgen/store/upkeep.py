@@ -175,7 +175,7 @@ def root_of(path: Path) -> Path | None:
 
 
 def _tally(root: Path) -> list[int] | None:
-    """Return when the cache was counted, how much it held and what was written since; None where it is to be counted."""
+    """Return when the cache was counted, what it held and what was written since; None where it is to be counted."""
     try:
         tally = [int(word) for word in (private.read_own(root / LOCKS / _TALLY) or b"").split()]
         known = len(tally) > 1 and 0 <= time.time() - tally[0] < _DAY and min(tally) >= 0

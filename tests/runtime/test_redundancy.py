@@ -10,8 +10,13 @@ import pytest
 import symgen
 from symgen.api import Model
 from symgen.describe import MechanismBuilder
+from symgen.plan import make_plan
+from symgen.runtime import abi
 from symgen.runtime.exact import plain_form
 from symgen.runtime.redundancy import choose_rows
+from symgen.runtime.tree_start import settle_tree
+from symgen.settings import Settings
+from symgen.tree_run import tree_run
 from tests.verification.running import DEFECTS, off, raw, reference
 
 SETTINGS = (
@@ -67,11 +72,29 @@ def test_kept_rows_span_the_others() -> None:
     d = np.vstack([d, d[0] + d[1], 1e3 * d[2], d[1] - 2.0 * d[2]])[rng.permutation(6)]
     entries = np.array([(i, j, 6 * i + j) for i in range(6) for j in range(6)], dtype=np.int64).ravel()
     w = np.concatenate([d.ravel(), np.ones(6), np.zeros(6)])
-    changed = plain_form(choose_rows)(6, 6, 3, entries, np.zeros(36), 0, 36, 42, w, np.zeros(84))
+    changed = plain_form(choose_rows)(6, 6, 3, entries, np.zeros(36), 0, 36, -1, 42, w, np.zeros(84))
     kept = w[42:] == 0.0
     assert changed == 1 and kept.sum() == 3
     rows = d[kept] / np.linalg.norm(d[kept], axis=1, keepdims=True)
     assert np.linalg.svd(rows, compute_uv=False)[-1] > 0.05
+
+
+def test_rows_of_which_rounding_is_left_stand_for_none() -> None:
+    """In joint coordinates rows of loops vanish for ever; their direction is rounding's, and of length 1 if weighed."""
+    settings = Settings(method="lagrange", integrator="dop853", coordinates="joint")
+    model = symgen.load(DEFECTS / "flat_loop.toml")
+    run = tree_run(model.mechanism, make_plan(model.mechanism, settings))
+    compiled, start = run.compiled, run.start
+    turned = start.w[abi.WINDING : abi.WINDING + compiled.info.windings]
+    scales = start.w[abi.LENGTH], start.w[abi.SPEED], compiled.section(start.w, "gauge").copy()
+    rng = np.random.default_rng(5)
+    for _ in range(100):  # as other processors may round
+        y = start.y.copy()
+        y[: compiled.info.nq] += rng.uniform(-2e-16, 2e-16, compiled.info.nq)
+        w, rank, masked = settle_tree(compiled, y, start.p.copy(), 0.0, turned, scales)
+        kept = compiled.section(w, "mask") == 0.0
+        assert (rank, len(masked), kept.sum()) == (2, 3, 2)
+        assert np.linalg.svd(compiled.jacobian(w)[kept], compute_uv=False)[-1] > 0.05
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -86,7 +109,7 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     mask = np.zeros(m)
     mask[rng.permutation(m)[:left_out]] = np.inf
     w = np.concatenate([d.ravel(), np.ones(n), mask])
-    places = 0, m * n, m * n + n
+    places = 0, m * n, -1, m * n + n
     plain_form(choose_rows)(m, n, m - left_out, entries, np.zeros(m * n), *places, w, np.zeros(m * (n + m + 2)))
     kept = w[m * n + n :] == 0.0
     assert kept.sum() == m - left_out

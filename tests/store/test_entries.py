@@ -343,7 +343,9 @@ class TestUpkeep:
         words = (entries.root / upkeep.LOCKS / "written").read_text().split()
         assert len(words) < 300 and sum(map(int, words[1:])) == entries.info().bytes
 
-    @pytest.mark.parametrize("content", [b"", b"\xff", b"x\n", b"1 -5\n", b"99999999999 0\n", b"0 0 0\n", b"9" * 999, None])
+    @pytest.mark.parametrize(
+        "content", [b"", b"\xff", b"x\n", b"1 -5\n", b"99999999999 0\n", b"0 0 0\n", b"9" * 999, None]
+    )
     def test_a_damaged_tally_is_made_again(self, entries, content):
         entries.put(FOLDER, "model", SOURCE, {})
         tally = entries.root / upkeep.LOCKS / "written"
