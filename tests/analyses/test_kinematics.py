@@ -105,6 +105,7 @@ def test_velocities_and_accelerations_are_those_of_the_positions(driven):
     assert np.abs(found["rocker.alpha"] - (16.0 * once[1] - once[0]) / 15.0).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_platform_moves_as_its_legs_were_made_for():
     found = symgen.load("stewart-platform").kinematics(np.array([-0.3, 0.0, 0.21, 1.37]))
     p, t = found.parameters, found.t

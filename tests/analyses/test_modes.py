@@ -46,6 +46,7 @@ def test_shapes_are_normalised_and_tables_sum_to_one():
     assert_allclose(links, rods.GRAVITY * np.arange(5, 0, -1) * across**2 / found.omega_squared[0], rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_bricard_s_redundant_row_is_harmless():
     model = symgen.load("bricard")
     rest = model.equilibrium()

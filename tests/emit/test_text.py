@@ -123,7 +123,7 @@ def unchecked(value: Any, texts: Iterator[str]) -> Any:
     return tuple(unchecked(item, texts) for item in value) if isinstance(value, tuple) else value
 
 
-@pytest.mark.parametrize("space", ["planar", "spatial"])
+@pytest.mark.parametrize("space", ["planar", pytest.param("spatial", marks=pytest.mark.slow)])
 def test_emission_is_safe_by_itself(space, tmp_path):
     """A mechanism that was never validated, as a program may make one, with every canary as the unit of a parameter."""
     raw = copy.deepcopy(SMALL) if space == "planar" else make(np.random.default_rng(4), ("screw",), ("force",))[0]

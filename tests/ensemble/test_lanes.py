@@ -72,7 +72,7 @@ def test_every_tableau_takes_the_same_steps(integrator):
     np.testing.assert_allclose(lanes.values, single.values, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("method", ["lagrange", "direct-correction"])
+@pytest.mark.parametrize("method", [pytest.param("lagrange", marks=pytest.mark.slow), "direct-correction"])
 def test_spatial_rows_are_those_of_single_runs(method):
     """Euler parameters, and angles in space whose turns are counted."""
     single, lanes = both(

@@ -48,7 +48,7 @@ def test_two_pins_of_one_turning_body(name: str, settings: dict) -> None:
     np.testing.assert_allclose(result.a.values[-1], slope, rtol=0, atol=1e-3 * np.abs(slope).max())
 
 
-@pytest.mark.parametrize("target", ["cpu", "lanes"])
+@pytest.mark.parametrize("target", ["cpu", pytest.param("lanes", marks=pytest.mark.slow)])
 def test_rows_of_a_sweep_follow_as_well(target: str, tmp_path: Path) -> None:
     """Every number of a row of a sweep is that of the run alone, accelerations after the run too."""
     settings = {"method": "direct-correction", "integrator": "rk4", "step": 2e-3, "times": [0.0, 0.3, 0.6, 1.0]}

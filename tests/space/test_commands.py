@@ -29,7 +29,7 @@ def test_inspect(name, capsys):
     assert not any("gyroscopic" in str(line) for line in found["left_out"])
 
 
-@pytest.mark.parametrize("name", ["chain:3", "front-suspension"])
+@pytest.mark.parametrize("name", ["chain:3", pytest.param("front-suspension", marks=pytest.mark.slow)])
 def test_generate(name, capsys, tmp_path):
     assert main(["generate", name, "--method", "direct-correction", "--output", str(tmp_path / "out")]) == 0
     files = sorted(file for file in (tmp_path / "out").rglob("*.py") if file.name not in ("simulate.py", "__init__.py"))

@@ -28,6 +28,7 @@ def test_two_formulations_agree_for_ten_seconds():
     assert away(result, model) < 1e-8
 
 
+@pytest.mark.slow
 def test_the_general_route_leads_the_same_way():
     """Derived once more, in Euler parameters and their rates; for a moment only, as it is stiff and slow."""
     times = np.linspace(0.0, 0.02, 5)

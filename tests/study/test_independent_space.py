@@ -18,8 +18,8 @@ GROUPS = [
     (("screw", "pin-in-slot"), ()),
     (("rolling-disc", "knife-edge"), ("bushing",)),
     (("rolling-sphere", "revolute-spherical"), ()),
-    (("gear",), ("force",)),
-    (("rack-and-pinion",), ()),
+    pytest.param(("gear",), ("force",), marks=pytest.mark.slow),
+    pytest.param(("rack-and-pinion",), (), marks=pytest.mark.slow),
     (("constant-velocity",), ("torque",)),
     (("planar", "rigid"), ()),
 ]

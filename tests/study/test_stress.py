@@ -166,6 +166,7 @@ def damped():
     return level, known, decay(equations, y)
 
 
+@pytest.mark.slow
 def test_the_largest_step_of_rk4_is_where_its_region_of_stability_ends(damped):
     level, known, fastest = damped
     for method in ("lagrange", "coordinate-partitioning"):
@@ -247,6 +248,7 @@ def test_a_measured_budget_stops_a_run():
     assert outcome.code == abi.STOPPED and outcome.evaluations > 1000 and not outcome.interrupted
 
 
+@pytest.mark.slow
 def test_a_run_that_stops_itself_is_judged_by_what_it_was_doing():
     """With a tight limit lagrange drifts off its constraints although its motion is still right."""
     study = stress(["four-bar"], ["redundancy"], ["lagrange"], quick=True, max_violation=1e-13)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import json
 import os
 import subprocess
 import sys
@@ -75,13 +77,19 @@ def raw(name: str) -> dict:
 
 
 def reference(tables: Mapping, times: Sequence[float], rtol: float = 1e-11) -> tuple[System, np.ndarray, np.ndarray]:
-    """Return the reference's system of a file, and its q and v at times."""
-    system = read(tables)
+    """Return the reference's system of a file, and its q and v at times; integrated once, however often it is asked."""
+    q, v = _motion(json.dumps(tables, sort_keys=True), tuple(times), rtol)
+    return read(tables), np.array(q), np.array(v)
+
+
+@functools.cache
+def _motion(tables: str, times: tuple[float, ...], rtol: float) -> tuple[Sequence[np.ndarray], Sequence[np.ndarray]]:
+    system = read(json.loads(tables))
     begin = start(system)
     motion = integrate(system, begin.q, begin.v, np.asarray(times), rtol)
     assert not motion.ended, motion.ended
     assert motion.drift < 1e-6 * max(1.0, motion.energy_scale)
-    return system, np.array(motion.q), np.array(motion.v)
+    return motion.q, motion.v
 
 
 def off(result, system: System, q: np.ndarray) -> float:

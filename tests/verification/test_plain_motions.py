@@ -97,6 +97,7 @@ def test_bricard_mechanism_follows_the_published_points() -> None:
             assert min(np.linalg.norm(end - published) for end in ends) < 2e-8
 
 
+@pytest.mark.slow
 def test_spatial_slider_crank_follows_the_published_slider() -> None:
     table = rows("spatial_slider_crank.csv")[[0, 20, 50, 100]]
     system, motion = moved(catalogue("spatial-slider-crank"), table[:, 0], 1e-10)

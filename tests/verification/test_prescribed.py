@@ -150,7 +150,7 @@ def written(raw: dict, folder: Path):
 
 
 @pytest.mark.parametrize("flip", [False, True])
-@pytest.mark.parametrize("make", [planar, spatial])
+@pytest.mark.parametrize("make", [planar, pytest.param(spatial, marks=pytest.mark.slow)])
 def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     model = written(make(flip), tmp_path)
     drivers = [joint.name for joint in model.mechanism.joints if joint.kind == "driver"]

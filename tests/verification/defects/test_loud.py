@@ -152,10 +152,10 @@ def test_auto_is_honest_about_a_damper_of_1e10(tmp_path: Path) -> None:
     }
     file = tmp_path / "stiff.toml"
     file.write_text(text(made), encoding="utf-8")
-    result = symgen.load(file).simulate(method="auto", integrator="auto", until=0.2, times=[0.0, 0.1, 0.2])
+    result = symgen.load(file).simulate(method="auto", integrator="auto", until=0.02, times=[0.0, 0.01, 0.02])
     if result.ok:
         # all coordinates are driven: no force changes the motion
-        system, q, _ = reference(catalogue("driven-four-bar"), [0.0, 0.1, 0.2])
+        system, q, _ = reference(catalogue("driven-four-bar"), [0.0, 0.01, 0.02])
         assert off(result, system, q) < 1e-3
     else:
         assert result.reason
