@@ -18,6 +18,7 @@ from symgen.compiling.pipeline import folder_of
 from symgen.compiling.side import beside, stem_of
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
 from symgen.lower.windings import Beside
 from symgen.runtime.compiled import CompiledModel
@@ -169,7 +170,9 @@ def _compiled(
     mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
     store, info, around, folder = Entries(), compiled.info, beside(mechanism, compiled), folder_of(mechanism)
-    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups)
+    # outputs stand outside the digest that folders are named by
+    reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
+    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups, reported)
     known = store.made(folder, stem, lambda: _built(mechanism, by, groups, around))
     if known["still"]:
         return None
