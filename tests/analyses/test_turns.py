@@ -9,8 +9,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from analyses import rods
-from symgen.settings import Settings
 from symgen.analyses.subject import subject_of
+from symgen.settings import Settings
 
 #: Of the spring on the second hinge [N m/rad].
 STIFFNESS = 3.0
