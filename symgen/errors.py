@@ -140,7 +140,7 @@ def quoted(text: object, longest: int = LONGEST_QUOTE) -> str:
 
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return the hint ``did you mean 'x'?`` for the closest known word, or the list of known words."""
-    names = sorted(known)
+    names = sorted(set(known))
     if len(word) <= LONGEST_COMPARED:
         alike = [name for name in names if 2 * min(len(name), len(word)) >= CLOSE * (len(name) + len(word))]
         if len(alike) > MOST_COMPARED:

@@ -21,6 +21,7 @@ from symgen.describe.moved import moved
 from symgen.describe.start import described_start
 from symgen.integrators._tableau import Tableau
 from symgen.ir.program import FORMAT
+from symgen.lower.windings import winding_order
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
@@ -248,7 +249,7 @@ def _going_on(
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
-    windings = last.windings if len(last.windings) == info.windings else ()
+    windings = _turned(mechanism, compiled, last)
     start = assemble(compiled, q, v, p, strict, None, plan.solver_is_free, None, (last.t, windings))
     if start.light:
         compiled = compiled_for(mechanism, choice.given(solver="augmented"))
@@ -256,6 +257,14 @@ def _going_on(
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence(last)} with its coordinates and velocities alone: {'; '.join(other)}"
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
+
+
+def _turned(mechanism: Mechanism, compiled: CompiledModel, last: LastState) -> tuple[float, ...]:
+    """Return the angles that count turns in the order of a model, as another run left them; empty where it did not."""
+    before = winding_order(mechanism, str((last.made or {}).get("shape", compiled.shape)))
+    left = dict(zip(before, last.windings, strict=False))
+    here = winding_order(mechanism, compiled.shape)
+    return tuple(left[m] for m in here) if len(last.windings) == len(before) == len(here) else ()
 
 
 def choice_of(plan: Plan, last: LastState) -> MethodChoice:

@@ -2,7 +2,7 @@
 
 accelerations in a tangent basis that is carried on from step to step
 Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a41ad10caee565d0
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
 p[24] tolerance (default 1e-13)
 """
 

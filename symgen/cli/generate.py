@@ -51,7 +51,7 @@ def command(
     """
     from symgen.compiling.choose_coordinates import choose_coordinates, weighed
     from symgen.compiling.choose_tree import on_tree
-    from symgen.compiling.pipeline import MethodChoice, choose_method, generate
+    from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
     from symgen.describe.load import load
     from symgen.lower.looped.law import is_loopable
     from symgen.methods import METHODS
@@ -71,6 +71,7 @@ def command(
         massless = any(body.massless for body in mechanism.bodies)
         given = {name for name, asked in wanted.items() if "weight" in asked}
         choices = [c if c.method.name in given else weighed(c, massless) for c in choices]
+    choices = [for_coordinates(mechanism, c) for c in choices]
     folder = Path(mechanism.name if output is None else output)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")

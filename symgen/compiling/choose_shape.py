@@ -12,7 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.compiling.pipeline import folder_of, generator_digest
+from symgen.compiling.pipeline import folder_of, for_coordinates, generator_digest
 from symgen.errors import InputError
 from symgen.store.entries import Entries
 
@@ -76,7 +76,7 @@ def choose_shape(
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    coordinates = sum(len(b.coordinates) for b in mechanism.bodies)
+    coordinates, choice = sum(len(b.coordinates) for b in mechanism.bodies), for_coordinates(mechanism, choice)
     store = Entries() if entries is None else entries
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:

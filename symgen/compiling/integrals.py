@@ -21,7 +21,7 @@ from symgen.errors import InputError, finite_numbers
 from symgen.runtime import abi
 from symgen.runtime.compiled import CompiledModel
 from symgen.store.entries import Entries
-from symgen.store.modules import load_module
+from symgen.store.modules import interpreted, load_module
 
 
 def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
@@ -41,11 +41,11 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     auxiliary = compiled.law.nw, 1 + len(found)
     around = beside(mechanism, compiled)
     around = replace(around, sections={**around.sections, "auxiliary": auxiliary})
-    names = sorted(name for name, value in vars(law).items() if _is_emitted(value, law.__name__.rpartition(".")[0]))
-    path = Path(str(law.__file__))
+    files = _files(law)
+    stems = {name: file.stem for name, file in sorted(files.items())}
     texts = [to_text(integral.of) for integral in found]
-    store, folder = Entries(), path.parent.name
-    stem = stem_of("integrals", folder_of(mechanism), around, path.stem, *names, *texts)
+    store, folder = Entries(), next(iter(files.values())).parent.name
+    stem = stem_of("integrals", folder_of(mechanism), around, stems, *texts)
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.emit.side import emit_integrals
@@ -53,20 +53,33 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
 
         with finite_numbers("integrals of outputs"):
             program = lower_integrands(mechanism, around)
-        return emit_integrals(program, path.stem, names, abi.POWER), {}
+        return emit_integrals(program, stems, abi.POWER), {}
 
     store.made(folder, stem, make)
     return replace(
         compiled,
         info=msgspec.structs.replace(info, integrals=len(found), sections=info.sections | {"auxiliary": auxiliary}),
         law=msgspec.structs.replace(  # the last element of w is looped code's own
-            compiled.law, nw=sum(auxiliary) + 1, modules=(path.stem, *compiled.law.modules)
+            compiled.law, nw=sum(auxiliary) + 1, modules=tuple(dict.fromkeys((*stems.values(), *compiled.law.modules)))
         ),
         law_module=load_module(store.path(folder, stem)),
     )
 
 
+def _files(law: Any) -> dict[str, Path]:
+    """Return the file that each emitted function of a law is imported from, by the function's name.
+
+    That is the law's own module; where functions were gathered from several modules, as looped code's for implicit
+    integrators are, it is the one that defines the function.
+    """
+    file = getattr(law, "__file__", None)
+    if file is None:
+        return {name: Path(inspect.getfile(interpreted(value))) for name, value in vars(law).items()}
+    package = law.__name__.rpartition(".")[0]
+    return {name: Path(file) for name, value in vars(law).items() if _is_emitted(value, package)}
+
+
 def _is_emitted(value: Any, package: str) -> bool:
     """Whether it is a function of a module of this package, compiled or not."""
-    function = getattr(value, "py_func", value)
+    function = interpreted(value)
     return inspect.isfunction(function) and function.__module__.startswith(f"{package}.")

@@ -18,11 +18,14 @@ from symgen.compiling.pipeline import folder_of
 from symgen.compiling.side import beside, stem_of
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
 from symgen.lower.windings import Beside
+from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.probe import Few
 from symgen.store.entries import Entries
-from symgen.store.modules import interpreted, load_module
+from symgen.store.modules import load_module
 
 Array = NDArray[np.float64]
 
@@ -104,8 +107,8 @@ class DescriptorForm:
         return self._split[group, space]
 
     @cached_property
-    def _plain(self) -> Any:
-        return interpreted(self.function)
+    def _few(self) -> Few:
+        return Few(self.function, OBSERVE)
 
     def at(self, t: float, y: Array, a: Array, p: Array, w: Array) -> Evaluated:
         """Evaluate at a state.
@@ -123,8 +126,7 @@ class DescriptorForm:
         """
         out = np.zeros(self.values + len(self.pattern))
         rates = np.concatenate([np.zeros(self.widths["q"]), a])
-        with np.errstate(all="ignore"):
-            self._plain(t, y, p, w, rates, out)
+        self._few(t, y, p, w, rates, out)
         return Evaluated(self, out)
 
 
@@ -169,7 +171,9 @@ def _compiled(
     mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
     store, info, around, folder = Entries(), compiled.info, beside(mechanism, compiled), folder_of(mechanism)
-    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups)
+    # outputs stand outside the digest that folders are named by
+    reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
+    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups, reported)
     known = store.made(folder, stem, lambda: _built(mechanism, by, groups, around))
     if known["still"]:
         return None

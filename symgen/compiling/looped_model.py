@@ -56,10 +56,6 @@ class LoopedModel(CompiledModel):
         """Return True: nothing dense is made."""
         return True
 
-    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
-        """Call ``measure`` once."""
-        self.model.measure(t, y, p, w)
-
     def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
         """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
         if not self.info.spins:

@@ -23,7 +23,9 @@ from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
 from symgen.lower.windings import Beside, winding_order
+from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.probe import Few
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
 from symgen.vocabulary.expressions import Expr
@@ -60,11 +62,14 @@ class Side:
         """The function as plain Python, which a few evaluations are cheaper by."""
         return interpreted(self.function)
 
+    @cached_property
+    def _few(self) -> Few:
+        return Few(self.function, OBSERVE)
+
     def __call__(self, t: float, y: Array, p: Array, w: Array, ydot: Array) -> Array:
-        """Return the values at one state, by plain Python."""
+        """Return the values at one state, by plain Python where that defines them."""
         out = np.zeros(len(self.labels))
-        with np.errstate(all="ignore"):
-            self.plain(t, y, p, w, ydot, out)
+        self._few(t, y, p, w, ydot, out)
         return out
 
 

@@ -39,10 +39,6 @@ class StraightModel(CompiledModel):
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
         return self.with_scales(np.zeros(max(1, self.law.nw)))
 
-    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
-        """Call ``measure`` once, for which straight code is not worth compiling."""
-        interpreted(self.model.measure)(t, y, p, w)
-
     def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
         """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
         if not self.info.spins:

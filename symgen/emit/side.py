@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Mapping
 
 from symgen.emit.emit import straight, table_codes
 from symgen.emit.module import function, module, templates_digest
@@ -29,27 +29,25 @@ _FOLLOWED = {
 }
 
 
-def emit_integrals(program: SideProgram, law: str, names: Collection[str], power: int) -> str:
+def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> str:
     """Return the source of a law's module whose right-hand side has rates of integrals behind that of the work.
 
     Parameters
     ----------
     program : SideProgram
         From `symgen.lower.side.lower_integrands`.
-    law : str
-        Stem of the law's module, in the same folder.
-    names : collection of str
-        What that module has.
+    law : mapping of str to str
+        Functions of the law, each with the stem of the module in the same folder that it is imported from.
     power : int
         Where in ``w`` a residual leaves the rate of the work.
     """
     codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
-    exports = [name for name in names if name not in _FOLLOWED]
-    known = {name: (law, name) for name in exports}
+    exports = [name for name in law if name not in _FOLLOWED]
+    known = {name: (law[name], name) for name in exports}
     for name, (arguments, more) in _FOLLOWED.items():
-        if name not in names:
+        if name not in law:
             continue
-        known[f"law_{name}"] = (law, name)
+        known[f"law_{name}"] = (law[name], name)
         body = [f"flag = law_{name}({arguments})", more, "return flag"]
         if name == "residual":
             body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")

@@ -19,7 +19,7 @@ from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
-from symgen.lower.windings import Beside
+from symgen.lower.windings import Beside, winding_order
 from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
@@ -178,7 +178,10 @@ def _descriptor(model: SideModel, e: Equations) -> dict[str, list[int]]:
     wanted = [*e.q_rates, *e.forces, *(n for block in e.mass for row in block.entries for n in row)]
     wanted += [n for row in e.rows for n in (row.nu, row.gamma, *([] if row.phi is None else [row.phi]))]
     wanted += [n for row in e.rows for _, n in row.entries]
+    # equations count turns in the order of straight code, the model beside which they are read maybe in another one
+    turning = winding_order(model.mechanism, "straight")
     keys = {key: g.input(*key) for key in e.graph.keys(wanted)}
+    keys |= {key: g.input("winding", model.place_of_turn(turning[key[1]])) for key in keys if key[0] == "winding"}
     image = dict(zip(wanted, g.inline(e.graph, wanted, keys), strict=True))
     velocities = [g.input("v", i) for i in range(e.nv)]
     rates = [g.input("ydot", e.nq + i) for i in range(e.nv)]

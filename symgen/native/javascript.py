@@ -94,6 +94,9 @@ def javascript(functions: Mapping[str, lang.Function]) -> str:
             if _key(called) not in names:
                 names[_key(called)] = _free(_word(called.name), names.values())
                 define(called)
+        own = _key(function)
+        for array in function.tables:
+            names[own, array] = _free(f"{names[own]}_{_word(array)}", names.values())
         texts.append(_Printer(function, names).text())
 
     for function in functions.values():
@@ -138,7 +141,7 @@ class _Printer:
         """Return the definition, with the tables that it reads before it."""
         f = self.function
         tables = [
-            f"const {self.names[_key(f)]}_{_word(name)} = [{', '.join(_literal(x)[0] for x in values)}];"
+            f"const {self.names[_key(f), name]} = [{', '.join(_literal(x)[0] for x in values)}];"
             for name, values in f.tables.items()
         ]
         given = {p.name for p in f.parameters}
@@ -189,7 +192,7 @@ class _Printer:
             return _word(e.name), 20
         if isinstance(e, lang.Element):
             constant = e.array in self.function.tables
-            array = f"{self.names[_key(self.function)]}_{_word(e.array)}" if constant else _word(e.array)
+            array = self.names[_key(self.function), e.array] if constant else _word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
         if isinstance(e, lang.Call):
             given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)

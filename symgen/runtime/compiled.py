@@ -151,10 +151,6 @@ class CompiledModel(ABC):
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
 
     @abstractmethod
-    def measure(self, t: float, y: Array, p: Array, w: Array) -> None:
-        """Call ``measure`` once."""
-
-    @abstractmethod
     def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
         """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 from typing import Any
 from weakref import WeakKeyDictionary
 
+import numpy as np
+
+from symgen.store.modules import interpreted
+
 #: Functions that have machine code, each for some signatures: asking for it again costs more than most calls.
 _made: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
 
@@ -32,3 +36,29 @@ class Ready:
                 made.add(id(self._kind))
         self._kind = None
         return self._function(*arguments)
+
+
+class Few:
+    """An emitted function for a few calls from Python, which are not worth compiling it: plain Python evaluates it.
+
+    What plain Python refuses, such as the root of a negative number or a division by zero, is nan or infinite in
+    compiled code; where it refuses, the compiled function is called, so that both give the same.
+
+    Parameters
+    ----------
+    function : Dispatcher or function
+        What is called; it may only write what it has not read.
+    kind : FunctionType
+        As for `Ready`.
+    """
+
+    def __init__(self, function: Any, kind: Any) -> None:
+        self._plain, self._ready = interpreted(function), Ready(function, kind)
+
+    def __call__(self, *arguments: Any) -> Any:
+        """Call it."""
+        with np.errstate(all="ignore"):
+            try:
+                return self._plain(*arguments)
+            except (ArithmeticError, ValueError):
+                return self._ready(*arguments)

@@ -249,6 +249,19 @@ def test_data_of_a_recorded_motion_are_asked_for_again(pendulum):
     assert np.abs(again.efforts["held"] - run["held.torque"]).max() < 1e-9
 
 
+@pytest.mark.parametrize("push", ["4*abs(t - 0.23)", {"t": [0.0, 0.23, 0.5], "u": [0.92, 0.0, 1.08]}])
+def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):
+    """Two straight lines, as a formula and as data; the same with a step is refused."""
+    data = {**push, "interpolation": "linear"} if isinstance(push, dict) else push
+    run = pendulum.simulate(until=0.5, rtol=1e-10, output_step=0.1, inputs={"push": data})
+    found = pendulum.inverse(run, actuators=["held"], inputs={"push": data})
+    assert np.abs(found.efforts["held"] - run["held.torque"]).max() < 1e-9
+    assert np.abs(pendulum.inverse(run, actuators=["push"]).efforts["push"] - 4.0 * np.abs(run.t - 0.23)).max() < 1e-9
+    stepped = {**push, "interpolation": "hold"} if isinstance(push, dict) else "1 if t > 0.23 else 0"
+    with pytest.raises(InputError, match="inputs without jumps"):
+        pendulum.inverse(run, actuators=["held"], inputs={"push": stepped})
+
+
 def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     """A double pendulum whose first rod is driven: the motor's torque is what the run reports."""
     raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))

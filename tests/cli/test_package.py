@@ -140,3 +140,13 @@ def test_packages_in_joint_coordinates_give_the_numbers_of_runs(name, alone, tmp
 @pytest.mark.slow
 def test_a_package_is_compiled_by_numba_alone(alone, tmp_path):
     agrees("pendulum", alone, tmp_path, compiled=True)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_the_method_that_a_package_starts_is_in_it(coordinates, tmp_path):
+    """Bodies' own coordinates have their metric as the identity, and the module is called so."""
+    folder = tmp_path / "emitted"
+    arguments = ["--method", "direct-correction", "--option", "method.weight=body", "--coordinates", coordinates]
+    assert main(["generate", "pendulum", "-o", str(folder), *arguments]) == 0
+    stem = json.loads((folder / "start.json").read_text())["method"]
+    assert (folder / f"{stem}.py").exists() and (folder / f"{stem}.json").exists()

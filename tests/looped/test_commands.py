@@ -76,6 +76,12 @@ def test_generated_loops_stand_alone(cli, tmp_path):
     assert {p.name: p.read_bytes() for p in folder.iterdir()} == first
 
 
+def test_generating_leaves_out_only_methods_that_have_no_loops(cli, tmp_path):
+    arguments = ("--shape", "looped", "--option", "direct-correction.weight=body", "-o", tmp_path / "out")
+    assert cli("generate", "pendulum", *arguments)[0] == 0
+    assert (tmp_path / "out" / "law_direct_correction.py").exists()
+
+
 def test_ensembles_have_straight_code():
     with pytest.raises(InputError, match="straight code for an ensemble"):
         sweep(load("four-bar"), {"crank_mass": [1.0, 2.0]}, shape="looped")

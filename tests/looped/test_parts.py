@@ -15,7 +15,7 @@ from symgen import auto
 from symgen.api import load
 from symgen.compiling.choose_shape import choose_shape
 from symgen.compiling.looped import generate_looped, law_stem, shared_folder
-from symgen.compiling.pipeline import MethodChoice, choose_method, generator_digest
+from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError
 from symgen.lower.looped.forms import form_key
 from symgen.lower.looped.instances import instances
@@ -179,6 +179,17 @@ def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(
     chosen = choose_shape(load("n-four-bar:60").mechanism, choice, "auto", 1e4, entries)
     assert chosen.shape == "looped"
     assert "363 coordinates" in chosen.reason
+
+
+@pytest.mark.parametrize("weight", ["identity", "body"])
+def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, tmp_path):
+    """What is asked for as the one is judged, found and run as the other."""
+    entries, mechanism = Entries(tmp_path), load("pendulum").mechanism
+    asked, identity = (choose_method("direct-correction", {"weight": name}) for name in (weight, "identity"))
+    assert choose_shape(mechanism, asked, "looped", 1e4, entries).shape == "looped"
+    assert choose_shape(mechanism, asked, "auto", 1.0, entries).reason.startswith("faster runs outweigh")
+    compile_model(mechanism, identity, entries)
+    assert "compiled already" in choose_shape(mechanism, asked, "auto", 1.0, entries).reason
 
 
 def test_short_runs_are_looped_once_the_shared_code_is_there(tmp_path):

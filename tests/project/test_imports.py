@@ -7,6 +7,7 @@ held, and what one really pays for.
 from __future__ import annotations
 
 import ast
+import io
 import os
 import re
 import subprocess
@@ -16,6 +17,9 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+from symgen.compiling import pipeline
+from symgen.compiling.pipeline import GENERATING, TEMPLATES
 
 PACKAGE = Path(__file__).resolve().parents[2] / "symgen"
 
@@ -194,3 +198,49 @@ CLI = "from symgen.cli import main\nassert main() == 0"
 )
 def test_a_command_loads_only_what_it_needs(tmp_path: Path, command: tuple[str, ...], forbidden: set[str]) -> None:
     assert not loaded(CLI, tmp_path, *command) & forbidden
+
+
+#: Modules of symgen that code is made with and that leave no mark in it: errors, names of folders, lists of kinds.
+UNMARKED = {"arguments", "errors", "files", "registry"}
+
+
+def reached_by(path: Path) -> Iterator[str]:
+    """Give the modules of symgen that a source file names in its imports, without the package's own name."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("symgen."):
+            yield from (f"{node.module}.{alias.name}".removeprefix("symgen.") for alias in node.names)
+            yield node.module.removeprefix("symgen.")
+
+
+def test_whatever_code_is_generated_with_is_in_the_digest_of_the_generator():
+    """Followed from the folders that turn a mechanism into code: else caches would keep old code after an upgrade."""
+    waiting = [path for folder in ("formulate", "lower", "emit") for path in (PACKAGE / folder).rglob("*.py")]
+    reached = set(waiting)
+    while waiting:
+        for name in reached_by(waiting.pop()):
+            path = PACKAGE / (name.replace(".", "/") + ".py")
+            if path.is_file() and path not in reached:
+                reached.add(path)
+                waiting.append(path)
+    folders = {path.relative_to(PACKAGE).parts[0].removesuffix(".py") for path in reached}
+    assert "describe" in folders, "imports are followed"
+    assert folders <= {*GENERATING, *UNMARKED}
+    named = (PACKAGE.parent / "templates").rglob("*.j2")
+    assert {path.parent.name for path in named} - {"report"} == set(TEMPLATES)
+
+
+@pytest.mark.parametrize("file", ["describe/formulas.py", "lower/looped/kernels.py", "compiling/choose_tree.py"])
+def test_an_edit_of_a_source_makes_another_generator(file, monkeypatch):
+    class Raw(io.BytesIO):
+        def readall(self):
+            return self.read()
+
+    before = pipeline.generator_digest.__wrapped__()
+    assert pipeline.generator_digest.__wrapped__() == before
+    monkeypatch.setattr(
+        pipeline,
+        "open",
+        lambda path, *mode, **more: Raw(b"edited") if str(path).endswith(file) else open(path, *mode, **more),
+        raising=False,
+    )
+    assert pipeline.generator_digest.__wrapped__() != before

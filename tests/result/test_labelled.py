@@ -3,6 +3,7 @@ import pytest
 
 from symgen.errors import InputError
 from symgen.result.labelled import Labelled
+from symgen.result.select import choose
 
 
 @pytest.fixture
@@ -28,6 +29,15 @@ def test_array_and_rows(table):
 def test_an_unknown_name_gets_the_nearest_one(table):
     with pytest.raises(InputError, match=r"got 'crank.z'; did you mean 'crank\.[xy]'\?"):
         table["crank.z"]
+
+
+def test_a_refusal_names_each_quantity_once():
+    """Tables, and what names of their columns begin with, may be called the same."""
+    known = dict.fromkeys(("energy.total", "energy.drift", "lam.pin.x", "rod.x"), "energy")
+    with pytest.raises(InputError) as refused:
+        choose(known, ["zzzzzz"], "rods")
+    named = str(refused.value).partition("known: ")[2].partition(" and ")[0].split(", ")
+    assert {"energy", "lam", "rod"} <= set(named) and len(named) == len(set(named))
 
 
 def test_labels_must_fit_the_array():

@@ -266,3 +266,24 @@ def test_a_stopped_run_and_a_failed_one_are_gone_on_from(tmp_path: Path):
     assert failed.status == "failed"
     third = model.simulate(until=failed.last_state.t + 0.1, start=failed, **asked)
     assert third.ok and "that run failed" in third.notes[0]
+
+
+@pytest.mark.parametrize("shapes", [("straight", "looped"), ("looped", "straight")])
+def test_turns_are_known_to_the_other_shape(shapes):
+    """Discs on hinges of their own, of which the second is held by a torsion spring: it goes on from where it wound."""
+    disc = {"mass": 1.0, "inertia": [0.1, 0.1, 0.2]}
+    hinge = {"type": "revolute", "at": [[0.0, 0.0, 0.0], "centre"], "axis": [0.0, 0.0, 1.0]}
+    raw = {
+        "mechanism": {"name": "wound", "space": "spatial"},
+        "bodies": {"first": disc, "second": disc},
+        "joints": {name: {**hinge, "between": ["ground", body]} for name, body in (("A", "first"), ("B", "second"))},
+        "forces": {"spring": {"type": "torsional-spring-damper", "joint": "B", "stiffness": 3.0}},
+    }
+    model = symgen.load(mechanism_of(raw))
+    before, after = ({"method": "lagrange", "rtol": 1e-9, "shape": shape} for shape in shapes)
+    first = model.simulate(until=0.1, start={"B.angle": 9.0, "A.angle": 0.2}, **before)
+    second = model.simulate(until=0.2, start=first, **after)
+    swing = np.cos(np.sqrt(3.0 / 0.2) * np.array([0.1, 0.2]))
+    found = [result.joint_coordinates["B.angle"][-1] for result in (first, second)]
+    np.testing.assert_allclose(found, 9.0 * swing, rtol=1e-7)
+    np.testing.assert_allclose(second.joint_coordinates["A.angle"], 0.2, rtol=1e-12)

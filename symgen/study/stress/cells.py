@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.api import Model
 from symgen.auto import AUTO, resolve
+from symgen.compiling.pipeline import for_coordinates
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import AssemblyError, InputError
 from symgen.lower.looped.law import is_loopable
@@ -215,7 +216,8 @@ def _planned(model: Model, settings: Settings) -> tuple[Settings, Plan]:
     if plan.spec.adaptive and settings.step is not None:
         settings = replace(settings, step=None)
         plan = make_plan(model.mechanism, settings)
-    if plan.coordinates == "absolute" and is_loopable(plan.choice.method, plan.choice.options, plan.choice.implicit):
+    choice = for_coordinates(model.mechanism, plan.choice)
+    if plan.coordinates == "absolute" and is_loopable(choice.method, choice.options, choice.implicit):
         plan = replace(plan, choice=replace(plan.choice, shape="looped"))
     return settings, plan
 
