@@ -105,6 +105,47 @@ def test_energy_that_impacts_take_is_work():
     np.testing.assert_allclose(first.impulses["ball.vy"], m * (1.0 + E) * math.sqrt(2.0 * G), rtol=1e-12)
 
 
+def test_the_state_behind_a_reset_that_ends_a_run_has_its_energy():
+    """Reset and stop at the same time: the last output is that behind the blow, and so is the balance of energy."""
+    land = {"when": "ball.y < 0", "action": "stop"}
+    result = ball(**BOUNCE, land=land).simulate(method="lagrange", integrator="rk4", step=1e-2)
+    m, speed = 1.3, math.sqrt(2.0 * G)
+    assert result.ok and result.t[-1] == result.end == result.events[0].t
+    np.testing.assert_allclose(result["ball.vy"][-1], E * speed, rtol=1e-12)
+    np.testing.assert_allclose(result.kinetic[-1], 0.5 * m * (E * speed) ** 2, rtol=1e-12)
+    np.testing.assert_allclose(result.work[-1], 0.5 * m * speed**2 * (E * E - 1.0), rtol=1e-12)
+    assert abs(result.energy_error[-1]) < 1e-12 * m * G
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
+def test_many_resets_at_once_are_no_heap(integrator):
+    """Sixty of them that ask for the same, at one time: the ball goes on as after one."""
+    many = {f"impact{i}": BOUNCE["impact"] for i in range(60)}
+    result = ball(**many).simulate(method="lagrange", integrator=integrator, step=1e-2, until=1.2)
+    assert (result.status, result.reason) == ("ok", None) and len(result.events) == 120
+    for name in ("impact0", "impact59"):
+        np.testing.assert_allclose(times_of(result, name), [FIRST, FIRST * (1 + 2 * E)], rtol=0.0, atol=1e-12)
+
+
+def test_a_step_with_more_events_than_there_is_room_for_loses_none():
+    """Ten events at each of thirty times in one step, and behind them the impact."""
+    times = np.linspace(0.1, 0.4, 30)
+    noted = {f"at{k}x{i}": {"when": f"t > {t}"} for k, t in enumerate(times) for i in range(10)}
+    result = ball(**noted, **BOUNCE).simulate(method="lagrange", integrator="rk4", step=0.5, until=0.5)
+    assert result.ok and result.steps <= 5 and len(result.events) == 301
+    np.testing.assert_allclose([event.t for event in result.events][:300], np.repeat(times, 10), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(times_of(result, "impact"), [FIRST], rtol=0.0, atol=1e-12)
+    after = 0.5 - FIRST
+    np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
+
+
+def test_more_events_at_once_than_half_the_room_are_all_noted():
+    many = {f"low{i}": {"when": "ball.y < 0.5"} for i in range(300)}
+    result = ball(**many).simulate(method="lagrange", integrator="rk4", step=1e-2, until=0.4)
+    assert result.ok and len(result.events) == 300
+    np.testing.assert_allclose([event.t for event in result.events], 1.0 / math.sqrt(G), rtol=0.0, atol=1e-12)
+
+
 def spinning():
     rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.0, -0.5], "angle": "-pi/2"}
     return symgen.load(
