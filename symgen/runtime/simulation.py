@@ -117,7 +117,8 @@ class Simulation:
         from symgen.runtime.hunting import with_events
         from symgen.runtime.searching import decide
 
-        functions = *self.setup.functions, watched.function, decide
+        law = self.compiled.law_module
+        functions = *self.setup.functions, watched.function, decide, getattr(law, "rates", law.rhs)
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
 
