@@ -16,7 +16,7 @@ from symgen.methods import METHODS
 from symgen.plan import make_plan, refuse_weightless
 from symgen.run_setup import ready
 from symgen.runtime import abi
-from symgen.runtime.probe import Ready
+from symgen.runtime.probe import rate_function
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -147,7 +147,7 @@ def gather(
     eigenvalues = np.linalg.eigvals(jacobian) if np.all(np.isfinite(jacobian)) else np.zeros(1)
     rate = np.zeros_like(start.y)
     iw = np.zeros(len(COUNTERS), dtype=np.int64)
-    Ready(compiled.law_module.rhs, abi.RHS)(start.t, start.y.copy(), start.p, start.w.copy(), iw, rate)
+    rate_function(compiled)(start.t, start.y.copy(), start.p, start.w.copy(), iw, rate)
     # speeds and accelerations of points, over the mechanism's length
     levers = 1.0 / (float(start.w[abi.LENGTH]) * np.sqrt(compiled.section(start.w, "gauge")))
     speed = float(np.abs(info.parts(start.y)[1] * levers).max(initial=0.0))

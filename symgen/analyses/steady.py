@@ -17,8 +17,7 @@ from symgen.analyses.reduced import Quantity, Tangent, quantities_of, tangent
 from symgen.analyses.subject import RATE, Subject
 from symgen.errors import AnalysisError, InputError
 from symgen.ir.program import COUNTERS
-from symgen.runtime import abi
-from symgen.runtime.probe import Ready
+from symgen.runtime.probe import rate_function
 
 Array = NDArray[np.float64]
 
@@ -245,11 +244,11 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
     nq, nv, y = subject.nq, subject.nv, x.y
     kept = ~subject.redundant
 
-    rhs, w = Ready(subject.compiled.law_module.rhs, abi.RHS), subject.w.copy()
+    rates, w = rate_function(subject.compiled), subject.w.copy()
     iw, whole = np.zeros(len(COUNTERS), dtype=np.int64), np.zeros_like(y)
 
     def slope(t: float, z: Array) -> Array:
-        rhs(t, _filled(y, z), subject.p, w, iw, whole)
+        rates(t, _filled(y, z), subject.p, w, iw, whole)
         return whole[: nq + nv].copy()
 
     speed = max(float(np.abs(y[nq : nq + nv]).max(initial=0.0)), _speed_of_change(subject))

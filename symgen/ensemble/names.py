@@ -74,7 +74,7 @@ class Names:
         InputError
             If a name is none, means what another one does, or is given otherwise.
         """
-        known, seen, taken = (*self.parameters, *self.starts), dict[str, str](), {*given}
+        known, seen, taken = (*self.parameters, *self.starts), dict[str, str](), {self.one(name) for name in given}
         for name in varied:
             where = f"vary '{name}'"
             if name not in known:
@@ -87,9 +87,9 @@ class Names:
                     "an Euler parameter",
                     "write the orientation with a parameter, and vary that",
                 )
-            if name in taken:
-                raise InputError(where, "one way of giving it a value", "two")
             one = self.one(name)
+            if one in taken:
+                raise InputError(where, "one way of giving it a value", "two")
             if one in seen:
                 raise InputError(where, "each thing once", f"{seen[one]} and {name}, which are the same")
             seen[one] = name

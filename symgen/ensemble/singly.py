@@ -30,6 +30,7 @@ from symgen.result.reactions import Forces, seats
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
+from symgen.runtime.events import RESET
 from symgen.runtime.rows import summarise
 from symgen.runtime.run import outcome_of
 from symgen.runtime.simulation import Simulation
@@ -261,8 +262,10 @@ def note_events(row: Array, outcome: Outcome, code: int) -> None:
     if outcome.accumulation is not None:
         row[e.ACCUMULATION] = outcome.accumulation
         row[e.GATHERING] = sum(2.0 ** numbers[name] for name in watch.recent)
-    if code == e.IMPOSSIBLE and outcome.happened:
-        row[e.IMPOSSIBLE_EVENT] = numbers[outcome.happened[-1].name]
+    # a reset that was made has velocities behind it
+    refused = [x for x in outcome.happened if x.t == outcome.end and x.action == RESET and x.after is None]
+    if code == e.IMPOSSIBLE and refused:
+        row[e.IMPOSSIBLE_EVENT] = numbers[refused[-1].name]
 
 
 def event_columns(names: Sequence[str]) -> dict[str, tuple[int, str]]:

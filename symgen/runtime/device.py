@@ -33,6 +33,7 @@ _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], ty
 N_EVENTS = 2 * abi.N_EVENT
 _N_EVENT, _MAX_EVENTS, _PIVOT, _EVENTS = abi.N_EVENT, abi.MAX_EVENTS, abi.EVENT_PIVOT, abi.EVENTS
 _STOP, _OUTPUTS, _ENERGY_START = abi.STOP, abi.OUTPUTS, abi.ENERGY_START
+_DONE, _TIME = abi.DONE, abi.TIME
 
 
 class Starts(NamedTuple):
@@ -254,6 +255,8 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         k = starts.times.shape[0]
         outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
         code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, outputs)
+        if code == _DONE:  # a grid of steps meets the end up to rounding
+            clock[_TIME] = span.until
         narrowest = events[_N_EVENT:]
         ended = State(y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, room)
         summarise(code, ended, results.summary[:, i])

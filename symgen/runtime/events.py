@@ -80,7 +80,7 @@ class Watched:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
         n = len(self.names)
         first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
-        hunt = np.zeros(first + searching.NOTES * (2 + sizes.width))
+        hunt = np.zeros(first + (searching.NOTES + 2 * n) * (2 + sizes.width))
         hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
         columns[searching.DIRECTION] = self.directions
@@ -194,6 +194,7 @@ class Events:
         found = watched.impact(self.compiled, numbers, now, y, state.p, w)
         state.y[info.nq : info.nq + info.nv] = found.v
         state.y[info.work] += found.energy  # done by the impulses: the balance goes on behind it
+        state.w[abi.KINETIC] += found.energy
         state.control[[abi.BEGUN, abi.KNOWN, abi.POINTS, abi.REFUSED]] = abi.AFRESH, 0, 0, 0
         state.clock[abi.ALLOWED] = 0.0
         names = {watched.names[number] for number in numbers}
@@ -212,7 +213,7 @@ class Events:
         least = NOTHING_LEFT * self.until
         for number in numbers:
             name = self.watched.names[number]
-            times = np.array([event.t for event in self.happened[-_CROWDED * 4 :] if event.name == name])
+            times = self._latest_resets(_SHRINKING + 2, name)
             intervals = np.diff(times)
             if len(intervals) > _SHRINKING:
                 last = intervals[-_SHRINKING - 1 :]
@@ -223,11 +224,21 @@ class Events:
                     if rest < least:
                         self.accumulation = float(times[-1]) + rest
                         return True
-        resets = [event.t for event in self.happened[-4 * _CROWDED :] if event.action == RESET]
-        if len(resets) > _CROWDED and resets[-1] - resets[-1 - _CROWDED] < _HEAP * self.until:
-            self.accumulation = resets[-1]
+        resets = self._latest_resets(_CROWDED + 1)
+        if len(resets) > _CROWDED and resets[-1] - resets[0] < _HEAP * self.until:
+            self.accumulation = float(resets[-1])
             return True
         return False
+
+    def _latest_resets(self, count: int, name: str | None = None) -> Array:
+        """Return the last times of resets, of all or of one event, each once: any number of them may stand at one."""
+        found = list[float]()
+        for event in reversed(self.happened):
+            if event.action == RESET and name in (None, event.name) and (not found or event.t != found[-1]):
+                found.append(event.t)
+                if len(found) == count:
+                    break
+        return np.array(found[::-1])
 
     def _is_back(self, numbers: Sequence[int], state: hunting.HuntingState) -> bool:
         """Return whether the rebound from a reset is lost in rounding; note that time does not get on from here."""

@@ -309,7 +309,7 @@ def integrate(
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
-        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= _SETTING_OUT and following < until - tiny:
+        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= _SETTING_OUT and following < span.end - tiny:
             code = abi.DONE
         if code != abi.DONE:
             return code

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, frame, searching
 from symgen.runtime.bare import bare, part
-from symgen.runtime.frame import evaluate, integrate
+from symgen.runtime.frame import integrate
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
@@ -32,15 +32,16 @@ HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
 #: A `Run` with what is kept of events.
 HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
 #: A `System` with the functions of events.
-HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", module=__name__)
+HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", "rates", module=__name__)
 
 
 class HuntingScheme(NamedTuple):
-    """A scheme's record with the functions of events: switching functions with their rates, and what decides."""
+    """A scheme's record with the functions of events: switching functions with their rates, what decides, q' and v'."""
 
     scheme: Any
     happens: Any
     decide: Any
+    rates: Any
 
 
 #: How compiled loops see what a run keeps.
@@ -57,7 +58,8 @@ def opened(sizes: Any, state: Any) -> Any:
 
 def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
     """Return the model with the functions of events."""
-    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, scheme.happens, scheme.decide)
+    own = scheme.happens, scheme.decide, scheme.rates
+    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, *own)
 
 
 def scheme_of(scheme: Any) -> Any:
@@ -81,7 +83,9 @@ def evaluate_events(system: Any, run: Any, t: float, y: Any) -> None:
     if hunt[searching.NEEDS_RATES] != 0.0:
         decided(system, run, t, 0.0, searching.KEEP, y)
         copied(width, y, state)
-        evaluate(system, run, t, state, rate)  # which may close coordinates that depend on others
+        # which may close coordinates that depend on others
+        if system.rates(t, state, run.p, run.w, run.iw, rate) != 0:
+            system.confirm(t, state, run.p, run.w, run.iw, rate)
         run.control[abi.EVALUATIONS] += 1
     system.happens(t, y, run.p, run.w, rate, out)
     if hunt[searching.NEEDS_RATES] != 0.0:
@@ -124,6 +128,7 @@ def integrate_with_events(
     tangent: Any,
     happens: Any,
     decide: Any,
+    rates: Any,
     scheme: Any,
     sizes: Any,
     span: Any,
@@ -138,6 +143,8 @@ def integrate_with_events(
         As there.
     happens, decide : emitted function, function
         Switching functions with their rates, and `symgen.runtime.searching.decide`.
+    rates : emitted function
+        q' and v': ``rhs``, or that of a law which integrates something else than v.
     state : HuntingState
         What the run keeps; changed.
 
@@ -146,7 +153,7 @@ def integrate_with_events(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    hunting = HuntingScheme(scheme, happens, decide)
+    hunting = HuntingScheme(scheme, happens, decide, rates)
     return int(integrate(rhs, confirm, accept, turn, residual, tangent, hunting, sizes, span, state, outputs))
 
 
@@ -170,7 +177,8 @@ def with_events(loop: Any) -> Any:
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         signature = types.int64(
-            *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS
+            *frame.kinds_of(functions),
+            *(abi.OBSERVE, abi.DECIDE, abi.RHS, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS),
         )
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, integrate_with_events, signature, **{**meanings, **_MEANINGS})

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 def span_of(spec: RunSpec, setup: Setup, until: float | None = None, pause: float = np.inf) -> Span:
     """Return how far a loop goes, to the end of the run by default, and by which steps."""
     end = spec.until if until is None else until
-    numbers = setup.step, spec.largest_step, end, spec.scale_time, spec.rtol, spec.atol, spec.relative
+    numbers = setup.step, spec.largest_step, end, spec.until, spec.scale_time, spec.rtol, spec.atol, spec.relative
     return Span(*(float(number) for number in (*numbers, setup.safety, spec.max_steps, pause)))
 
 
@@ -32,7 +32,7 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
     places = (sections.get(name, (0, 0))[0] for name in names)
-    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), info.nq + info.nv, compiled.law.unknowns
+    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), max(1, info.nq + info.nv), compiled.law.unknowns
     auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
     return Sizes(*lengths, *places, auxiliary)
 

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from symgen.runtime import abi
 from symgen.store.modules import interpreted
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
 
 #: Functions that have machine code, each for some signatures: asking for it again costs more than most calls.
 _made: WeakKeyDictionary[Any, set[int]] = WeakKeyDictionary()
@@ -62,3 +67,25 @@ class Few:
                 return self._plain(*arguments)
             except (ArithmeticError, ValueError):
                 return self._ready(*arguments)
+
+
+def rate_function(compiled: CompiledModel) -> Callable[..., None]:
+    """Return the function (t, y, p, w, iw, rate) that sets `rate` to q' and v' at a state, and the multipliers in w.
+
+    A law that integrates something else than v has a function of its own for that; where a pivot is suspicious, rates
+    are those behind a closer look.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    """
+    law = compiled.law_module
+    function = getattr(law, "rates", law.rhs)
+    rates, confirm = Ready(function, abi.RHS), Ready(getattr(law, "confirm", function), abi.RHS)
+
+    def evaluate(*arguments: Any) -> None:
+        if rates(*arguments) != 0:
+            confirm(*arguments)
+
+    return evaluate

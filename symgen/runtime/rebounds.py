@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import abi
-from symgen.runtime.probe import Ready
+from symgen.runtime.probe import Ready, rate_function
 from symgen.runtime.searching import COUNT
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ def are_lost(
         Of the run [s].
     """
     info, t = compiled.info, float(state.clock[abi.TIME])
-    rhs, happens = Ready(compiled.law_module.rhs, abi.RHS), Ready(function, abi.OBSERVE)
+    rates, happens = rate_function(compiled), Ready(function, abi.OBSERVE)
     w, iw, p = state.w.copy(), state.iw.copy(), state.p
 
     def at(moment: float, y: Array, rate: Array) -> tuple[Array, Array]:
@@ -58,7 +58,7 @@ def are_lost(
         return out[: len(out) // 2], out[len(out) // 2 :]
 
     y, rate = state.y.copy(), np.zeros_like(state.y)
-    rhs(t, y, p, w, iw, rate)
+    rates(t, y, p, w, iw, rate)
     g, slope = at(t, y, rate)
     rounding = np.abs(at(t + _RELATIVE * abs(t), y, rate)[0] - g)
     index, other = np.arange(info.nq), y.copy()
@@ -70,7 +70,7 @@ def are_lost(
     rounding *= _EPSILON / _RELATIVE
     ahead = _AHEAD * duration
     y += ahead * rate
-    rhs(t + ahead, y, p, w, iw, rate)
+    rates(t + ahead, y, p, w, iw, rate)
     curve = (at(t + ahead, y, rate)[1] - slope) / ahead
     for k, direction in events:
         back = -np.sign(slope[k])  # the direction in which it would happen again

@@ -30,7 +30,8 @@ class Sizes(NamedTuple):
     width : int
         Length of arrays that hold a state, see `symgen.runtime.vectors`.
     controlled : int
-        Elements of the state that take part in error control.
+        Elements of the state that take part in error control, which errors are averaged over: at least 1, as a
+        mechanism that is welded together has none in the coordinates of its joints.
     unknowns : int
         Of a stage in the descriptor form; 0 where there is none.
     pivots, multipliers, mask, change, gauge, row_weight, jacobian, auxiliary : int
@@ -65,8 +66,8 @@ class Span(NamedTuple):
         Constant step, or first step of an adaptive run [s]; 0: chosen from the right-hand side.
     largest : float
         Bound of adaptive steps [s].
-    until, duration : float
-        End of what is to be done now, and the time by which a motion at rest is judged [s].
+    until, end, duration : float
+        End of what is to be done now and that of the whole run, and the time by which a motion at rest is judged [s].
     rtol, atol : float
         Tolerances of an adaptive run.
     relative : float
@@ -82,6 +83,7 @@ class Span(NamedTuple):
     step: float
     largest: float
     until: float
+    end: float
     duration: float
     rtol: float
     atol: float

@@ -143,7 +143,8 @@ def choose_rows(
         1 where other rows are kept than before.
     """
     width = n + m
-    farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, weights, w, room)
+    if farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, weights, w, room) < kept:
+        return 0  # where D is not finite nothing can be said
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
         room[masked + i] = 0.0
@@ -154,6 +155,8 @@ def choose_rows(
                 size = abs(room[i * width + n + k])
                 if room[masked + k] == 0.0 and size > most:
                     sum_, row, most = i, k, size
+        if row < 0:  # all sums that are left are those of rows that are not finite
+            return 0
         room[masked + row], room[lengths + sum_] = math.inf, -1.0
         for i in range(m):
             if room[lengths + i] >= 0.0:

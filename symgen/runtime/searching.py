@@ -26,23 +26,23 @@ A = Any
 #: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
 #: where rates need v', the bracket that is looked at, the whole step, what time resolves, ...
 _FIRST, DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(8)
-#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, events found in the step, notes, and notes
-#: that found no room.
-PROBES, ROUNDS, WIDTH, FOUND, NOTED, LOST = range(8, 14)
+#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, events found in the step, and notes.
+PROBES, ROUNDS, WIDTH, FOUND, NOTED = range(8, 13)
 #: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
 #: step, 1 where it has just happened, 1 where g is on the other side by rounding alone, side at the lower end of the
 #: bracket, how large g was in the step before; ...
 DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
 #: ... g and g' at the beginning and at the end of the step and of the bracket.
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
-N_HEAD, N_COLUMNS = 14, 15
+N_HEAD, N_COLUMNS = 13, 15
 _COUNTERS = abi.N_COUNTERS
 assert _FIRST == TRY, "the frame reads it there"
 #: What else is done with what is kept.
 LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK = range(CROWD + 1, CROWD + 6)
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
-#: Notes that there is room for; a loop is left where half of it is taken.
+#: So many notes have room, and those of all events twice more: a loop is left at the end of a step where half of this
+#: is taken, and at the next event where all of it is.
 NOTES = 256
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
@@ -104,15 +104,11 @@ def note(hunt: A, n: int, notes: int, t: float, width: int, y: A) -> int:
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
         if asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[at + G_HIGH * n + k], side)) == 1:
-            i = int(hunt[NOTED])
-            if i < NOTES:
-                to = notes + i * (2 + width)
-                hunt[to], hunt[to + 1] = t, float(k)
-                for j in range(width):
-                    hunt[to + 2 + j] = y[j]
-                hunt[NOTED] += 1.0
-            else:
-                hunt[LOST] += 1.0
+            to = notes + int(hunt[NOTED]) * (2 + width)
+            hunt[to], hunt[to + 1] = t, float(k)
+            for j in range(width):
+                hunt[to + 2 + j] = y[j]
+            hunt[NOTED] += 1.0
     return 0
 
 
@@ -146,14 +142,18 @@ def crossed(hunt: A, n: int, column: int, leaving: int) -> int:
 
 
 @plain
+def taken_for(hunt: A, n: int, k: int, h: float) -> float:
+    """Return what g counts as at the state that was tried: as on the side of the run until it has come to be there."""
+    at, g = N_HEAD, hunt[N_HEAD + N_COLUMNS * n + k]
+    before = abs(hunt[at + G_START * n + k])
+    near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(g) < 8.0 * before
+    return float(hunt[at + SIDE * n + k] * before) if near and hunt[at + GRAZING * n + k] != 0.0 else float(g)
+
+
+@plain
 def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
     """Take the values at the state that was tried, which stand behind the columns, into the bracket."""
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
-    for k in range(n):
-        before = abs(hunt[at + G_START * n + k])
-        near = h * abs(hunt[at + D_START * n + k]) < 4.0 * before and abs(hunt[out + k]) < 8.0 * before
-        if near and hunt[at + GRAZING * n + k] != 0.0:
-            hunt[out + k] = hunt[at + SIDE * n + k] * before  # has not come away from the event yet
     if hunting == NOTHING:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
         hunt[PROBES] = hunt[ROUNDS] = hunt[FOUND] = 0.0
@@ -162,18 +162,19 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
             hunt[at + LOCAL * n + k] = hunt[at + SIDE * n + k]
             hunt[at + G_LOW * n + k] = hunt[at + G_START * n + k]
             hunt[at + D_LOW * n + k] = hunt[at + D_START * n + k]
-            hunt[at + G_HIGH * n + k], hunt[at + G_END * n + k] = hunt[out + k], hunt[out + k]
+            value = taken_for(hunt, n, k, h)
+            hunt[at + G_HIGH * n + k], hunt[at + G_END * n + k] = value, value
             hunt[at + D_HIGH * n + k], hunt[at + D_END * n + k] = hunt[out + n + k], hunt[out + n + k]
         return 0
     inside = 1 if h == hunt[HIGH] else 0
     for k in range(n):
         side = hunt[at + LOCAL * n + k]
-        inside = max(inside, asked(hunt[at + DIRECTION * n + k], side, side_of(hunt[out + k], side)))
+        inside = max(inside, asked(hunt[at + DIRECTION * n + k], side, side_of(taken_for(hunt, n, k, h), side)))
     g, d = G_HIGH if inside == 1 else G_LOW, D_HIGH if inside == 1 else D_LOW
     for k in range(n):
         if inside == 0:
-            hunt[at + LOCAL * n + k] = side_of(hunt[out + k], hunt[at + LOCAL * n + k])
-        hunt[at + g * n + k] = hunt[out + k]
+            hunt[at + LOCAL * n + k] = side_of(taken_for(hunt, n, k, h), hunt[at + LOCAL * n + k])
+        hunt[at + g * n + k] = taken_for(hunt, n, k, h)
         hunt[at + d * n + k] = hunt[out + n + k]
     hunt[HIGH if inside == 1 else LOW] = h
     return 0
@@ -277,7 +278,8 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
                 hunt[TRY] = candidate(hunt, n)
                 hunt[ROUNDS] += 1.0
                 return SEEK
-            if crossed(hunt, n, G_HIGH, 1) == 1:
+            # where notes have to be taken before others find room, the step ends here as well
+            if crossed(hunt, n, G_HIGH, 1) == 1 or hunt[NOTED] > NOTES:
                 hunt[DOING], hunt[TRY] = _TO_EVENT, high
                 return TAKE
             if h != high:

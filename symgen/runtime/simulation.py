@@ -117,7 +117,8 @@ class Simulation:
         from symgen.runtime.hunting import with_events
         from symgen.runtime.searching import decide
 
-        functions = *self.setup.functions, watched.function, decide
+        law = self.compiled.law_module
+        functions = *self.setup.functions, watched.function, decide, getattr(law, "rates", law.rhs)
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
 
@@ -131,13 +132,19 @@ class Simulation:
 
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
-        state, info = self.state, self.compiled.info
+        info = self.compiled.info
+        state: Any = self.state  # a `HuntingState` where there are events
         kept = {*state._fields, *names_kept(self.scheme)}  # files of before hold empty arrays beside these
-        self.restore({name: array for name, array in saved.items() if name in kept})
+        taken = {name: array for name, array in saved.items() if name in kept}
+        # other events, or these as another version kept them: on which side they are is to be seen
+        anew = self.events is not None and len(taken.get("hunt", ())) != len(state.hunt)
+        if anew:
+            taken.pop("hunt", None)
+        self.restore(taken)
         varying = {name for piece in self.spec.pieces for name in piece.values}
         numbers = {q.name: float(x) for q, x in zip(info.parameters, p, strict=False) if q.name in info.inputs}
         self.changes.give({name: x for name, x in numbers.items() if name not in varying})
-        if self.events is not None and "hunt" not in saved:  # other events: on which side they are is to be seen
+        if anew:
             state.control[abi.BEGUN] = abi.AFRESH
         self._shown = tuple(saved[name] for name in SHOWN)
         self.set_limits()
@@ -230,9 +237,12 @@ class Simulation:
         held, control = list[tuple[float, Array]](), self.state.control
 
         def follow() -> None:
-            count = int(control[abi.OUTPUTS])
-            if count > 0 and (not held or outputs.times[count - 1] > held[-1][0]):
-                held.append((float(outputs.times[count - 1]), self.state.p.copy()))
+            count = int(control[abi.OUTPUTS])  # what is asked for later is at outputs and at events
+            times = [float(outputs.times[count - 1])] if count > 0 else []
+            if self.events is not None:
+                times += [event.t for event in self.events.happened[-1:]]
+            if times and (not held or max(times) > held[-1][0]):
+                held.append((max(times), self.state.p.copy()))
 
         return held, follow
 

@@ -82,6 +82,7 @@ class SteppedRun:
         self._changed, self._adaptive = dict(parameters), plan.spec.adaptive
         self._free = free and not self._adaptive
         self._loop = Simulation(compiled, plan.tableau, start, plan.spec)
+        self._loop.span = self._loop.span._replace(end=math.inf)  # `until` is none
         state = self._loop.state
         self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)

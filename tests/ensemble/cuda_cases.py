@@ -17,6 +17,8 @@ MASSES = {"crank_mass": [2.0, 3.0, -1.0]}
 #: Name -> (model, what varies, settings).
 CASES = {
     "planar": ("four-bar", MASSES, {**SHORT, "quantities": EVERYTHING, "times": (0.0, 0.0011, 0.01)}),
+    # three steps of 0.1 s add up to something else than 0.3 s
+    "grid": ("pendulum", {"bob_mass": [1.0, 2.0]}, {"until": 0.3, "step": 0.1, "max_energy_error": 1.0}),
     "spatial": ("spatial-slider-crank", {"crank.wx": [5.0, 6.0]}, SHORT),
     "lagrange": (
         "four-bar",

@@ -80,6 +80,18 @@ def test_balls_bounce_each_with_its_own_restitution_until_their_impacts_accumula
         np.testing.assert_array_equal(found["ball.y"][i, 0], one["ball.y"][0])
 
 
+def test_an_input_that_cannot_be_is_not_blamed_on_an_event():
+    """The ball has bounced when the input jumps to where a formula of it is no number."""
+    raw_ball = copy.deepcopy(BALL)
+    raw_ball["inputs"] = {"lift": 1.0}
+    raw_ball["forces"] = {"lift": {"type": "force", "body": "ball", "force": [0.0, "sqrt(lift)"]}}
+    model = symgen.load(mechanism_of({**raw_ball, "events": IMPACT}))
+    jump = {"t": [0.0, 0.9], "u": [1.0, -1.0], "interpolation": "hold"}
+    found = symgen.sweep(model, {"bounce": [0.5, 0.7]}, inputs={"lift": jump}, times=(1.0,), until=1.0, **FALLING)
+    assert list(found.status) == ["failed"] * 2 and (found["event.impact.count"] >= 1).all()
+    assert not any("impact" in reason for reason in found.reason), found.reason
+
+
 def test_a_reset_that_cannot_be_is_a_failed_row():
     """A pendulum cannot be thrown along its rod; a run that never gets there is none the worse."""
     description = copy.deepcopy(raw("pendulum"))

@@ -75,6 +75,30 @@ def test_adaptive_runs_with_dense_output():
     compare(found, model, 0.0, **settings)
 
 
+def test_a_run_whose_accelerations_are_no_numbers_leaves_the_next_ones_alone():
+    """One after the other in the same memory: where the force is no number at the start, that run alone fails."""
+    model = symgen.load(
+        mechanism_of(
+            {
+                "mechanism": {"name": "rooted"},
+                "parameters": {"k": 0.0},
+                "bodies": {"b": {"mass": 1.0, "inertia": 1.0, "points": {"P": [-1.0, 0.0]}, "position": [1.0, 0.0]}},
+                "joints": {"pin": {"type": "revolute", "between": ["ground", "b"], "at": [[0.0, 0.0], "P"]}},
+                "forces": {"pull": {"type": "force", "body": "b", "at": "centre", "force": [0.0, "sqrt(b.x - k)"]}},
+            }
+        )
+    )
+    k = [2.0, 0.5, 3.0, 0.25] * 10
+    settings = {"method": "lagrange", "integrator": "rk4", "step": 1e-2, "until": 0.05, "times": (0.0, 0.05)}
+    found = symgen.sweep(model, {"k": k}, quantities=("q", "b.ay", "joint"), jobs=1, **settings)
+    assert found.ensemble.chunk > 1 and list(found.status) == ["failed", "ok"] * 20
+    for i in (1, 3):
+        one = model.simulate(parameters={"k": k[i]}, **settings)
+        np.testing.assert_array_equal(found["b.y"][i], one["b.y"])
+        np.testing.assert_array_equal(found["b.ay"][i], one.a["b.ay"])
+    assert np.isnan(found["b.ay"][0]).all()
+
+
 def test_without_output_times_only_the_end_is_kept():
     found = symgen.sweep("pendulum", {"bob_mass": [1.0, 2.0]}, until=0.5, integrator="dopri5")
     assert found.values.shape == (2, 4, 1)
@@ -248,6 +272,14 @@ def test_a_coordinate_in_space():
 def test_what_does_not_fit_is_refused_in_one_sentence(settings, said):
     with pytest.raises(InputError, match=said):
         symgen.sweep("four-bar", **{"vary": {"crank_mass": [1.0]}, "until": 0.01, **settings})
+
+
+def test_what_varies_is_not_given_otherwise_by_another_name():
+    """The angle of the joint at the ground is that of the crank, whatever either is called."""
+    settings = {"method": "lagrange", "until": 0.01}
+    for one, other in (("crank.theta", "A.angle"), ("A.angle", "crank.theta"), ("crank.omega", "A.angle.rate")):
+        with pytest.raises(InputError, match=rf"vary '{one}': expected one way of giving it a value, got two"):
+            symgen.sweep("four-bar", {one: [0.9, 1.0]}, start={other: 0.3}, **settings)
 
 
 def test_an_automatic_choice_is_made_once_and_noted():

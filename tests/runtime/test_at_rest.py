@@ -7,6 +7,7 @@ written out here.
 from __future__ import annotations
 
 import pytest
+from support.emitted import mechanism_of
 
 from symgen.api import load
 from symgen.describe.load import parse_toml
@@ -66,6 +67,33 @@ def test_a_first_order_scheme_falls_from_rest():
     assert run["sled.vx"][-1] == pytest.approx(weight / MASS * until, rel=1e-12)
     # the work of the force is integrated by Euler's steps as well, by the speeds at their beginning
     assert run.energy_drift_max == pytest.approx(weight**2 / MASS * until * step / 2, rel=1e-9)
+
+
+def test_a_first_order_scheme_falls_from_rest_in_pieces_as_in_one():
+    """Where a piece ends, at a jump or where a call ends, no energy is judged that a whole run does not judge."""
+    settings = {"method": "lagrange", "integrator": "euler", "step": 1e-3}
+    model = sled("6.0")
+    whole = model.simulate(until=0.5, **settings)
+    assert whole.ok
+    run = model.start(**settings, until=0.5)
+    for end in (2e-3, 5e-3, 0.5):
+        run.run(end)
+    assert run.state["sled.x"] == whole["sled.x"][-1]
+    short = model.start(**settings, until=2e-3)  # which is no end of it
+    short.run(5e-3)
+    pushed = load(
+        mechanism_of(
+            {
+                "mechanism": {"name": "pushed", "gravity": [0.0, 0.0]},
+                "bodies": {"sled": {"type": "point", "mass": MASS}},
+                "inputs": {"push": 6.0},
+                "forces": {"push": {"type": "force", "body": "sled", "force": ["push", 0.0]}},
+            }
+        )
+    )
+    jump = {"t": [0.0, 2e-3], "u": [6.0, 6.5], "interpolation": "hold"}
+    jumps = pushed.simulate(until=0.5, inputs={"push": jump}, **settings)
+    assert (jumps.status, jumps.reason) == ("ok", None)
 
 
 def test_an_energy_that_stays_wrong_ends_a_run_and_so_does_one_at_its_end():

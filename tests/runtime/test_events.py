@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.plan import make_plan
 from symgen.run_setup import watching
+from symgen.runtime.probe import rate_function
 from symgen.runtime.simulation import Simulation
 from symgen.settings import Settings
 from symgen.study.stress.study import stress
@@ -105,6 +107,47 @@ def test_energy_that_impacts_take_is_work():
     np.testing.assert_allclose(first.impulses["ball.vy"], m * (1.0 + E) * math.sqrt(2.0 * G), rtol=1e-12)
 
 
+def test_the_state_behind_a_reset_that_ends_a_run_has_its_energy():
+    """Reset and stop at the same time: the last output is that behind the blow, and so is the balance of energy."""
+    land = {"when": "ball.y < 0", "action": "stop"}
+    result = ball(**BOUNCE, land=land).simulate(method="lagrange", integrator="rk4", step=1e-2)
+    m, speed = 1.3, math.sqrt(2.0 * G)
+    assert result.ok and result.t[-1] == result.end == result.events[0].t
+    np.testing.assert_allclose(result["ball.vy"][-1], E * speed, rtol=1e-12)
+    np.testing.assert_allclose(result.kinetic[-1], 0.5 * m * (E * speed) ** 2, rtol=1e-12)
+    np.testing.assert_allclose(result.work[-1], 0.5 * m * speed**2 * (E * E - 1.0), rtol=1e-12)
+    assert abs(result.energy_error[-1]) < 1e-12 * m * G
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "dop853"])
+def test_many_resets_at_once_are_no_heap(integrator):
+    """Sixty of them that ask for the same, at one time: the ball goes on as after one."""
+    many = {f"impact{i}": BOUNCE["impact"] for i in range(60)}
+    result = ball(**many).simulate(method="lagrange", integrator=integrator, step=1e-2, until=1.2)
+    assert (result.status, result.reason) == ("ok", None) and len(result.events) == 120
+    for name in ("impact0", "impact59"):
+        np.testing.assert_allclose(times_of(result, name), [FIRST, FIRST * (1 + 2 * E)], rtol=0.0, atol=1e-12)
+
+
+def test_a_step_with_more_events_than_there_is_room_for_loses_none():
+    """Ten events at each of thirty times in one step, and behind them the impact."""
+    times = np.linspace(0.1, 0.4, 30)
+    noted = {f"at{k}x{i}": {"when": f"t > {t}"} for k, t in enumerate(times) for i in range(10)}
+    result = ball(**noted, **BOUNCE).simulate(method="lagrange", integrator="rk4", step=0.5, until=0.5)
+    assert result.ok and result.steps <= 5 and len(result.events) == 301
+    np.testing.assert_allclose([event.t for event in result.events][:300], np.repeat(times, 10), rtol=0.0, atol=1e-12)
+    np.testing.assert_allclose(times_of(result, "impact"), [FIRST], rtol=0.0, atol=1e-12)
+    after = 0.5 - FIRST
+    np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
+
+
+def test_more_events_at_once_than_half_the_room_are_all_noted():
+    many = {f"low{i}": {"when": "ball.y < 0.5"} for i in range(300)}
+    result = ball(**many).simulate(method="lagrange", integrator="rk4", step=1e-2, until=0.4)
+    assert result.ok and len(result.events) == 300
+    np.testing.assert_allclose([event.t for event in result.events], 1.0 / math.sqrt(G), rtol=0.0, atol=1e-12)
+
+
 def spinning():
     rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.0, -0.5], "angle": "-pi/2"}
     return symgen.load(
@@ -129,6 +172,49 @@ def test_a_rod_passes_a_turn_where_the_elliptic_integral_says():
     np.testing.assert_allclose(result.end, whole, rtol=0.0, atol=1e-12)
     assert result["rod.theta"][-1] > 1.5 * math.pi > result["rod.theta"][-1] - 1e-13
     assert result.notes[-1] == f"stopped at t = {result.end:.13g} s by the event 'rod.theta > 1.5*pi'"
+
+
+def falling_rod(**events):
+    """A rod that falls from rest about its end: omega^2 = 2 m g l sin(-theta) / (I + m l^2), theta from 0 on."""
+    rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.5, 0.0]}
+    pin = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "A"]}
+    raw = {"mechanism": {"name": "falling-rod", "gravity": [0.0, -G]}, "bodies": {"rod": rod}, "joints": {"pin": pin}}
+    return symgen.load(mechanism_of({**raw, "events": events}))
+
+
+@pytest.mark.parametrize("method", ["lagrange", "augmented-hamiltonian"])
+def test_accelerations_are_those_of_the_motion_whatever_a_method_integrates(method):
+    """A speed that is passed once is met once; a rod that hardly rebounds from a stop rests on it."""
+    settings = {"method": method, "integrator": "rk4", "step": 1e-3, "max_violation": 1e-3}
+    square = 2.0 * 1.2 * G * 0.5 / (0.1 + 1.2 * 0.25)
+    passed = {"when": "rod.omega < -1", "reset": {"rod.omega": "rod.omega"}}
+    result = falling_rod(passed=passed).simulate(until=0.2, **settings)
+    assert result.ok and len(result.events) == 1
+    np.testing.assert_allclose(result.events[0].q["rod.theta"], -math.asin(1.0 / square), rtol=1e-6)
+    stop = {"when": "rod.theta < -0.3", "reset": {"rod.omega": "-1e-9*rod.omega"}}
+    result = falling_rod(stop=stop).simulate(until=0.5, **settings)
+    assert len(result.events) == 1 and result.reason.startswith("events of 'stop' accumulate at t = ")
+    np.testing.assert_allclose(result.events[0].v["rod.omega"], -math.sqrt(square * math.sin(0.3)), rtol=1e-6)
+
+
+def test_rates_are_those_behind_a_closer_look_where_a_pivot_is_suspicious():
+    def wrong(t, y, p, w, iw, rate):
+        rate[:] = math.nan
+        return 1
+
+    def right(t, y, p, w, iw, rate):
+        rate[:] = y + t
+        return 0
+
+    y = np.array([1.0, 2.0])
+    for law in (
+        SimpleNamespace(rhs=wrong, confirm=right),
+        SimpleNamespace(rhs=right),
+        SimpleNamespace(rhs=wrong, rates=right),
+    ):
+        rate = np.zeros(2)
+        rate_function(SimpleNamespace(law_module=law))(3.0, y, None, None, None, rate)
+        np.testing.assert_array_equal(rate, [4.0, 5.0])
 
 
 @pytest.mark.parametrize("when", ["t > 0.1234", "sin(t) > sin(0.1234)", "not t < 0.1234", "t > 0.1 and t > 0.1234"])

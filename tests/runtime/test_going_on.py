@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import pickle
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -193,6 +194,19 @@ def test_a_run_of_another_making_takes_coordinates_and_velocities(change, told):
     whole = model.simulate(until=STEP * (LAST + 5), start=first, **{**asked, **change})
     np.testing.assert_array_equal(third.q.values, whole.q.values[-len(third.t) :])
     np.testing.assert_array_equal(third.work, whole.work[-len(third.t) :])
+
+
+def test_events_that_another_version_kept_otherwise_are_looked_for_anew():
+    """What is kept of events has another length: everything else is taken up, and those behind are found."""
+    model, asked = symgen.load("four-bar"), {"method": "direct-correction", "integrator": "rk4", "step": STEP}
+    asked |= {"record_when": ("t > 0.0301", "t > 0.2003")}
+    first, whole = (model.simulate(until=until, **asked) for until in (0.05, 0.3))
+    last = first.last_state
+    arrays = {**last.arrays, "hunt": last.arrays["hunt"][:-7]}
+    second = model.simulate(until=0.3, start=replace(last, arrays=arrays), **asked)
+    assert second.ok and len(whole.events) == 2
+    assert [x.t for x in second.events] == [x.t for x in whole.events if x.t > 0.05]
+    np.testing.assert_array_equal(second.q.values, whole.q.values[-len(second.t) :])
 
 
 def test_drivers_and_turns_go_on_in_another_making():

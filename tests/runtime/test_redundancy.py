@@ -197,3 +197,21 @@ def test_the_rank_is_none_of_the_order_of_elimination(name: str, rank: int, unti
     assert (result.status, result.reason, result.rank_events) == ("ok", None, ())
     assert result.rank.rank == rank and len(result.rank.redundant_rows) == result.rank.rows - rank
     assert off(result, system, q) < 1e-7
+
+
+def test_rows_that_are_no_numbers_leave_the_choice_as_it_was() -> None:
+    """Three rows in two columns, one to be left out: where D is not defined, nothing is chosen or written."""
+    m, n, kept = 3, 2, 2
+    entries = np.array([[i, j, n * i + j] for i in range(m) for j in range(n)], dtype=np.int64).ravel()
+    w = np.concatenate([[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], np.ones(n), [0.0, 0.0, np.inf]])
+    places, mask = (0, m * n, m * n + n), slice(m * n + n, None)
+    room = np.full(m * (n + m) + 2 * m + 1, 7.0)
+    for broken, where in ((np.nan, slice(6)), (np.inf, slice(6)), (np.nan, slice(4, 6)), (np.nan, slice(2, 6))):
+        w[:6] = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0]
+        w[where] = broken
+        before = w.copy()
+        with np.errstate(invalid="ignore"):
+            changed = plain_form(choose_rows)(m, n, kept, entries, np.zeros(len(entries) // 3), *places, w, room[1:])
+        assert changed == 0
+        np.testing.assert_array_equal(w, before)
+        assert np.count_nonzero(w[mask]) == m - kept and room[0] == 7.0

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from symgen.native.library import kinds_of
-from symgen.runtime import abi, searching, switching
+from symgen.runtime import abi, frame, hunting, searching, switching
+from symgen.runtime.exact import plain_form
 
 
 def test_the_search_is_in_the_language_of_emitted_code():
@@ -36,3 +37,40 @@ def test_the_first_root_of_a_cubic_is_numpys():
         # roots of a polynomial with coefficients near 10 and gaps above 1e-3: rounding over its slope there
         assert switching.first_root(g0, d0, g1, d1, 1.0) == pytest.approx(inside[0], abs=1e-9)
     assert met > 250
+
+
+def hunted(*functions):
+    """What is kept of events whose values and rates are given, with a state of one number that is their time."""
+    n, width = len(functions), 8
+    notes = hunting.notes_at(n, width, 1, abi.N_COUNTERS)
+    hunt = np.zeros(notes + (searching.NOTES + 2 * n) * (2 + width))
+    hunt[searching.COUNT] = n
+    w, iw, y = np.zeros(1), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(width)
+    out = searching.N_HEAD + searching.N_COLUMNS * n
+
+    def told(t, h, doing):
+        hunt[out : out + 2 * n] = np.ravel(np.array([function(t) for function in functions]).T)
+        return plain_form(searching.decide)(hunt, n, notes, t, h, doing, width, y, w, iw)
+
+    return hunt, told
+
+
+def test_a_reset_that_leaves_g_beside_zero_by_rounding_is_no_event_until_g_has_come_away():
+    """Behind a reset g is -1e-16, on its way up: steps so short that it stays there are not events of their own."""
+    beside = 1e-16
+    hunt, told = hunted(lambda t: (t - beside, 1.0))
+    at = searching.N_HEAD
+    columns = hunt[at : at + searching.N_COLUMNS]
+    columns[searching.DIRECTION], columns[searching.LEAVES] = -1.0, 1.0
+    # the event has just happened: the run came from above, and g stands beside zero
+    columns[searching.SIDE], columns[searching.FIRED], columns[searching.SIZE] = -1.0, 1.0, 1.0
+    columns[searching.G_START], columns[searching.D_START] = -beside, -1.0
+    told(0.0, 0.0, searching.LOOK)
+    assert columns[searching.SIDE] == columns[searching.GRAZING] == 1.0
+    t = 0.0
+    for h in (1e-17, 2e-17, 1e-17):
+        t += h
+        assert told(t, h, frame.NOTHING) == frame.NOTHING
+    assert told(1.0, 1.0 - t, frame.NOTHING) == frame.NOTHING
+    assert columns[searching.GRAZING] == 0.0 and columns[searching.SIDE] == 1.0
+    assert told(2.0, 1.0, frame.NOTHING) == frame.NOTHING

@@ -219,3 +219,24 @@ def test_step_by_step():
     assert run.bodies["coupler.x"] == whole["coupler.x"][-1]
     assert run.events[0].v_after["coupler.omega"] == 1.5 and run.events[0].work == whole.events[0].work
     assert [name.partition(".")[0] for name in run.events[0].q] != [n.partition(".")[0] for n in whole.events[0].q]
+
+
+@pytest.mark.parametrize("times", [(0.4,), (0.05, 0.4)])
+def test_a_reset_reads_the_input_of_its_time_wherever_outputs_are(times):
+    """The input jumps behind the blow, with no output in between: velocity and impulse are those of before it."""
+    rod = {"mass": 1.2, "inertia": 0.1, "points": {"A": [-0.5, 0.0]}, "position": [0.5, 0.0], "angular_velocity": 1.0}
+    raw = {
+        "mechanism": {"name": "struck-rod", "gravity": [0.0, 0.0]},
+        "bodies": {"rod": rod},
+        "joints": {"pin": {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "A"]}},
+        "inputs": {"speed": 1.0},
+        "events": {"blow": {"when": "t > 0.1", "reset": {"rod.omega": "speed"}}},
+    }
+    model = symgen.load(mechanism_of(raw))
+    settings = {"method": "lagrange", "integrator": "rk4", "step": 1e-2, "until": 0.4, "times": times}
+    jump = {"t": [0.0, 0.25], "u": [3.0, 7.0], "interpolation": "hold"}
+    result = model.simulate(coordinates="joint", inputs={"speed": jump}, **settings)
+    (blow,) = result.events
+    assert result.ok and blow.v_after["rod.omega"] == pytest.approx(3.0, rel=1e-12)
+    # about the pin: (I + m l^2) (3 - 1)
+    assert blow.impulses["rod.omega"] == pytest.approx((0.1 + 1.2 * 0.25) * 2.0, rel=1e-12)

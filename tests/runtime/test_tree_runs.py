@@ -164,3 +164,19 @@ def test_refusals():
         model.simulate(coordinates="joint", shape="looped")
     with pytest.raises(InputError, match="absolute, joint, auto"):
         model.simulate(coordinates="relative")
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "abm", "radau5"])
+def test_what_is_welded_to_the_ground_stays_there(integrator):
+    """No coordinate is left that an error could be estimated of, but for the work."""
+    welded = {
+        "mechanism": {"name": "welded", "gravity": [0.0, -9.81]},
+        "bodies": {"a": {"mass": 1.0, "inertia": 1.0, "points": {"P": [0.5, 0.0]}, "position": [0.5, 0.0]}},
+        "joints": {"w": {"type": "rigid", "between": ["ground", "a"], "at": [[1.0, 0.0], "P"]}},
+    }
+    result = symgen.load(mechanism_of(welded)).simulate(
+        method="lagrange", integrator=integrator, coordinates="joint", until=0.1, output_step=0.05
+    )
+    assert (result.status, result.reason) == ("ok", None)
+    np.testing.assert_array_equal(result["a.x"], 0.5)
+    np.testing.assert_array_equal(result["a.vy"], 0.0)

@@ -7,7 +7,10 @@ import pytest
 from support.emitted import mechanism_of
 
 from symgen.api import load
+from symgen.integrators import INTEGRATORS
+from symgen.runtime import abi
 from symgen.runtime.exact import plain_form
+from symgen.runtime.run import RunSpec, integrate
 from symgen.runtime.turning import whole_turns
 
 
@@ -153,3 +156,23 @@ def test_turns_leave_every_row_as_near_to_closed_as_its_last_angle_can(seed):
             expected[best] = round(-rest / effects[row, best])
             free.remove(best)
     np.testing.assert_array_equal(turns_of(effects, residual), expected)
+
+
+def test_outputs_inside_a_step_leave_the_turns_at_its_end():
+    """A wheel that turns evenly, in steps of 2.5 rad; each output inside is measured from the angle at their end."""
+    speed, step = 10.0, 0.25
+    model = mechanism({"a": wheel(angular_velocity=[0.0, 0.0, speed])}, {"A": held("a", kind="screw", pitch=0.01)})
+    compiled = model.compile("direct-correction")
+    integrator = INTEGRATORS.get("dop853")
+    times = np.arange(0.0, 4.01, 0.1)  # some at ends of steps, some inside
+    loose = {"rtol": 0.1, "atol": 0.1, "max_violation": 1.0}
+    spec = RunSpec(until=4.0, step=step, adaptive=True, times=times, largest_step=step, **loose)
+    outcome = integrate(compiled, integrator, model.assemble(compiled), spec)
+    assert outcome.code == 0 and outcome.steps == 16
+    # steps as long as that leave an error, but none of a turn
+    np.testing.assert_allclose(outcome.status_columns[:, abi.N_STATUS], speed * times, rtol=0.0, atol=0.5)
+    np.testing.assert_allclose(outcome.w[abi.WINDING], speed * 4.0, rtol=0.0, atol=0.5)
+    last = outcome.states[-1]
+    shown = 2.0 * math.atan2(last[6], last[3])
+    found = outcome.status_columns[-1, abi.N_STATUS]
+    assert math.remainder(found - shown, math.tau) == pytest.approx(0.0, abs=1e-12)

@@ -163,3 +163,20 @@ def test_a_run_goes_on_with_events_of_another_kind():
     rest = model.simulate(until=0.6, record_when="ball.y < 0.5", start=first, **settings)
     np.testing.assert_array_equal(rest.q.values[-1], whole.q.values[-1])
     assert [e.t for e in rest.events] == [e.t for e in whole.events]
+
+
+def test_parameters_that_change_right_behind_a_reset_do_the_work_of_their_change_alone():
+    """The ball stops on the floor with a blow; there it becomes twice as heavy: m v^2 / 2 once more, v behind it."""
+    heavy = {**BALL, "parameters": {**BALL["parameters"], "mass": 1.3}}
+    heavy["bodies"] = {"ball": {**BALL["bodies"]["ball"], "mass": "mass"}}
+    land = {"land": {"when": "ball.y < floor", "action": "stop"}}
+    run = symgen.load(mechanism_of({**heavy, "events": BOUNCE | land})).start(
+        method="lagrange", integrator="rk4", step=1e-2
+    )
+    assert run.run(1.0).name == "land"
+    work, place = run._loop.state.y, run._compiled.info.work
+    before = float(work[place])
+    square = 2.0**2 + E * E * 2.0 * G
+    assert before == pytest.approx(0.5 * 1.3 * (E * E - 1.0) * 2.0 * G, rel=1e-12)
+    run.set(mass=2.6)
+    assert float(work[place]) - before == pytest.approx(0.5 * 1.3 * square, rel=1e-9)

@@ -76,6 +76,7 @@ def attempt(
     size, first, begun = n - nq, nq + nv, part(run.memory, n + nv, sizes.width)
     k, right, change = part(run.room, 0, n), part(run.room, n, n), part(run.room, 2 * n, n)
     a1, factors = part(run.room, 3 * n, nv), part(run.room, 3 * n + nv, 4)
+    rest = part(run.room, 3 * n + nv + 4, sizes.ny - first)
     for i in range(nq, n):
         k[i] = run.memory[i]
     ratio = (1.0 - scheme.alpha_f) / (1.0 - scheme.alpha_m)
@@ -122,8 +123,8 @@ def attempt(
         return DIVERGED
     move(system, scheme, run, h, k, a1, change)
     for i in range(sizes.ny - first):
-        right[i] = run.w[sizes.auxiliary + i]
-        run.trial[first + i] = run.y[first + i] + 0.5 * h * (begun[first + i] + right[i])
+        rest[i] = run.w[sizes.auxiliary + i]
+        run.trial[first + i] = run.y[first + i] + 0.5 * h * (begun[first + i] + rest[i])
     return 0.0
 
 
@@ -131,14 +132,15 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
     """Keep the accelerations, the multipliers and the rates at the end of the step."""
     sizes = system.sizes
     nq, nv, n, first = sizes.nq, sizes.nv, sizes.unknowns, sizes.nq + sizes.nv
-    k, right, a1 = part(run.room, 0, n), part(run.room, n, n), part(run.room, 3 * n, nv)
+    k, a1 = part(run.room, 0, n), part(run.room, 3 * n, nv)
+    rest = part(run.room, 3 * n + nv + 4, sizes.ny - first)
     a0, begun = part(run.memory, n, nv), part(run.memory, n + nv, sizes.width)
     for i in range(nq, n):
         run.memory[i] = k[i]
     for i in range(nv):
         a0[i], begun[nq + i] = a1[i], k[nq + i]
     for i in range(sizes.ny - first):
-        begun[first + i] = right[i]
+        begun[first + i] = rest[i]
 
 
 def memory(width: int, nv: int, unknowns: int) -> int:
@@ -148,7 +150,7 @@ def memory(width: int, nv: int, unknowns: int) -> int:
 
 def room(width: int, nv: int, unknowns: int) -> int:
     """Return the working memory of a step behind the state that is tried."""
-    return max(width, 3 * unknowns + nv + 4)
+    return 3 * unknowns + nv + 4 + width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"

@@ -133,8 +133,12 @@ def interpolate(
     degree, lanes = scheme.degree, scheme.dense.shape[0] // scheme.degree
     new, kept = part(run.room, 0, width), part(run.room, width, width)
     powers, weights = part(run.room, 3 * width, lanes), part(run.room, 3 * width + lanes, lanes)
+    windings = outputs.status.shape[1] - abi.N_STATUS
+    angles = part(run.room, 3 * width + 2 * lanes, windings)
     for i in range(abi.N_STATUS):
         kept[i] = run.w[i]
+    for i in range(windings):
+        angles[i] = run.w[abi.WINDING + i]
     if run.control[abi.KNOWN] == 0:
         evaluate(system, run, following, new, part(stages, last * width, width))
         run.control[abi.EVALUATIONS] += 1
@@ -159,11 +163,15 @@ def interpolate(
     run.control[abi.OUTPUTS] = out
     for i in range(abi.N_STATUS):
         run.w[i] = kept[i]
+    for i in range(windings):
+        run.w[abi.WINDING + i] = angles[i]
 
 
-def room(width: int, scheme: Any) -> int:
-    """Return the working memory of a step behind the state that is tried."""
-    return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) if scheme.degree else int(scheme.stages) * width
+def room(width: int, scheme: Any, windings: int) -> int:
+    """Return the working memory of a step behind the state that is tried; `windings` angles count turns."""
+    if not scheme.degree:
+        return int(scheme.stages) * width
+    return 3 * width + 2 * len(scheme.dense) // int(scheme.degree) + windings
 
 
 #: What the names of the frame mean.
