@@ -13,8 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.program import SCALES, STATUS
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.probe import Ready
 from symgen.vocabulary.quantities import Counted, Quantity
 
 Array = NDArray[np.float64]
@@ -170,6 +168,10 @@ class CompiledModel(ABC):
 
     def prepare(self, p: Array) -> None:
         """Fill the numbers behind the parameters in ``p``."""
+        # Numba stands behind these, which emitting code does without
+        from symgen.runtime import ensemble_abi as e
+        from symgen.runtime.probe import Ready
+
         for module in (self.model, self.law_module):
             Ready(module.prepare, e.PREPARE)(p)
 
