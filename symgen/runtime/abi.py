@@ -48,8 +48,6 @@ WINDING = len(STATUS)  # where the section of angles begins that count turns
 PROBING = COUNTERS.index("probing")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
-SUSPECTS = COUNTERS.index("suspects")
-FAILURES = COUNTERS.index("failures")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers that a run keeps, shared with the thread that watches it ----------------------------------------

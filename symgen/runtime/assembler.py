@@ -102,14 +102,13 @@ class Assembly:
         flat = Asked(*(array.ravel() for array in asked))
         work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
         functions = (compiled_form(f) for f in (geometry, measure, move, *others))
-        described = now.y.copy() if self.strict else now.y
         done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
-        self._judge(now.w, asked.summary, described)
+        self._judge(now.w, asked.summary)
         return done
 
     def close_one(self, now: Instant, asked: Asked) -> int:
         """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        functions, described = self._functions, now.y.copy()
+        functions = self._functions
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
             self._prepare(now)
             m, n, form = self.layout.m, self.layout.nv, compiled_form
@@ -123,7 +122,7 @@ class Assembly:
                 form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
             except (ArithmeticError, ValueError):
                 asked.summary[e.START] = e.UNDEFINED
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
     def close_joints(self, now: Instant, asked: Asked, held: Held) -> int:
@@ -143,7 +142,7 @@ class Assembly:
                 code = e.UNDEFINED
         asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]
         asked.summary[e.START] = code
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], now.y[np.newaxis])
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
     def _prepare(self, now: Instant) -> None:
@@ -154,7 +153,7 @@ class Assembly:
         except (ArithmeticError, ValueError):  # errors where nothing is compiled
             now.p[:] = np.nan
 
-    def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
+    def _judge(self, ws: Array, summaries: Array) -> None:
         """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):

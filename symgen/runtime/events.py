@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.events import RECORD, RESET, STOP
 from symgen.runtime import abi, hunting, searching
 from symgen.runtime.rebounds import are_lost
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-RECORD, STOP, RESET = "record", "stop", "reset"
 #: What is left of a run until its events accumulate counts as nothing below this part of its length.
 NOTHING_LEFT = 1e-9
 #: So many intervals between events must have shrunk, in ratios that differ by no more than this.
@@ -79,7 +79,7 @@ class Watched:
     def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
         n = len(self.names)
-        first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
+        first = hunting.notes_at(n, sizes.width, len(state.w))
         hunt = np.zeros(first + searching.NOTES * (2 + sizes.width))
         hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
