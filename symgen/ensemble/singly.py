@@ -22,10 +22,8 @@ from symgen.compiling.knots import compile_knots
 from symgen.compiling.side import compile_side
 from symgen.describe.digest import identity
 from symgen.describe.events import in_words
-from symgen.describe.outputs import TABLES
+from symgen.ensemble.measures import NAME, PURPOSE, formulas_of
 from symgen.errors import InputError
-from symgen.ir.numerics import SKIP
-from symgen.result.export import PREFIX
 from symgen.result.reactions import Forces, seats
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
@@ -49,7 +47,6 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_TABLES = {e.REACTION: "reactions", e.BODY_REACTION: "in_body_axes", e.MAGNITUDE: "magnitudes"}
 #: Steps between two looks at whether somebody wants it to stop.
 _STEPS = 1e5
 
@@ -126,10 +123,8 @@ class SingleRuns:
     def _formulas(self) -> tuple[list[str], Any]:
         """Quantities that are formulas of a run, and the compiled function of them."""
         mechanism = self.singly.mechanism
-        known = {PREFIX[table] + c.name: c.formula for table, of in TABLES.items() for c in of(mechanism)}
-        names = [q.name for q in self.recipe.quantities if q.source == e.SIDE]
-        formulas = [(name, known[name]) for name in names]
-        return names, compile_side(mechanism, self.compiled, "measured", "what is kept of the runs of sweeps", formulas)
+        formulas = formulas_of(mechanism, self.recipe.quantities)
+        return [name for name, _ in formulas], compile_side(mechanism, self.compiled, NAME, PURPOSE, formulas)
 
     def run(
         self, rows: Rows, starts: tuple[Array, Array, Array], selected: Integers, out: Results, control: Integers
@@ -233,7 +228,7 @@ class SingleRuns:
         if side is not None:
             columns[e.SIDE] = lambda: outcome.observed(side.function, len(names), multipliers())
         forces = Forces(outcome, {})
-        if sources & set(_TABLES):
+        if any(source > e.SIDE for source in sources):
             forces = Forces(outcome, seats(self.singly.mechanism, self._values(rows, r)))
             acting = forces.reactions(replace(forces.multipliers(), values=multipliers()))
             columns[e.REACTION] = lambda: acting.values
