@@ -31,7 +31,7 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.rows import summarise
 from symgen.runtime.run import outcome_of
 from symgen.runtime.simulation import Simulation
-from symgen.tree_run import TreeRun, begin_on_tree
+from symgen.tree_run import TreeRun, begin_on_tree, carrying_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Mechanism
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
+    from symgen.runtime.tree_start import Carrying
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -120,6 +121,17 @@ class SingleRuns:
         return compile_events(mechanism, compiled, self.singly.events, values)
 
     @cached_property
+    def _of_bodies(self) -> Watched | None:
+        """The events as bodies have them, where the tree of joints is run."""
+        values = {q.name: q.value for q in self.singly.mechanism.parameters}
+        return compile_events(self.singly.mechanism, self.compiled, self.singly.events, values)
+
+    @cached_property
+    def _carrying(self) -> Carrying:
+        assert self.tree is not None, "the tree of joints is run"
+        return carrying_of(self.singly.mechanism, self.tree[0], self.compiled, self.tree[1])
+
+    @cached_property
     def _formulas(self) -> tuple[list[str], Any]:
         """Quantities that are formulas of a run, and the compiled function of them."""
         mechanism = self.singly.mechanism
@@ -145,22 +157,24 @@ class SingleRuns:
         for r in selected:
             if control[abi.STOP] != 0:
                 return False
-            began = self._begun(int(r), rows, starts)
+            began = self._begun(int(r), starts)
             if not self._run(int(r), rows, began, out, control):
                 return False
             control[e.RUNS_DONE] += 1
         return True
 
-    def _begun(self, r: int, rows: Rows, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
-        info, (ys, ps, ws) = self.compiled.info, starts
-        y, p, w = ys[r].copy(), ps[r].copy(), ws[r].copy()
-        rank = int(np.sum(self.compiled.section(w, "pivot") >= SKIP))
-        redundant = tuple(info.rows[i].name for i in np.flatnonzero(self.compiled.section(w, "mask")))
-        start = Start(y, p, w, rank, redundant, ())
+    def _begun(self, r: int, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
+        y, p, w = (array[r].copy() for array in starts)
+        start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), ())
         if self.tree is None:
             return start
-        numbers = self.recipe.method_parameters
-        return begin_on_tree(self.singly.mechanism, *self.tree, self.compiled, start, numbers, self.singly.events)
+        return begin_on_tree(
+            *(self.singly.mechanism, *self.tree, self.compiled, start),
+            method_parameters=self.recipe.method_parameters,
+            events=self.singly.events,
+            carrying=self._carrying,
+            watched=lambda: self._of_bodies,
+        )
 
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
