@@ -201,19 +201,16 @@ class Closed:
         targets = np.array(list(held.coordinates.values()), dtype=np.float64)
         asked = Asked(given, targets, np.zeros(e.N_SUMMARY))
         places = tuple(held.coordinates), tuple(held.velocities), held.fixed
-        assembly, now = Assembly.of(compiled, *places, self.strict, self.ask_light), Instant(y, p, w)
-        layout = assembly.layout._replace(t=self.t)
-        if self.windings:
-            layout = layout._replace(branches=np.array(self.windings, dtype=np.float64))
-        assembly = replace(assembly, layout=layout)
+        now, instant = Instant(y, p, w), (self.t, self.windings)
+        assembly = Assembly.of(compiled, *places, self.strict, self.ask_light, instant)
         if held.joints or held.rates:
             if assembly.close_joints(now, asked, held) != e.ASSEMBLED:
                 return now.w, asked.summary
             found, branches = asked.summary.copy(), w[abi.WINDING : abi.WINDING + info.windings].copy()
             # from here on it is the start of a run that describes just this
             still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light)
-            assembly = replace(assembly, layout=assembly.layout._replace(t=self.t, branches=branches))
+            there = self.t, branches.tolist()
+            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light, there)
             asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
             assembly.close_one(now, asked)
             asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
-from symgen.runtime.assembler import Assembly
 from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
@@ -57,7 +56,7 @@ def settle_tree(
         Ready(compiled.model.masses, abi.MOVE)(p, w)
         w[abi.WINDING : abi.WINDING + info.windings] = turned
         geometry = Ready(compiled.model.geometry, abi.MEASURE)
-        layout = Assembly.of(compiled).layout._replace(t=t)
+        layout = compiled.layout._replace(t=t)
         now = Instant(y, p, w)
         w[abi.LENGTH], w[abi.SPEED], gauge = scales
         compiled.section(w, "gauge")[:] = gauge
