@@ -346,8 +346,7 @@ def _going_on(
     if start is None:
         return None
     y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
-    redundant = tuple(bodies.info.rows[i].name for i in np.flatnonzero(bodies.section(w, "mask")))
-    of_bodies = Start(y, p, w, last.rank, redundant, start.notes, t=last.t, work=last.work_before)
+    of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
     return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)
 
 
@@ -366,7 +365,7 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
         return np.array(list(found), dtype=np.int64)
 
     return Carrying(
-        *(0, own.work, info.m + 2 * len(info.joint_coordinates)),
+        *(0, own.work, info.observed),
         places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
         windings=integers(turned[m] for m in winding_order(carried, "straight")),
         gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),

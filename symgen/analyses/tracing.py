@@ -117,7 +117,7 @@ class Tracer:
         move = model.move if info.nq != info.nv else compiled_form(stay)
         self.functions = model.geometry, model.measure, move, model.spread, model.observe
         self.control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        rows = info.m + 2 * len(info.joint_coordinates)
+        rows = info.observed
         self.stand = f.Stand(
             *(start.y.copy(), np.zeros(info.nv), np.zeros(info.nv), np.zeros(f.N_CLOCK)),
             *(np.zeros(f.N_COUNTS, dtype=np.int64), np.zeros(info.ny), np.zeros(info.ny), np.zeros(rows)),

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError
-from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
@@ -160,8 +159,7 @@ def assemble(
     given[list(fixed.velocities)] = list(fixed.velocities.values())
     changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
     return Start(
-        *(y, p, w, int(np.sum(compiled.section(w, "pivot") >= SKIP))),
-        redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
+        *(y, p, w, compiled.rank(w), compiled.redundant(w)),
         notes=notes_of(fixed, summary, changes, info),
         changes=changes,
         light=bool(summary[e.LIGHT]),

@@ -19,7 +19,7 @@ from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.entry import direct
 from symgen.runtime.exact import plain_form
-from symgen.runtime.model_arrays import entries_of
+from symgen.runtime.model_arrays import triplets_of
 from symgen.runtime.scales import mean_mass
 
 if TYPE_CHECKING:
@@ -196,9 +196,7 @@ class Changes:
     def _drift(self, jacobian: Array, nu: Array) -> float:
         """Return how far the present velocities are from D v = nu, rows that are angles times the length."""
         info, state = self.simulation.compiled.info, self.simulation.state
-        entries, constants = entries_of(info)
-        rows, columns, slots = entries.reshape(-1, 3).T
-        values = np.where(slots < 0, constants, jacobian[slots] if len(jacobian) else constants)
+        rows, columns, values = triplets_of(info, jacobian)
         v = state.y[info.nq : info.nq + info.nv]
         lengths = np.where([row.unit == "rad" for row in info.rows], state.w[abi.LENGTH], 1.0)
         return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))

@@ -23,6 +23,7 @@ from numba import config, cuda, float64, int64, types
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.instances import Instances, viewing
+from symgen.runtime.integrator import rates_of
 from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
 from symgen.runtime.schemes import explicit
@@ -216,7 +217,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
-    rates, observed_by = getattr(law, "rates", law.rhs), model.observe if need.joints else nothing
+    rates, observed_by = rates_of(law)[0], model.observe if need.joints else nothing
     width, n_p, nw, n_room, n_kept = need.width, max(1, need.n_p), need.nw, need.working, need.kept
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_events, n_memory, n_rows = N_EVENTS, max(1, need.memory), need.rows

@@ -70,7 +70,7 @@ def settle_tree(
             masked = compiled.section(w, "mask") > 0.0
         plain_form(weigh_rows)(layout, now)
     rank = int(np.sum((compiled.section(w, "pivot") >= SKIP) & ~masked))
-    return w, rank, tuple(info.rows[i].name for i in np.flatnonzero(masked))
+    return w, rank, compiled.redundant(w)
 
 
 class Carrying(NamedTuple):
