@@ -16,7 +16,7 @@ from symgen.runtime.exact import compiled_form
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, velocity_of
 from symgen.runtime.probe import Ready
-from symgen.runtime.simulation import row_chooser
+from symgen.runtime.redundancy import row_chooser
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -13,7 +13,8 @@ from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.integrator import rates_of
 from symgen.runtime.new_state import sizes_of
-from symgen.runtime.simulation import Simulation, row_chooser
+from symgen.runtime.redundancy import row_chooser
+from symgen.runtime.simulation import Simulation
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel

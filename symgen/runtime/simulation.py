@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.exact import compiled_form
 from symgen.runtime.knots import stepped
-from symgen.runtime.model_arrays import entries_of
-from symgen.runtime.new_state import new_state, sizes_of, span_of
+from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
@@ -119,11 +118,7 @@ class Simulation:
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
-        from symgen.runtime.records import Outputs
-
-        k, given = len(times), np.ascontiguousarray(times, dtype=np.float64)
-        kept = abi.N_STATUS + self.compiled.info.windings
-        return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
+        return new_outputs(self.compiled.info, times)
 
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
@@ -376,27 +371,6 @@ class Simulation:
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
         return row_chooser(self.compiled)
-
-
-def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
-    """Return what chooses the rows that stand for all at the position of w and says whether they are others.
-
-    Rows of mechanisms that are too large for it stay what they are.
-    """
-    from symgen.runtime.redundancy import LARGEST, choose_rows
-
-    info = compiled.info
-    if info.m * info.nv > LARGEST:
-        return lambda w: False
-    entries, constants = entries_of(info)
-    places = tuple(info.sections[name][0] for name in ("jacobian", "gauge", "mask"))
-    room, choose = np.zeros(info.m * (info.nv + info.m + 2)), compiled_form(choose_rows)
-
-    def chosen(w: Array) -> bool:
-        kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))
-        return bool(choose(info.m, info.nv, kept, entries, constants, *places, w, room))
-
-    return chosen
 
 
 def _with_room(scheme: Any) -> Any:

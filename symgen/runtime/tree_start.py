@@ -19,8 +19,8 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
+from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.scales import mean_mass, weigh_rows
-from symgen.runtime.simulation import row_chooser
 from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
