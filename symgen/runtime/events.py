@@ -198,8 +198,11 @@ class Events:
         state.clock[abi.ALLOWED] = 0.0
         names = {watched.names[number] for number in numbers}
         energy = found.energy
-        for i, event in enumerate(self.happened):
-            if event.t == now and event.action == RESET and event.name in names:
+        first = len(self.happened)
+        while first > 0 and self.happened[first - 1].t == now:
+            first -= 1
+        for i, event in enumerate(self.happened[first:], first):
+            if event.action == RESET and event.name in names:
                 self.happened[i] = replace(
                     event, after=found.v, impulses=found.impulses, given=found.given, energy=energy
                 )
@@ -217,9 +220,8 @@ class Events:
             if len(intervals) > _SHRINKING:
                 last = intervals[-_SHRINKING - 1 :]
                 ratios = last[1:] / last[:-1]
-                ratio = float(ratios[-1])
                 if ratios.max() < 1.0 and np.ptp(ratios) < _STEADY:
-                    rest = float(last[-1]) * ratio / (1.0 - ratio)  # of a geometric series (Aitken)
+                    rest = _rest(float(last[-2]), float(last[-1]))
                     if rest < least:
                         self.accumulation = float(times[-1]) + rest
                         return True
@@ -237,9 +239,8 @@ class Events:
         now = float(state.clock[abi.TIME])
         times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
         rest = 0.0
-        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:  # of a geometric series (Aitken)
-            ratio = (times[2] - times[1]) / (times[1] - times[0])
-            rest = (times[2] - times[1]) * ratio / (1.0 - ratio)
+        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:
+            rest = _rest(times[1] - times[0], times[2] - times[1])
         self.accumulation = now + rest
         return True
 
@@ -254,6 +255,12 @@ class Events:
         """Why a run ended whose events accumulate."""
         assert self.accumulation is not None, "events accumulate"
         return gathered(self.recent, self.accumulation)
+
+
+def _rest(before: float, last: float) -> float:
+    """Return what is left of a geometric series behind two of its terms (Aitken)."""
+    ratio = last / before
+    return last * ratio / (1.0 - ratio)
 
 
 def gathered(names: Sequence[str], t: float) -> str:
