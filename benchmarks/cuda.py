@@ -29,8 +29,8 @@ import symgen
 from benchmarks.show import show
 from symgen.ensemble.device import DeviceRuns, compilable, usable
 from symgen.ensemble.kernel import kernel_of
-from symgen.ensemble.local import cores
 from symgen.ensemble.plan import make_ensemble
+from symgen.memory import processors
 from symgen.settings import Settings
 
 #: Compute capability that is compiled for where there is no device: that of an A100.
@@ -138,7 +138,7 @@ def run_all(runs: int, until: float) -> None:
 
     name = cuda.get_current_device().name
     name = name.decode() if isinstance(name, bytes) else str(name)
-    table = Table(title=f"{runs} runs of {until:g} s: {name} beside {cores()} cores")
+    table = Table(title=f"{runs} runs of {until:g} s: {name} beside {processors()} cores")
     for heading in ("model", "method", "integrator", "cores [runs/s]", "device [runs/s]", "ratio", "compiled in [s]"):
         table.add_column(heading, justify="right" if len(table.columns) > 2 else "left")
     for heading in ("statuses differ", "largest difference"):

@@ -24,7 +24,7 @@ from rich.table import Table
 import symgen
 from benchmarks.show import show
 from symgen.ensemble.kernel import kernel_of
-from symgen.ensemble.local import cores
+from symgen.memory import processors
 from symgen.plan import make_plan
 from symgen.runtime.run import integrate
 from symgen.settings import Settings
@@ -59,7 +59,7 @@ def main(words: list[str]) -> None:
     for target, name in (("cpu", "sweep"), ("lanes", "sweep in lanes")):
         few = symgen.sweep(model, {"crank_mass": [2.0]}, settings=settings, quantities=("crank.theta",), target=target)
         kernel_of(few.ensemble.recipe).warm()
-        for jobs in sorted({1, cores()}):
+        for jobs in sorted({1, processors()}):
             before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
             call = partial(symgen.sweep, quantities=("crank.theta",), settings=settings)
             wall, processor, found = timed(partial(call, model, vary, jobs=jobs, target=target))

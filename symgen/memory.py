@@ -1,4 +1,7 @@
-"""How much memory and disk there is; what would need more is refused in one sentence before anything is allocated."""
+"""How many processors, how much memory and how much disk there is.
+
+What would need more memory or disk is refused in one sentence before anything is allocated.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +19,11 @@ SHARE = 0.8
 #: Requests below this are not looked at [bytes]: asking the system takes longer than they matter.
 SMALL = 1e8
 _GROUPS = Path("/sys/fs/cgroup")
+
+
+def processors() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def require(where: str, what: str, size: float) -> None:

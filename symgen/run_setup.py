@@ -302,10 +302,9 @@ def taken_up(
     arrays = {name: array for name, array in last.arrays.items() if name != "hunt" or not other}
     told = f" with all that it kept but its events: {'; '.join(other)}" if other else ""
     info = compiled.info
-    redundant = tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask")))
     own = compiled.parameter_array(values, plan.method_parameters)[: len(values)]  # others are inputs alone
-    kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy())
-    return Start(*kept, last.rank, redundant, (whence(last) + told,), t=last.t, work=last.work_before, saved=arrays)
+    kept = (y[: info.ny].copy(), np.concatenate([own, p[len(values) :]]), w.copy(), last.rank, compiled.redundant(w))
+    return Start(*kept, (whence(last) + told,), t=last.t, work=last.work_before, saved=arrays)
 
 
 def watching(

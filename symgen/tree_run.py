@@ -7,7 +7,7 @@ violations and outputs are read as of any other run.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -63,6 +63,8 @@ class TreeRun:
         Where the same run would begin there.
     events : tuple of Event
         That are looked for.
+    watched : callable, optional
+        Returns them as bodies have them, where many runs share that.
     """
 
     whole: Mechanism
@@ -72,6 +74,7 @@ class TreeRun:
     bodies: CompiledModel
     body_start: Start
     events: tuple[Event, ...] = ()
+    watched: Callable[[], Watched | None] | None = None
 
     @property
     def topology(self) -> Topology:
@@ -136,17 +139,25 @@ class TreeRun:
                 found.append(replace(event, state=state))
                 continue
             if watched is None:
-                values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
-                from symgen.compiling.events import compile_events
-
-                watched = compile_events(self.whole, self.bodies, self.events, values)
-                assert watched is not None, "there are events"
+                watched = self._of_run(p)
             if id(event.impulses) not in struck:  # resets at the same time share what they do
                 together = [numbers[x.name] for x in outcome.happened if x.impulses is event.impulses]
                 struck[id(event.impulses)] = self._struck(watched, together, event, state, p)
             after, impulses = struck[id(event.impulses)]
             found.append(replace(event, state=state, after=after, impulses=impulses))
         return tuple(found)
+
+    def _of_run(self, p: Array) -> Watched:
+        """Return the events as bodies have them, with the masses of some parameters."""
+        from symgen.compiling.events import compile_events, masses_of
+
+        values = dict(zip((x.name for x in self.bodies.info.parameters), p.tolist(), strict=False))
+        if self.watched is None:
+            found = compile_events(self.whole, self.bodies, self.events, values)
+        else:
+            found = self.watched()
+        assert found is not None, "there are events"
+        return replace(found, masses=masses_of(self.whole, values))
 
     def _struck(
         self, watched: Watched, numbers: Sequence[int], event: Happening, state: Array, p: Array
@@ -283,6 +294,8 @@ def begin_on_tree(
     start: Start,
     method_parameters: Mapping[str, float],
     events: tuple[Event, ...] = (),
+    carrying: Carrying | None = None,
+    watched: Callable[[], Watched | None] | None = None,
 ) -> TreeRun:
     """Return what a run in joint coordinates begins with, from a start of bodies.
 
@@ -298,8 +311,11 @@ def begin_on_tree(
         Values of the method's parameters that differ from the defaults.
     events : tuple of Event
         That are looked for.
+    carrying, watched : Carrying and callable, optional
+        From `carrying_of`, and as in `TreeRun`, where many runs share them.
     """
-    info, own, at = bodies.info, compiled.info, carrying_of(mechanism, carried, bodies, compiled)
+    info, own = bodies.info, compiled.info
+    at = carrying_of(mechanism, carried, bodies, compiled) if carrying is None else carrying
     values = joint_values(bodies, start.t, start.y, start.p, start.w.copy())
     p = compiled.parameter_array(dict(zip((x.name for x in info.parameters), start.p, strict=False)), method_parameters)
     y = np.zeros(own.ny)
@@ -310,7 +326,7 @@ def begin_on_tree(
     w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start, events)
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
 
 
 def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:
@@ -330,8 +346,7 @@ def _going_on(
     if start is None:
         return None
     y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
-    redundant = tuple(bodies.info.rows[i].name for i in np.flatnonzero(bodies.section(w, "mask")))
-    of_bodies = Start(y, p, w, last.rank, redundant, start.notes, t=last.t, work=last.work_before)
+    of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
     return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)
 
 
@@ -350,7 +365,7 @@ def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel,
         return np.array(list(found), dtype=np.int64)
 
     return Carrying(
-        *(0, own.work, info.m + 2 * len(info.joint_coordinates)),
+        *(0, own.work, info.observed),
         places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
         windings=integers(turned[m] for m in winding_order(carried, "straight")),
         gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),

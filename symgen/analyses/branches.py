@@ -107,7 +107,7 @@ def _places(compiled: CompiledModel, q: Array) -> list[Array]:
 
 def _values(compiled: CompiledModel, start: Start) -> dict[str, float]:
     info = compiled.info
-    out = np.zeros(info.m + 2 * len(info.joint_coordinates))
+    out = np.zeros(info.observed)
     observe = Ready(compiled.model.observe, abi.OBSERVE)
     observe(start.t, start.y.copy(), start.p, start.w.copy(), np.zeros(info.ny), out)
     values = {c.name: float(x) for c, x in zip(info.coordinates, start.y, strict=False)}

@@ -249,7 +249,7 @@ def rates_of_joints(found: Prescribed, basis: Array) -> Array:
     observe = Ready(compiled.model.observe, abi.OBSERVE)
 
     def rates(v: Array) -> Any:
-        y, out = start.y.copy(), np.zeros(info.m + 2 * len(info.joint_coordinates))
+        y, out = start.y.copy(), np.zeros(info.observed)
         y[info.nq : info.nq + info.nv] = v
         observe(start.t, y, start.p, start.w.copy(), np.zeros(info.ny), out)
         return out[info.m + 1 :: 2]

@@ -16,7 +16,7 @@ from symgen.runtime.exact import compiled_form
 from symgen.runtime.manifold import stay
 from symgen.runtime.model_arrays import entries_of, velocity_of
 from symgen.runtime.probe import Ready
-from symgen.runtime.simulation import row_chooser
+from symgen.runtime.redundancy import row_chooser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -117,7 +117,7 @@ class Tracer:
         move = model.move if info.nq != info.nv else compiled_form(stay)
         self.functions = model.geometry, model.measure, move, model.spread, model.observe
         self.control = np.zeros(abi.N_CONTROL, dtype=np.int64)
-        rows = info.m + 2 * len(info.joint_coordinates)
+        rows = info.observed
         self.stand = f.Stand(
             *(start.y.copy(), np.zeros(info.nv), np.zeros(info.nv), np.zeros(f.N_CLOCK)),
             *(np.zeros(f.N_COUNTS, dtype=np.int64), np.zeros(info.ny), np.zeros(info.ny), np.zeros(rows)),

@@ -92,10 +92,10 @@ def command(
 
     from symgen.api import load
     from symgen.cli._progress import Lines
+    from symgen.memory import processors
     from symgen.study.comparison.combinations import Combinations
     from symgen.study.comparison.compare import compare_all, save_csv
     from symgen.study.journal import Journal
-    from symgen.study.machine import cores
 
     loaded = [load(model) for model in models]
     with ExitStack() as stack:
@@ -111,7 +111,7 @@ def command(
 
         runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
         settings = Settings(**asked)
-        studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or cores(), journal)
+        studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     if as_json:
         found = [study.to_json() for study in studies]
         write_json(found[0] if len(models) == 1 else {"studies": found})

@@ -58,8 +58,8 @@ def command(
 
     from symgen.catalogue import names
     from symgen.cli._progress import Lines
+    from symgen.memory import processors
     from symgen.study.journal import Journal
-    from symgen.study.machine import cores
     from symgen.study.stress.rows import save_csv
     from symgen.study.stress.study import stress
 
@@ -72,7 +72,7 @@ def command(
 
         asked = dict.fromkeys((*models, *(names() if catalogue else ())))
         seconds = math.inf if compilation is None else compilation
-        work = journal, jobs or cores(), progress, seconds
+        work = journal, jobs or processors(), progress, seconds
         study = stress(tuple(asked), case_list, method_list, quick, *work, **limits)
     if as_json:
         write_json(study.to_json())

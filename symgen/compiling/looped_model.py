@@ -17,8 +17,6 @@ from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Tables
 from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
-from symgen.runtime.kernels import GENERIC as GENERIC_CODE
-from symgen.runtime.kernels import address
 from symgen.store.modules import interpreted
 from symgen.vocabulary.measures import Holonomic
 from symgen.vocabulary.quantities import Quantity
@@ -66,6 +64,10 @@ class LoopedModel(CompiledModel):
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""
+        # Numba stands behind these, which emitting code does without
+        from symgen.runtime.kernels import GENERIC as GENERIC_CODE
+        from symgen.runtime.kernels import address
+
         w = np.zeros(self.law.nw)
         offset, size = self.tables.sections["tables"]
         part = w[offset : offset + size]

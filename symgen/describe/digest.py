@@ -10,7 +10,8 @@ import weakref
 
 import msgspec
 
-from symgen.describe.mechanism import Mechanism, Table
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.tables import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from symgen import arguments
-from symgen.describe.mechanism import Table
+from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest, quoted
 
 INTERPOLATIONS = ("hold", "linear", "cubic", "pchip")
@@ -31,7 +31,7 @@ class Data:
     t, u : tuple of float
         Times, increasing [s], and values.
     interpolation : str
-        ``hold``: each value until the next one; else see `symgen.describe.mechanism.Table`.
+        ``hold``: each value until the next one; else see `symgen.describe.tables.Table`.
     words : str
         What it is, for people.
     """

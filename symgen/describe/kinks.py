@@ -8,7 +8,8 @@ from typing import Any
 import msgspec
 
 from symgen.describe.inputs import MOST_KNOTS, Jump, replaced
-from symgen.describe.mechanism import Mechanism, Table
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
 from symgen.vocabulary.measures import Effort
 

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
 from typing import TypeVar
 
 import msgspec
 
 from symgen.arguments import shown
 from symgen.describe.orientation import IDENTITY, Orientation
+from symgen.describe.tables import Table
 from symgen.errors import InputError, nearest
-from symgen.ir.interpolation import Interpolation, cubic_pieces, cubic_slopes, pchip_slopes, periodic_slopes
-from symgen.vocabulary.expressions import SMOOTH, ZERO, Expr
+from symgen.vocabulary.expressions import ZERO, Expr
 from symgen.vocabulary.measures import GROUND, Direction, Effort, Marker, Measure, Row
 
 T = TypeVar("T")
@@ -47,42 +46,6 @@ class Parameter(msgspec.Struct, frozen=True, omit_defaults=True):
     note: str = msgspec.field(default_factory=str)
     formula: Expr | None = None
     input: bool = False
-
-
-class Table(msgspec.Struct, frozen=True, omit_defaults=True):
-    """A function of one argument by interpolation; used as ``NAME(x)``.
-
-    ``linear`` is constant beyond its ends. ``cubic`` (two continuous derivatives) and ``pchip`` (one, and no value
-    beyond those of the points) go on in straight lines there, unless they are `periodic`.
-    """
-
-    name: str
-    x: tuple[float, ...]
-    y: tuple[float, ...]
-    interpolation: str = "linear"
-    periodic: bool = False
-
-    @property
-    def function(self) -> str:
-        """What calls of it are in an expression, see `symgen.vocabulary.expressions.Call`."""
-        return f"table:{'' if self.interpolation == 'linear' else SMOOTH}{self.name}"
-
-    @property
-    def interpolated(self) -> Interpolation:
-        """What it is made of."""
-        return _interpolated(self)
-
-
-@lru_cache(maxsize=64)
-def _interpolated(table: Table) -> Interpolation:
-    x, y = table.x, table.y
-    if table.interpolation == "linear":
-        return Interpolation(table.name, x, y)
-    if table.interpolation == "pchip":
-        slopes = pchip_slopes(x, y, table.periodic)
-    else:
-        slopes = periodic_slopes(x, y) if table.periodic else cubic_slopes(x, y)
-    return Interpolation(table.name, x, y, cubic_pieces(x, y, slopes), x[-1] - x[0] if table.periodic else 0.0)
 
 
 class Body(msgspec.Struct, frozen=True):

@@ -12,9 +12,10 @@ import msgspec
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.fields import found
-from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Table, Vec
+from symgen.describe.mechanism import ACCELERATIONS, AnyBody, Force, Joint, Mechanism, Vec
 from symgen.describe.parser import Names, parse
 from symgen.describe.readings import OUTPUT, Readings
+from symgen.describe.tables import Table
 from symgen.describe.triads import Triad, make_cross, make_triad, make_triads
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import ZERO, Expr, Number, call

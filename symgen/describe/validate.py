@@ -15,7 +15,7 @@ from symgen.describe.evaluate import evaluate
 from symgen.describe.events import read_event
 from symgen.describe.fields import Flag, JointStart, OutputFunction, Scalar, found, read, read_value
 from symgen.describe.holds import body_holds, holds_of, joint_holds
-from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter, Table
+from symgen.describe.mechanism import Defaults, Force, Hold, Joint, Mechanism, Output, Parameter
 from symgen.describe.names import check_identifier, check_mechanism_name, check_unit, line
 from symgen.describe.parser import Names, parse
 from symgen.describe.scope import Model, Scope
@@ -30,6 +30,7 @@ from symgen.describe.sections import (
     TableSection,
 )
 from symgen.describe.shapes import shapes_of
+from symgen.describe.tables import Table
 from symgen.describe.topology import articulation_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import names

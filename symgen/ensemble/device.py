@@ -115,7 +115,7 @@ def need_of(compiled: CompiledModel, setup: Setup, adaptive: bool, wants: set[in
         nw=max(1, law.nw),
         memory=setup.memory,
         room=setup.room,
-        rows=info.m + 2 * len(info.joint_coordinates) if e.JOINT in wants else 0,
+        rows=info.observed if e.JOINT in wants else 0,
         adaptive=adaptive,
         rates=bool(wants & {e.ACCELERATION, e.MULTIPLIER, e.JOINT}),
         joints=e.JOINT in wants,

@@ -19,8 +19,8 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
-from symgen.runtime.integrator import Integrator, Setup
-from symgen.runtime.new_state import new_state, sizes_of, span_of
+from symgen.runtime.integrator import Integrator, Setup, law_functions, rates_of
+from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Asked, Instant
 
@@ -242,7 +242,7 @@ class Kernel:
     ) -> bool:
         """Run selected rows from their starts, parameters and scratch; return whether all are done."""
         from symgen.runtime.records import Chunk as ChunkRecord
-        from symgen.runtime.redundancy import LARGEST
+        from symgen.runtime.redundancy import room_of_choice
         from symgen.runtime.rows import observe_nothing
 
         info, law, recipe = model.compiled.info, model.compiled.law_module, self.recipe
@@ -252,38 +252,35 @@ class Kernel:
         picked = recipe.picks if model.picks is None else model.picks
         sources = {*picked[::2].tolist()}
         observes = e.JOINT in sources
-        rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        confirms = getattr(law, "confirm", law.rhs), getattr(law, "confirm", rates)
         observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
-        seen = rates, confirms[1], observe if observes else observe_nothing
+        seen = *rates_of(law), observe if observes else observe_nothing
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
-        redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0) and info.m * info.nv <= LARGEST
-        layout = model.assembly.layout
-        places = layout.entries, layout.constants, np.zeros(info.m * (info.nv + info.m + 2) if redundant else 0)
+        redundant, layout = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0), model.assembly.layout
+        places = layout.entries, layout.constants, np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            ends = rates, confirms[1], law.accept, seen[2]
+            ends = *seen[:2], law.accept, seen[2]
             if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop = self.integrator.rows(recipe.spec.adaptive)
-        functions = law.rhs, confirms[0], law.accept, *seen
-        done = loop(*functions, model.setup.scheme, sizes, span, chunk, state, kept)
+        functions = law_functions(model.compiled)[:3]
+        done = loop(*functions, *seen, model.setup.scheme, sizes, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
     def _kept(self, info: ModelInfo, width: int | None) -> Kept:
         """Return room for the outputs of one run, and for what is observed at them."""
-        from symgen.runtime.records import Kept, Observed, Outputs
+        from symgen.runtime.records import Kept, Observed
 
         times = self.recipe.times
-        k, rows = len(times), info.m + 2 * len(info.joint_coordinates) if width is None else width
-        outputs = Outputs(times, np.empty((k, info.ny)), np.empty((k, abi.N_STATUS + info.windings)))
-        return Kept(outputs, Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows))))
+        k, rows = len(times), info.observed if width is None else width
+        observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
+        return Kept(new_outputs(info, times), observed)
 
     def _prepare(self, compiled: CompiledModel, other: Module | None, tree: Module | None) -> _Prepared:
         info, recipe = compiled.info, self.recipe

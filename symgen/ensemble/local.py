@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import queue
 import threading
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 from symgen.ensemble.kernel import Chunk, Integers, kernel_of, new_control
+from symgen.memory import processors
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import RUNS_DONE
 
@@ -18,11 +18,6 @@ if TYPE_CHECKING:
 
 #: How often progress is shown while no chunk ends [s].
 _BEAT = 0.1
-
-
-def cores() -> int:
-    """Return how many cores this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class _Pool:
@@ -124,7 +119,7 @@ def run_here(
     missing = len(table.missing())
     if not missing:
         return False
-    pool = _Pool(ensemble, table, max(1, min(missing, jobs or cores())))
+    pool = _Pool(ensemble, table, max(1, min(missing, jobs or processors())))
     interrupted = False
     try:
         pool.kernel.warm()

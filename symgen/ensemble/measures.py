@@ -34,8 +34,7 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 #: What the function is called in its module.
-_NAME = "measured"
-_PURPOSE = "what is kept of the runs of sweeps"
+NAME, PURPOSE = "measured", "what is kept of the runs of sweeps"
 #: Tables of reactions: their sources.
 _REACTIONS = {"reactions": e.REACTION, "body_reactions": e.BODY_REACTION, "magnitudes": e.MAGNITUDE}
 
@@ -128,7 +127,7 @@ class Measures:
             path = entries.path(self.folder, self.stem)
             if entries.get(self.folder, self.stem) is None or path.read_text(encoding="utf-8") != self.source:
                 entries.put(self.folder, self.stem, self.source, self.metadata)
-        return getattr(load_module(path), _NAME)
+        return getattr(load_module(path), NAME)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "function"}
@@ -205,6 +204,20 @@ class Measures:
         return {_REACTIONS[name]: table.values for name, table in tables.items()}
 
 
+def formulas_of(mechanism: Mechanism, chosen: Sequence[Quantity]) -> list[tuple[str, Expr]]:
+    """Return the quantities that are formulas of a run, and these.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        What is run.
+    chosen : sequence of Quantity
+        All that is kept.
+    """
+    known = {PREFIX[table] + c.name: c.formula for table, columns in TABLES.items() for c in columns(mechanism)}
+    return [(q.name, known[q.name]) for q in chosen if q.source == e.SIDE]
+
+
 def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequence[Quantity]) -> Measures | None:
     """Return how the quantities that no loop leaves are worked out beside a compiled model, None where there are none.
 
@@ -225,10 +238,9 @@ def make_measures(mechanism: Mechanism, compiled: CompiledModel, chosen: Sequenc
     if all(q.source < e.SIDE for q in chosen):
         return None
     info = compiled.info
-    known = {PREFIX[table] + c.name: c for table, columns in TABLES.items() for c in columns(mechanism)}
-    formulas: list[tuple[str, Expr]] = [(q.name, known[q.name].formula) for q in chosen if q.source == e.SIDE]
+    formulas = formulas_of(mechanism, chosen)
     joints = _places(mechanism, formulas) if any(q.source > e.SIDE for q in chosen) else {}
-    side = compile_side(mechanism, compiled, _NAME, _PURPOSE, formulas)
+    side = compile_side(mechanism, compiled, NAME, PURPOSE, formulas)
     reads = [(Quantity(f"y{i}", "", e.STATE, i), e.OF_Y, i) for i in range(info.ny)]
     if "ydot" in side.reads:
         reads += [(Quantity(f"v'{i}", "", e.ACCELERATION, i), e.OF_RATES, info.nq + i) for i in range(info.nv)]

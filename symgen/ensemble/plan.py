@@ -217,7 +217,7 @@ def make_ensemble(
     kinks = kinks_of(mechanism) if target == "cpu" and plan.spec.adaptive else ()
     plan = replace(plan, spec=replace(plan.spec, pieces=()))
     driving = Driving(given, grid.names, plan.spec.until, kinks)
-    kept_names, events = _events(mechanism, chosen, plan, quantities)
+    kept_names, events = _events(mechanism, plan, quantities)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
     held = held_of(names, grid.names, plan.holds, compiled.info)
@@ -281,7 +281,7 @@ def _check_target(target: str, jumps: bool, events: bool, joints: bool) -> None:
 
 
 def _events(
-    mechanism: Mechanism, settings: Settings, plan: Plan, quantities: Sequence[str] | None
+    mechanism: Mechanism, plan: Plan, quantities: Sequence[str] | None
 ) -> tuple[Sequence[str] | None, tuple[Event, ...]]:
     """Return the quantities that are no events, and the events that runs look for: none where nothing comes of them.
 

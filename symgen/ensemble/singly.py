@@ -21,20 +21,17 @@ from symgen.compiling.events import compile_events, masses_of
 from symgen.compiling.knots import compile_knots
 from symgen.compiling.side import compile_side
 from symgen.describe.digest import identity
-from symgen.describe.events import in_words
-from symgen.describe.outputs import TABLES
+from symgen.describe.events import RESET, in_words
+from symgen.ensemble.measures import NAME, PURPOSE, formulas_of
 from symgen.errors import InputError
-from symgen.ir.numerics import SKIP
-from symgen.result.export import PREFIX
 from symgen.result.reactions import Forces, seats
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembly import Start
-from symgen.runtime.events import RESET
 from symgen.runtime.rows import summarise
 from symgen.runtime.run import outcome_of
 from symgen.runtime.simulation import Simulation
-from symgen.tree_run import TreeRun, begin_on_tree
+from symgen.tree_run import TreeRun, begin_on_tree, carrying_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Mechanism
@@ -46,11 +43,11 @@ if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
+    from symgen.runtime.tree_start import Carrying
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-_TABLES = {e.REACTION: "reactions", e.BODY_REACTION: "in_body_axes", e.MAGNITUDE: "magnitudes"}
 #: Steps between two looks at whether somebody wants it to stop.
 _STEPS = 1e5
 
@@ -124,13 +121,22 @@ class SingleRuns:
         return compile_events(mechanism, compiled, self.singly.events, values)
 
     @cached_property
+    def _of_bodies(self) -> Watched | None:
+        """The events as bodies have them, where the tree of joints is run."""
+        values = {q.name: q.value for q in self.singly.mechanism.parameters}
+        return compile_events(self.singly.mechanism, self.compiled, self.singly.events, values)
+
+    @cached_property
+    def _carrying(self) -> Carrying:
+        assert self.tree is not None, "the tree of joints is run"
+        return carrying_of(self.singly.mechanism, self.tree[0], self.compiled, self.tree[1])
+
+    @cached_property
     def _formulas(self) -> tuple[list[str], Any]:
         """Quantities that are formulas of a run, and the compiled function of them."""
         mechanism = self.singly.mechanism
-        known = {PREFIX[table] + c.name: c.formula for table, of in TABLES.items() for c in of(mechanism)}
-        names = [q.name for q in self.recipe.quantities if q.source == e.SIDE]
-        formulas = [(name, known[name]) for name in names]
-        return names, compile_side(mechanism, self.compiled, "measured", "what is kept of the runs of sweeps", formulas)
+        formulas = formulas_of(mechanism, self.recipe.quantities)
+        return [name for name, _ in formulas], compile_side(mechanism, self.compiled, NAME, PURPOSE, formulas)
 
     def run(
         self, rows: Rows, starts: tuple[Array, Array, Array], selected: Integers, out: Results, control: Integers
@@ -151,22 +157,24 @@ class SingleRuns:
         for r in selected:
             if control[abi.STOP] != 0:
                 return False
-            began = self._begun(int(r), rows, starts)
+            began = self._begun(int(r), starts)
             if not self._run(int(r), rows, began, out, control):
                 return False
             control[e.RUNS_DONE] += 1
         return True
 
-    def _begun(self, r: int, rows: Rows, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
-        info, (ys, ps, ws) = self.compiled.info, starts
-        y, p, w = ys[r].copy(), ps[r].copy(), ws[r].copy()
-        rank = int(np.sum(self.compiled.section(w, "pivot") >= SKIP))
-        redundant = tuple(info.rows[i].name for i in np.flatnonzero(self.compiled.section(w, "mask")))
-        start = Start(y, p, w, rank, redundant, ())
+    def _begun(self, r: int, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
+        y, p, w = (array[r].copy() for array in starts)
+        start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), ())
         if self.tree is None:
             return start
-        numbers = self.recipe.method_parameters
-        return begin_on_tree(self.singly.mechanism, *self.tree, self.compiled, start, numbers, self.singly.events)
+        return begin_on_tree(
+            *(self.singly.mechanism, *self.tree, self.compiled, start),
+            method_parameters=self.recipe.method_parameters,
+            events=self.singly.events,
+            carrying=self._carrying,
+            watched=lambda: self._of_bodies,
+        )
 
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
@@ -234,7 +242,7 @@ class SingleRuns:
         if side is not None:
             columns[e.SIDE] = lambda: outcome.observed(side.function, len(names), multipliers())
         forces = Forces(outcome, {})
-        if sources & set(_TABLES):
+        if any(source > e.SIDE for source in sources):
             forces = Forces(outcome, seats(self.singly.mechanism, self._values(rows, r)))
             acting = forces.reactions(replace(forces.multipliers(), values=multipliers()))
             columns[e.REACTION] = lambda: acting.values

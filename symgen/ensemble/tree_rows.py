@@ -124,7 +124,7 @@ class TreeRows:
         compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, *flat[1:], runs, selected)
         of_bodies = Instant(*(array.reshape(-1) for array in starts))
         places = self.carrying._replace(runs=runs, dependent=np.zeros(runs, dtype=np.int64))
-        room = np.zeros(info.ny + info.m + 2 * len(info.joint_coordinates) + starts[2].shape[1])
+        room = np.zeros(info.ny + info.observed + starts[2].shape[1])
         functions = self.bodies.model.observe, model.geometry
         compiled_form(settle_rows)(*functions, self.assembly.layout, of_bodies, flat, places, room, selected, control)
         return (ys, ps, ws), places.dependent[selected] == 0

@@ -48,8 +48,6 @@ WINDING = len(STATUS)  # where the section of angles begins that count turns
 PROBING = COUNTERS.index("probing")
 LIGHT = COUNTERS.index("light")
 ITERATIONS = COUNTERS.index("iterations")
-SUSPECTS = COUNTERS.index("suspects")
-FAILURES = COUNTERS.index("failures")
 N_COUNTERS = len(COUNTERS)
 
 # -- control: integers that a run keeps, shared with the thread that watches it ----------------------------------------
@@ -88,6 +86,9 @@ AFRESH = 2
     MARK,  # time from which on progress is judged
 ) = range(6)
 N_CLOCK = 6
+#: Times are the same that are closer than this part of a constant step, or, where steps vary, of the time: steps below
+#: that are lost in its rounding.
+SAME_TIME, RESOLVED_TIME = 1e-9, 4e-16
 
 # -- gauges: floating-point numbers that a run keeps of its states -----------------------------------------------------
 (

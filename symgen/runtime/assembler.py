@@ -30,6 +30,31 @@ Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+def layout_of(compiled: CompiledModel) -> Layout:
+    """Return the layout of a model for starts at time 0 in which nothing is held and no branch is known."""
+    info, joints = compiled.info, {name: k for k, name in enumerate(joints_of(compiled.info))}
+    numbers = (
+        *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
+        *(int(compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE), 0),
+        *(info.sections[name][0] for name in Layout._fields[8:17]),
+    )
+    arrays = (
+        *entries_of(info),
+        *(_marked(those, info.nv) for those in (info.massless, (), ())),
+        np.zeros(0, dtype=np.int64),
+        np.array([(joints[row.joint], row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
+        np.array(spins_of(info), dtype=np.int64),
+        lengths_of(info),
+        np.full(info.windings, np.nan),
+    )
+    return Layout._make((*numbers, *arrays))
+
+
+def _marked(those: Sequence[int], count: int) -> Integers:
+    """Return 1 where a number up to `count` is one of those, else 0."""
+    return np.isin(np.arange(count), those).astype(np.int64)
+
+
 @dataclass(frozen=True)
 class Assembly:
     """The one start of a compiled model; where it is `strict`, one that has to be changed is refused."""
@@ -47,6 +72,7 @@ class Assembly:
         fixed: Sequence[int] = (),
         strict: bool = False,
         ask_light: bool = False,
+        instant: tuple[float, Sequence[float]] = (0.0, ()),
     ) -> Assembly:
         """Return the start of a model.
 
@@ -59,25 +85,18 @@ class Assembly:
         strict, ask_light : bool
             Whether a start that has to be changed is refused; whether it shall be said if bodies are too light for the
             law's solver.
+        instant : tuple of float and sequence of float
+            Time of the start [s], and the angles that count turns where their branches are known.
         """
-        info, joints = compiled.info, joints_of(compiled.info)
-        sparse = compiled.sparse and info.m * info.nv > decisions.LARGEST_DENSE
-        numbers = (
-            *(0.0, info.nq, info.nv, info.ny, info.m, info.windings),
-            *(int(sparse), int(ask_light and hasattr(compiled.law_module, "confirm"))),
-            *(info.sections[name][0] for name in Layout._fields[8:17]),
+        info, (t, branches), layout = compiled.info, instant, compiled.layout
+        layout = layout._replace(
+            t=t,
+            ask_light=int(ask_light and hasattr(compiled.law_module, "confirm")),
+            kept=_marked(kept, info.nv),
+            fixed=_marked(fixed, info.nv),
+            held=np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
+            branches=np.array(branches, dtype=np.float64) if len(branches) else layout.branches,
         )
-        arrays = (
-            *entries_of(info),
-            np.isin(np.arange(info.nv), info.massless).astype(np.int64),
-            *(np.isin(np.arange(info.nv), those).astype(np.int64) for those in (kept, fixed)),
-            np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
-            np.array([(joints.index(row.joint), row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
-            np.array(spins_of(info), dtype=np.int64),
-            lengths_of(info),
-            np.full(info.windings, np.nan),
-        )
-        layout = Layout._make((*numbers, *arrays))
         return cls(compiled, layout, strict)
 
     def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
@@ -102,14 +121,13 @@ class Assembly:
         flat = Asked(*(array.ravel() for array in asked))
         work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
         functions = (compiled_form(f) for f in (geometry, measure, move, *others))
-        described = now.y.copy() if self.strict else now.y
         done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
-        self._judge(now.w, asked.summary, described)
+        self._judge(now.w, asked.summary)
         return done
 
     def close_one(self, now: Instant, asked: Asked) -> int:
         """Make one start consistent, in place; return `symgen.runtime.ensemble_abi.ASSEMBLED` or why there is none."""
-        functions, described = self._functions, now.y.copy()
+        functions = self._functions
         with np.errstate(all="ignore"):  # undefined numbers are nan or infinite in compiled code, without a warning
             self._prepare(now)
             m, n, form = self.layout.m, self.layout.nv, compiled_form
@@ -123,7 +141,7 @@ class Assembly:
                 form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
             except (ArithmeticError, ValueError):
                 asked.summary[e.START] = e.UNDEFINED
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], described[np.newaxis])
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
     def close_joints(self, now: Instant, asked: Asked, held: Held) -> int:
@@ -143,7 +161,7 @@ class Assembly:
                 code = e.UNDEFINED
         asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]
         asked.summary[e.START] = code
-        self._judge(now.w[np.newaxis], asked.summary[np.newaxis], now.y[np.newaxis])
+        self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
     def _prepare(self, now: Instant) -> None:
@@ -154,7 +172,7 @@ class Assembly:
         except (ArithmeticError, ValueError):  # errors where nothing is compiled
             now.p[:] = np.nan
 
-    def _judge(self, ws: Array, summaries: Array, described: Array) -> None:
+    def _judge(self, ws: Array, summaries: Array) -> None:
         """Name the joint that stays open most; refuse starts that were changed, where that is asked for."""
         info = self.compiled.info
         for r in np.flatnonzero(summaries[:, e.START] == e.OPEN):

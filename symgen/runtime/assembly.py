@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.errors import AssemblyError
-from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
@@ -160,8 +159,7 @@ def assemble(
     given[list(fixed.velocities)] = list(fixed.velocities.values())
     changes = changes_of(info, np.concatenate([q, given]), y, state_scales(compiled, w, math.inf))
     return Start(
-        *(y, p, w, int(np.sum(compiled.section(w, "pivot") >= SKIP))),
-        redundant_rows=tuple(info.rows[i].name for i in np.flatnonzero(compiled.section(w, "mask"))),
+        *(y, p, w, compiled.rank(w), compiled.redundant(w)),
         notes=notes_of(fixed, summary, changes, info),
         changes=changes,
         light=bool(summary[e.LIGHT]),
@@ -201,19 +199,16 @@ class Closed:
         targets = np.array(list(held.coordinates.values()), dtype=np.float64)
         asked = Asked(given, targets, np.zeros(e.N_SUMMARY))
         places = tuple(held.coordinates), tuple(held.velocities), held.fixed
-        assembly, now = Assembly.of(compiled, *places, self.strict, self.ask_light), Instant(y, p, w)
-        layout = assembly.layout._replace(t=self.t)
-        if self.windings:
-            layout = layout._replace(branches=np.array(self.windings, dtype=np.float64))
-        assembly = replace(assembly, layout=layout)
+        now, instant = Instant(y, p, w), (self.t, self.windings)
+        assembly = Assembly.of(compiled, *places, self.strict, self.ask_light, instant)
         if held.joints or held.rates:
             if assembly.close_joints(now, asked, held) != e.ASSEMBLED:
                 return now.w, asked.summary
             found, branches = asked.summary.copy(), w[abi.WINDING : abi.WINDING + info.windings].copy()
             # from here on it is the start of a run that describes just this
             still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light)
-            assembly = replace(assembly, layout=assembly.layout._replace(t=self.t, branches=branches))
+            there = self.t, branches.tolist()
+            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light, there)
             asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
             assembly.close_one(now, asked)
             asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]

@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from symgen.errors import InputError
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembler import Assembly
 from symgen.runtime.entry import direct
 from symgen.runtime.exact import plain_form
-from symgen.runtime.model_arrays import entries_of
+from symgen.runtime.model_arrays import triplets_of
 from symgen.runtime.scales import mean_mass
 
 if TYPE_CHECKING:
@@ -177,7 +176,7 @@ class Changes:
                 raise InputError("set", f"a mass and an inertia of {body} above 0", f"{mass[j]:g}")
         if not (math.isfinite(w[abi.PHI]) and np.isfinite(state.p).all()):
             raise InputError("set", "parameters for which the equations are defined", "numbers that are not finite")
-        w[abi.MEAN_MASS] = plain_form(mean_mass)(Assembly.of(compiled).layout, w)
+        w[abi.MEAN_MASS] = plain_form(mean_mass)(compiled.layout, w)
         spec, reach = self.simulation.spec, state.metric[: info.nq] * state.y[: info.nq]
         length = max(float(w[abi.LENGTH]), float(np.abs(reach).max(initial=0.0)))
         self._refuse("position", float(w[abi.PHI_MEASURE]), spec.max_violation * length)
@@ -197,9 +196,7 @@ class Changes:
     def _drift(self, jacobian: Array, nu: Array) -> float:
         """Return how far the present velocities are from D v = nu, rows that are angles times the length."""
         info, state = self.simulation.compiled.info, self.simulation.state
-        entries, constants = entries_of(info)
-        rows, columns, slots = entries.reshape(-1, 3).T
-        values = np.where(slots < 0, constants, jacobian[slots] if len(jacobian) else constants)
+        rows, columns, values = triplets_of(info, jacobian)
         v = state.y[info.nq : info.nq + info.nv]
         lengths = np.where([row.unit == "rad" for row in info.rows], state.w[abi.LENGTH], 1.0)
         return float(np.linalg.norm(lengths * (np.bincount(rows, values * v[columns], info.m) - nu)))

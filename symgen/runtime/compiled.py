@@ -5,17 +5,20 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.ir.numerics import SKIP
 from symgen.ir.program import SCALES, STATUS
-from symgen.runtime import ensemble_abi as e
-from symgen.runtime.probe import Ready
 from symgen.vocabulary.quantities import Counted, Quantity
+
+if TYPE_CHECKING:
+    from symgen.runtime.start_records import Layout
 
 Array = NDArray[np.float64]
 
@@ -73,6 +76,11 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     def ny(self) -> int:
         """Length of the state: q, v, the work and integrals."""
         return self.work + 1 + self.integrals
+
+    @property
+    def observed(self) -> int:
+        """How many numbers ``observe`` writes: the rows of D v' - gamma, value and rate of each joint coordinate."""
+        return self.m + 2 * len(self.joint_coordinates)
 
     def parts(self, y: Array) -> tuple[Array, Array]:
         """Return views of q and v of a state, or of one state a row."""
@@ -166,6 +174,10 @@ class CompiledModel(ABC):
 
     def prepare(self, p: Array) -> None:
         """Fill the numbers behind the parameters in ``p``."""
+        # Numba stands behind these, which emitting code does without
+        from symgen.runtime import ensemble_abi as e
+        from symgen.runtime.probe import Ready
+
         for module in (self.model, self.law_module):
             Ready(module.prepare, e.PREPARE)(p)
 
@@ -180,6 +192,21 @@ class CompiledModel(ABC):
         """Return a view of one section of ``w``."""
         offset, size = self.info.sections[name]
         return w[offset : offset + size]
+
+    def rank(self, w: Array) -> int:
+        """Return the rank of D at the position of `w`: its pivots that are no rounding."""
+        return int(np.sum(self.section(w, "pivot") >= SKIP))
+
+    def redundant(self, w: Array) -> tuple[str, ...]:
+        """Return the names of the rows that are left out in `w`, as they depend on others."""
+        return tuple(self.info.rows[i].name for i in np.flatnonzero(self.section(w, "mask")))
+
+    @cached_property
+    def layout(self) -> Layout:
+        """What a start has to know of the model, as `symgen.runtime.assembler.layout_of` returns it."""
+        from symgen.runtime.assembler import layout_of
+
+        return layout_of(self)
 
     def jacobian(self, w: Array) -> Array:
         """Return D as a dense matrix from what ``geometry`` left in ``w``; shape (m, nv)."""

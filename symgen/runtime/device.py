@@ -23,6 +23,7 @@ from numba import config, cuda, float64, int64, types
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.instances import Instances, viewing
+from symgen.runtime.integrator import rates_of
 from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
 from symgen.runtime.schemes import explicit
@@ -31,9 +32,7 @@ from symgen.runtime.vectors import PLAIN
 _A, _K, _M, _T = types.float64[::1], types.int64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 #: Numbers of `events` on a device: the passage that is going on, and the narrowest one so far.
 N_EVENTS = 2 * abi.N_EVENT
-_N_EVENT, _MAX_EVENTS, _PIVOT, _EVENTS = abi.N_EVENT, abi.MAX_EVENTS, abi.EVENT_PIVOT, abi.EVENTS
-_STOP, _OUTPUTS, _ENERGY_START = abi.STOP, abi.OUTPUTS, abi.ENERGY_START
-_DONE, _TIME = abi.DONE, abi.TIME
+_N_EVENT, _MAX_EVENTS = abi.N_EVENT, abi.MAX_EVENTS
 
 
 class Starts(NamedTuple):
@@ -92,7 +91,7 @@ def cut(array: Any, first: int, size: int) -> Any:
 def watch_passages(sizes: Any, run: Any, y: Any, t: float) -> int:
     """Watch as on a processor; of all passages only the one that is going on and the narrowest are kept."""
     code, events = watch_states(sizes, run, y, t), run.events
-    if 0 < run.control[_EVENTS] <= _MAX_EVENTS and not events[_N_EVENT + _PIVOT] <= events[_PIVOT]:
+    if 0 < run.control[abi.EVENTS] <= _MAX_EVENTS and not events[_N_EVENT + abi.EVENT_PIVOT] <= events[abi.EVENT_PIVOT]:
         for i in range(_N_EVENT):
             events[_N_EVENT + i] = events[i]
     return code
@@ -218,7 +217,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
     observe_rates, observe_rows = on_device(observe.observe_rates), on_device(observe.observe_rows)
     nothing = on_device(confirm_nothing)
     rhs, accept, confirm = law.rhs, law.accept, getattr(law, "confirm", nothing)
-    rates, observed_by = getattr(law, "rates", law.rhs), model.observe if need.joints else nothing
+    rates, observed_by = rates_of(law)[0], model.observe if need.joints else nothing
     width, n_p, nw, n_room, n_kept = need.width, max(1, need.n_p), need.nw, need.working, need.kept
     n_counters, n_gauges, n_control, n_clock = abi.N_COUNTERS, abi.N_GAUGES, e.N_CONTROL, abi.N_CLOCK
     n_events, n_memory, n_rows = N_EVENTS, max(1, need.memory), need.rows
@@ -249,18 +248,18 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
             memory[j] = 0.0
         for j in range(n_events):
             events[j] = math.nan
-        control[_STOP] = 0  # which `begin_run` leaves as it is
+        control[abi.STOP] = 0  # which `begin_run` leaves as it is
         state = State(y, p, w, iw, clock, gauges, control, events, memory, starts.share, metric, scales, room)
         begin_run(state, starts.limits)
         k = starts.times.shape[0]
         outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
         code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, outputs)
-        if code == _DONE:  # a grid of steps meets the end up to rounding
-            clock[_TIME] = span.until
+        if code == abi.DONE:  # a grid of steps meets the end up to rounding
+            clock[abi.TIME] = span.until
         narrowest = events[_N_EVENT:]
         ended = State(y, p, w, iw, clock, gauges, control, narrowest, memory, starts.share, metric, scales, room)
         summarise(code, ended, results.summary[:, i])
-        count = control[_OUTPUTS]
+        count = control[abi.OUTPUTS]
         accelerations, multipliers = results.accelerations[:, : sizes.nv, i], results.multipliers[:, : sizes.m, i]
         observed = Observed(accelerations, multipliers, results.rows[:, :n_rows, i])
         if wants_rates:
@@ -269,6 +268,6 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
             observe_rates(rates, confirm, accept, sizes, outputs, count, p, kept, iw, observed, room)
         if wants_joints:
             observe_rows(observed_by, sizes, outputs, count, p, w, observed, room)
-        pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[_ENERGY_START], results.values[:, i])
+        pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[abi.ENERGY_START], results.values[:, i])
 
     return kernel

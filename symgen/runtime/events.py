@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.events import RECORD, RESET, STOP
 from symgen.runtime import abi, hunting, searching
 from symgen.runtime.rebounds import are_lost
 from symgen.runtime.resets import Impact, Masses, Reset, impact_of
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-RECORD, STOP, RESET = "record", "stop", "reset"
 #: What is left of a run until its events accumulate counts as nothing below this part of its length.
 NOTHING_LEFT = 1e-9
 #: So many intervals between events must have shrunk, in ratios that differ by no more than this.
@@ -79,7 +79,7 @@ class Watched:
     def hunting_state(self, sizes: Sizes, state: State) -> hunting.HuntingState:
         """Return what a run keeps, with what it keeps of its events before it has begun."""
         n = len(self.names)
-        first = hunting.notes_at(n, sizes.width, len(state.w), abi.N_COUNTERS)
+        first = hunting.notes_at(n, sizes.width, len(state.w))
         hunt = np.zeros(first + (searching.NOTES + 2 * n) * (2 + sizes.width))
         hunt[searching.COUNT], hunt[searching.NEEDS_RATES] = n, self.needs_rates
         columns = hunt[searching.N_HEAD :][: searching.N_COLUMNS * n].reshape(-1, n)
@@ -199,8 +199,11 @@ class Events:
         state.clock[abi.ALLOWED] = 0.0
         names = {watched.names[number] for number in numbers}
         energy = found.energy
-        for i, event in enumerate(self.happened):
-            if event.t == now and event.action == RESET and event.name in names:
+        first = len(self.happened)
+        while first > 0 and self.happened[first - 1].t == now:
+            first -= 1
+        for i, event in enumerate(self.happened[first:], first):
+            if event.action == RESET and event.name in names:
                 self.happened[i] = replace(
                     event, after=found.v, impulses=found.impulses, given=found.given, energy=energy
                 )
@@ -218,9 +221,8 @@ class Events:
             if len(intervals) > _SHRINKING:
                 last = intervals[-_SHRINKING - 1 :]
                 ratios = last[1:] / last[:-1]
-                ratio = float(ratios[-1])
                 if ratios.max() < 1.0 and np.ptp(ratios) < _STEADY:
-                    rest = float(last[-1]) * ratio / (1.0 - ratio)  # of a geometric series (Aitken)
+                    rest = _rest(float(last[-2]), float(last[-1]))
                     if rest < least:
                         self.accumulation = float(times[-1]) + rest
                         return True
@@ -248,9 +250,8 @@ class Events:
         now = float(state.clock[abi.TIME])
         times = [event.t for event in self.happened if event.name == self.watched.names[numbers[0]]][-3:]
         rest = 0.0
-        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:  # of a geometric series (Aitken)
-            ratio = (times[2] - times[1]) / (times[1] - times[0])
-            rest = (times[2] - times[1]) * ratio / (1.0 - ratio)
+        if len(times) == 3 and times[2] - times[1] < times[1] - times[0]:
+            rest = _rest(times[1] - times[0], times[2] - times[1])
         self.accumulation = now + rest
         return True
 
@@ -265,6 +266,12 @@ class Events:
         """Why a run ended whose events accumulate."""
         assert self.accumulation is not None, "events accumulate"
         return gathered(self.recent, self.accumulation)
+
+
+def _rest(before: float, last: float) -> float:
+    """Return what is left of a geometric series behind two of its terms (Aitken)."""
+    ratio = last / before
+    return last * ratio / (1.0 - ratio)
 
 
 def gathered(names: Sequence[str], t: float) -> str:

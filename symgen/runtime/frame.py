@@ -50,13 +50,9 @@ EVENTS = False
 #: that counts as none.
 SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
-#: Times closer than this part of a constant step are the same.
-_SAME = 1e-9
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
 #: order are off by an n-th of an energy that is only building up.
 _SETTING_OUT = 100
-#: Steps below this part of the time are lost in its rounding.
-_RESOLVED = 4e-16
 #: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
 _HOPELESS = 1e6
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
@@ -203,7 +199,7 @@ def integrate(
     run, scheme, outputs = opened(sizes, state), bare(scheme_of(scheme)), bare(outputs)
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width
-    tiny = 0.0 if ADAPTIVE else _SAME * span.step
+    tiny = 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
     if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
         settle(sizes, span, run)
@@ -251,7 +247,7 @@ def integrate(
             following = t + h
             if t + 1.01 * h >= until:
                 h, following = until - t, until
-            if not h > _RESOLVED * max(abs(t), abs(until)):
+            if not h > abi.RESOLVED_TIME * max(abs(t), abs(until)):
                 return abi.TINY_STEP
         else:
             h, following = span.step, clock[abi.ORIGIN] + (control[abi.INDEX] + 1) * span.step

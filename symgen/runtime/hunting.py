@@ -70,7 +70,7 @@ def scheme_of(scheme: Any) -> Any:
 def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
     """Return what `symgen.runtime.searching.decide` says of the state `y` at the end of a step."""
     n, width = int(run.hunt[searching.COUNT]), system.sizes.width
-    notes = notes_at(n, width, run.w.shape[0], run.iw.shape[0])
+    notes = notes_at(n, width, run.w.shape[0])
     return int(system.decide(run.hunt, n, notes, t, h, doing, width, y, run.w, run.iw))
 
 
@@ -114,9 +114,9 @@ def recall(system: Any, run: Any) -> None:
     decided(system, run, 0.0, 0.0, searching.RECALL, run.y)
 
 
-def notes_at(n: int, width: int, nw: int, ni: int) -> int:
+def notes_at(n: int, width: int, nw: int) -> int:
     """Return where notes begin."""
-    return searching.N_HEAD + (searching.N_COLUMNS + 2) * n + 2 * width + 2 * (nw + ni)
+    return searching.N_HEAD + (searching.N_COLUMNS + 2) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
 
 
 def integrate_with_events(
@@ -203,7 +203,7 @@ def __getattr__(name: str) -> Any:
 
 def taken_notes(hunt: Array, width: int, nw: int) -> list[tuple[float, int, Array]]:
     """Return time, number and state of the events noted so far, and make room for more."""
-    first = notes_at(int(hunt[searching.COUNT]), width, nw, abi.N_COUNTERS)
+    first = notes_at(int(hunt[searching.COUNT]), width, nw)
     count, size = int(hunt[searching.NOTED]), 2 + width
     rows = hunt[first : first + count * size].reshape(count, size).copy()
     hunt[searching.NOTED] = 0.0

@@ -28,15 +28,12 @@ class Blow:
         Velocities afterwards.
     impulses : Array
         Of each row of C, in the directions of C; of least norm where rows depend on each other.
-    left : Array
-        What is left of ``C v+ - c``; not 0 where conditions contradict each other.
     contradictory : bool
-        Whether more than rounding is left.
+        Whether more than rounding is left of ``C v+ - c``.
     """
 
     v: Array
     impulses: Array
-    left: Array
     contradictory: bool
 
 
@@ -74,4 +71,4 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> Blow:
     left = rows @ after - values
     largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
     contradictory = bool(np.any(np.abs(scale * left) > _MET * largest))
-    return Blow(after, scale * (back @ (seen @ (metric @ change))), left, contradictory)
+    return Blow(after, scale * (back @ (seen @ (metric @ change))), contradictory)

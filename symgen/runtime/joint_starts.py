@@ -43,7 +43,7 @@ def joint_values(compiled: CompiledModel, t: float, y: Array, p: Array, w: Array
         As emitted functions take them; the section of angles that count turns says on which turn these are.
     """
     info = compiled.info
-    out = np.zeros(info.m + 2 * len(info.joint_coordinates))
+    out = np.zeros(info.observed)
     Ready(compiled.model.observe, abi.OBSERVE)(t, y, p, w, np.zeros_like(y), out)
     return out[info.m :]
 

@@ -35,10 +35,7 @@ from symgen.runtime.vectors import combine, copied
 #: rhs(t, z) and accept(t, z).
 LANE_FUNCTION = types.FunctionType(types.int64(types.float64, types.float64[::1]))
 
-_L, _SPARE = LANES, len(LANE_COUNTERS)
-_STOP, _STEPS, _EVALUATIONS, _OUTPUTS, _STOPPED = abi.STOP, abi.STEPS, abi.EVALUATIONS, abi.OUTPUTS, abi.STOPPED
-_DONE, _NONE_GOES, _LEFT, _TIME, _N_STATUS = abi.DONE, abi.PAUSED, abi.LEFT, abi.TIME, abi.N_STATUS
-_RUN_ITERATIONS, _N_GAUGES, _N_SUMMARY, _CODE = abi.ITERATIONS, abi.N_GAUGES, e.N_SUMMARY, e.CODE
+_L, _SPARE, _NONE_GOES = LANES, len(LANE_COUNTERS), abi.PAUSED
 _PHI, _DRIFT, _KINETIC, _POTENTIAL = abi.PHI * _L, abi.DRIFT * _L, abi.KINETIC * _L, abi.POTENTIAL * _L
 _SHORTEST, _MEAN_MASS = abi.SHORTEST_ROW * _L, abi.MEAN_MASS * _L
 _PIVOT, _RANK, _LENGTH, _SPEED = abi.PIVOT * _L, abi.RANK * _L, abi.LENGTH * _L, abi.SPEED * _L
@@ -127,7 +124,7 @@ def keep_maxima(sizes: Any, run: Any, y: Any) -> float:
 def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
     """Judge accepted states as `symgen.runtime.watch.watch` does; mark lanes that cannot go on."""
     w, counters, gauges, behind = run.w, run.iw, run.gauges, sizes.nq + sizes.nv
-    run.clock[_TIME] = t
+    run.clock[abi.TIME] = t
     keep_maxima(sizes, run, y)
     for lane in range(_L):
         gauges[_LARGEST + lane] = 0.0
@@ -171,7 +168,7 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         odd = 1.0 if bad else gauges[_ODD + lane]
         gauges[_ODD + lane] = odd
         going += 1.0 - odd
-    return _DONE if going > 0.0 else _NONE_GOES
+    return abi.DONE if going > 0.0 else _NONE_GOES
 
 
 def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
@@ -179,10 +176,10 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
     n, width = sizes.ny * _L, outputs.status.shape[0] // outputs.times.shape[0]
     for i in range(n):
         outputs.states[k * n + i] = y[i]
-    for i in range(_N_STATUS * _L):
+    for i in range(abi.N_STATUS * _L):
         outputs.status[k * width + i] = w[i]
-    for i in range(width - _N_STATUS * _L):
-        outputs.status[k * width + _N_STATUS * _L + i] = w[_WINDING + i]
+    for i in range(width - abi.N_STATUS * _L):
+        outputs.status[k * width + abi.N_STATUS * _L + i] = w[_WINDING + i]
 
 
 _MEANINGS: dict[str, Any] = {
@@ -212,7 +209,7 @@ def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> Non
         for i in range(_SPARE):
             z[w_at + (nw + i) * _L + lane] = 0.0
         begin_run(state, chunk.limits)
-        for i in range(_N_GAUGES):
+        for i in range(abi.N_GAUGES):
             gauges[i * _L + lane] = state.gauges[i]
         rank = 0.0
         for i in range(sizes.m):
@@ -230,11 +227,11 @@ def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: An
             kept.outputs.states[k, i] = outputs.states[(k * n + i) * _L + lane]
         for i in range(columns):
             kept.outputs.status[k, i] = outputs.status[(k * columns + i) * _L + lane]
-    for i in range(_N_GAUGES):
+    for i in range(abi.N_GAUGES):
         state.gauges[i] = lanes.gauges[i * _L + lane]
     for i in range(state.iw.shape[0]):
         state.iw[i] = 0
-    state.iw[_RUN_ITERATIONS] = int(lanes.iw[_ITERATIONS + lane])
+    state.iw[abi.ITERATIONS] = int(lanes.iw[_ITERATIONS + lane])
 
 
 def run_lanes(
@@ -290,23 +287,23 @@ def run_lanes(
     more = state.events, state.memory, state.share, state.metric, state.scales
     lanes = State(y, z, w, counters, clock, gauges, control, *more, rest)
     for g in range(0, total, _L):
-        if control[_STOP] != 0:
+        if control[abi.STOP] != 0:
             return int(g)
         load(chunk, wide, state, g, z, gauges)
         copied(width, z, y)
-        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == _STOPPED:
+        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == abi.STOPPED:
             return int(g)
-        steps, evaluations = control[_STEPS], control[_EVALUATIONS]
+        steps, evaluations = control[abi.STEPS], control[abi.EVALUATIONS]
         for lane in range(min(_L, total - g)):
             r = chunk.selected[g + lane]
             if gauges[_ODD + lane] != 0.0:
-                chunk.summary[r * _N_SUMMARY + _CODE] = _LEFT
+                chunk.summary[r * e.N_SUMMARY + e.CODE] = abi.LEFT
                 continue
             unload(lane, sizes, lanes, state, outputs, kept)
             take(chunk.ps, r * n_p, n_p, state.p)
-            clock[_TIME] = span.until
-            control[_STEPS], control[_OUTPUTS], control[_EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(_DONE, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
+            clock[abi.TIME] = span.until
+            control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
+            end_run(abi.DONE, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
     return int(total)
 
 
@@ -314,7 +311,7 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     """Return the length of the working memory of `run_lanes`."""
     bases = lane_bases(n, n_p, nw)
     numbers = bases["numbers"] + (1 + stages) * bases["ydot"] + _N_LANE_GAUGES
-    return LANES * (numbers + n_times * (n + _N_STATUS + windings))
+    return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
 _FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE

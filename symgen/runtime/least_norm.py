@@ -10,18 +10,14 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
-from symgen.runtime import abi, decisions
+from symgen.runtime import decisions
 from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
 from symgen.runtime.scales import free_scale, row_weight
-from symgen.runtime.start_records import INSTANT, LAYOUT, WORK
-
-_SIGNATURE = types.int64(abi.MOVE, LAYOUT, INSTANT, WORK)
+from symgen.runtime.start_records import SOLVE
 
 
-@exact(_SIGNATURE)
+@exact(SOLVE.signature)
 def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     """Set `work.x` by an orthogonal factorisation of the dense D; return its rank. `spread` is not used."""
     m, n, numbers, x, scale = layout.m, layout.nv, work.numbers, work.x, work.scale
@@ -40,7 +36,7 @@ def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     return int(rank)
 
 
-@exact(_SIGNATURE)
+@exact(SOLVE.signature)
 def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     """Set `work.x` without a dense D: by the model's ``spread`` in the metric of the gauge, else by iteration."""
     m, n, w, right, scale, x = layout.m, layout.nv, now.w, work.right, work.scale, work.x
@@ -57,7 +53,7 @@ def sparse_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     return 0
 
 
-@exact(_SIGNATURE)
+@exact(SOLVE.signature)
 def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     """Set `work.x` by conjugate gradients on the normal equations (CGLS). `spread` is not used.
 

@@ -14,7 +14,6 @@ from symgen.store.loops import from_its_source
 
 _A, _K, _I8 = types.float64[::1], types.int64[::1], types.int64
 _M, _C = types.float64[:, ::1], types.float64[:, :, ::1]
-_OF_Y, _OF_RATES = e.OF_Y, e.OF_RATES
 
 
 class Left(NamedTuple):
@@ -57,9 +56,9 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     """Put what a run left at an output where functions of the motion read it; return whether it got there."""
     for c in range(places.shape[0] // 2):
         value, at = seen[r, first + c, k], places[2 * c + 1]
-        if places[2 * c] == _OF_Y:
+        if places[2 * c] == e.OF_Y:
             y[at] = value
-        elif places[2 * c] == _OF_RATES:
+        elif places[2 * c] == e.OF_RATES:
             rates[at] = value
         else:
             w[at] = value

@@ -21,6 +21,13 @@ def entries_of(info: ModelInfo) -> tuple[Integers, Array]:
     return np.array(places, dtype=np.int64).ravel(), np.array(constants, dtype=np.float64)
 
 
+def triplets_of(info: ModelInfo, jacobian: Array) -> tuple[Integers, Integers, Array]:
+    """Return rows, columns and values of D's structural entries, by what stands in the section ``jacobian`` of w."""
+    entries, constants = entries_of(info)
+    rows, columns, slots = entries.reshape(-1, 3).T
+    return rows, columns, np.where(slots < 0, constants, jacobian[slots] if len(jacobian) else constants)
+
+
 def lengths_of(info: ModelInfo) -> Array:
     """Return 1 for coordinates that are lengths, else 0."""
     return np.array([quantity.unit == "m" for quantity in info.coordinates], dtype=np.float64)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from symgen.runtime import abi
 from symgen.runtime.blocks import padded
 from symgen.runtime.model_arrays import lengths_of
-from symgen.runtime.records import Sizes, Span, State
+from symgen.runtime.records import Outputs, Sizes, Span, State
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
@@ -49,6 +49,12 @@ def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
     metric = np.zeros(sizes.width)
     metric[: sizes.nq] = lengths_of(info)
     return metric
+
+
+def new_outputs(info: ModelInfo, times: Array) -> Outputs:
+    """Return room for the outputs of a run at some times [s]."""
+    k, kept = len(times), abi.N_STATUS + info.windings
+    return Outputs(np.ascontiguousarray(times, dtype=np.float64), np.empty((k, info.ny)), np.empty((k, kept)))
 
 
 def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> State:

@@ -13,7 +13,6 @@ from symgen.runtime.records import OBSERVED, OUTPUTS, SIZES
 from symgen.store.jit import jit
 from symgen.store.loops import from_its_source
 
-_WINDING, _N_STATUS = abi.WINDING, abi.N_STATUS
 _A, _I, _I8 = types.float64[::1], types.int64[::1], types.int64
 
 
@@ -22,8 +21,8 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
     """Set `y` to the state of an output, and the angles in `w` to what they were there."""
     for i in range(sizes.ny):
         y[i] = outputs.states[k, i]
-    for i in range(outputs.status.shape[1] - _N_STATUS):
-        w[_WINDING + i] = outputs.status[k, _N_STATUS + i]
+    for i in range(outputs.status.shape[1] - abi.N_STATUS):
+        w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
 @from_its_source(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
@@ -120,13 +119,13 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
     for k in range(outputs.times.shape[0]):
         for i in range(sizes.ny):
             y[i] = outputs.states[k, i]
-        for i in range(outputs.status.shape[1] - _N_STATUS):
-            if math.isfinite(outputs.status[k, _N_STATUS + i]):
-                w[_WINDING + i] = outputs.status[k, _N_STATUS + i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            if math.isfinite(outputs.status[k, abi.N_STATUS + i]):
+                w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
         geometry(outputs.times[k], y, p, w)
         measure(outputs.times[k], y, p, w)
-        for i in range(_N_STATUS):
+        for i in range(abi.N_STATUS):
             outputs.status[k, i] = w[i]
-        for i in range(outputs.status.shape[1] - _N_STATUS):
-            outputs.status[k, _N_STATUS + i] = w[_WINDING + i]
+        for i in range(outputs.status.shape[1] - abi.N_STATUS):
+            outputs.status[k, abi.N_STATUS + i] = w[abi.WINDING + i]
     return 0

@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
+from symgen.runtime.integrator import rates_of
 from symgen.runtime.new_state import sizes_of
-from symgen.runtime.simulation import Simulation, row_chooser
+from symgen.runtime.redundancy import row_chooser
+from symgen.runtime.simulation import Simulation
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -94,8 +96,7 @@ class Motion:
         from symgen.runtime.observe import observe_rates
 
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
-        rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-        functions, iw = (rates, getattr(law, "confirm", rates), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        functions, iw = (*rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None
         for first, last, p in self.parameters:
@@ -120,8 +121,7 @@ class Motion:
 
     @cached_property
     def _rows(self) -> Array:
-        info = self.compiled.info
-        return self.observed(self.compiled.model.observe, info.m + 2 * len(info.joint_coordinates))
+        return self.observed(self.compiled.model.observe, self.compiled.info.observed)
 
     def observed(self, function: Any, length: int, multipliers: Array | None = None) -> Array:
         """Return what a function of the motion gives at the outputs, shape (k, length).

@@ -8,13 +8,22 @@ repeats.
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from numba import types
+from numpy.typing import NDArray
 
 from symgen.runtime import abi
-from symgen.runtime.exact import exact
+from symgen.runtime.exact import compiled_form, exact
 from symgen.runtime.scales import VANISHED
+from symgen.store.jit import jit
+
+if TYPE_CHECKING:
+    from symgen.runtime.compiled import CompiledModel
+
+Array = NDArray[np.float64]
 
 _A, _I, _N = types.float64[::1], types.int64[::1], types.int64
 
@@ -167,6 +176,46 @@ def choose_rows(
         changed = changed if w[mask + i] == room[masked + i] else 1
         w[mask + i] = room[masked + i]
     return changed
+
+
+def room_of_choice(m: int, n: int) -> int:
+    """Return the length of the working memory of `choose_rows`, 0 for a D so large that rows are not chosen anew."""
+    return m * (n + m) + 2 * m if m * n <= LARGEST else 0
+
+
+def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
+    """Return what chooses the rows that stand for all at the position of w and says whether they are others.
+
+    Rows of mechanisms that are too large for it stay what they are.
+    """
+    info, layout = compiled.info, compiled.layout
+    room, choose = np.zeros(room_of_choice(info.m, info.nv)), compiled_form(choose_rows)
+    if not len(room):
+        return lambda w: False
+    places = layout.entries, layout.constants, layout.jacobian, layout.gauge, layout.row_weight, layout.mask
+
+    def chosen(w: Array) -> bool:
+        kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))
+        return bool(choose(info.m, info.nv, kept, *places, w, room))
+
+    return chosen
+
+
+@jit()
+def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
+    """Set the residuals of redundant rows in the constraints of a stage to their multipliers: they shall be 0.
+
+    Parameters
+    ----------
+    sizes : Sizes
+        Of the model.
+    w, k, right : Array
+        Scratch, and unknowns and residuals of the stage.
+    """
+    first = sizes.nq + sizes.nv
+    for i in range(first, sizes.unknowns):
+        if w[sizes.mask + (i - first) % sizes.m] > 0.0:
+            right[i] = k[i]
 
 
 def rows_fell(run: Any) -> bool:

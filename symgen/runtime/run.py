@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from symgen.ir.program import COUNTERS
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
-from symgen.runtime.model_arrays import entries_of
+from symgen.runtime.model_arrays import triplets_of
 from symgen.runtime.outcome import Outcome, RankEvent
 from symgen.runtime.simulation import Simulation
 from symgen.store.stats import cache_stats
@@ -227,9 +227,8 @@ def reason_of(simulation: Simulation, code: int, end: float) -> str:
 
 def _shortest_row(compiled: CompiledModel, w: Array) -> str:
     """Return the name of the row that is an angle and has lost most of its gradient."""
-    info, (entries, constants) = compiled.info, entries_of(compiled.info)
-    rows, columns, slots = entries.reshape(-1, 3).T
-    values = np.where(slots < 0, constants, compiled.section(w, "jacobian")[slots] if len(slots) else constants)
+    info = compiled.info
+    rows, columns, values = triplets_of(info, compiled.section(w, "jacobian"))
     squares = np.bincount(rows, values**2 * compiled.section(w, "gauge")[columns], info.m)
     left = squares * compiled.section(w, "row_weight")
     return min((left[i], row.name) for i, row in enumerate(info.rows) if row.unit == "rad")[1]

@@ -14,7 +14,6 @@ from symgen.runtime import abi
 from symgen.runtime.exact import exact
 from symgen.runtime.instances import viewing
 
-_ENERGY_SCALE = abi.ENERGY_SCALE
 #: Bodies count as at least this part of the longest one: their rounding shall not decide.
 LEAST_LENGTH = 1e-2
 #: Rows count as at least this part of a usual one, squared.
@@ -179,7 +178,7 @@ def settle(sizes: Any, span: Any, run: Any) -> None:
     for j in range(sizes.nv):
         run.scales[nq + j] = run.metric[nq + j] / speed
     open_speed = still(span, speed)
-    run.gauges[_ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
+    run.gauges[abi.ENERGY_SCALE] = w[abi.MEAN_MASS] * open_speed * open_speed
 
 
 def still(span: Any, speed: float) -> Any:

@@ -25,7 +25,7 @@ from symgen.store.emitted import plain
 A = Any
 #: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
 #: where rates need v', the bracket that is looked at, the whole step, what time resolves, ...
-_FIRST, DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(8)
+DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(TRY + 1, TRY + 8)
 #: ... attempts at extrema, rounds in a bracket, its width three rounds ago, events found in the step, and notes.
 PROBES, ROUNDS, WIDTH, FOUND, NOTED = range(8, 13)
 #: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
@@ -35,8 +35,7 @@ DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
 #: ... g and g' at the beginning and at the end of the step and of the bracket.
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
 N_HEAD, N_COLUMNS = 13, 15
-_COUNTERS = abi.N_COUNTERS
-assert _FIRST == TRY, "the frame reads it there"
+_COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: What else is done with what is kept.
 LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK = range(CROWD + 1, CROWD + 6)
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
@@ -46,8 +45,6 @@ _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 NOTES = 256
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
-#: Times closer than this part of the time are the same.
-_RESOLVED = 4e-16
 #: Attempts at extrema, rounds in a bracket and events in a single step, at most.
 _MOST_PROBES, _MOST_ROUNDS, _MOST_FOUND = 12, 200, 100
 

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.exact import compiled_form
 from symgen.runtime.knots import stepped
-from symgen.runtime.model_arrays import entries_of
-from symgen.runtime.new_state import new_state, sizes_of, span_of
+from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
 if TYPE_CHECKING:
@@ -35,10 +34,6 @@ Array = NDArray[np.float64]
 #: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
 #: differ in the last bit from the state that a multistep scheme goes on with.
 SHOWN = ("shown_state", "shown_status")
-_EVENTS, _TIME = abi.EVENTS, abi.TIME
-#: Times are the same that are closer than this part of a constant step, or, where steps vary, of the time: loops take
-#: steps below that for lost in rounding.
-SAME, RESOLVED = 1e-9, 4e-16
 
 
 class Simulation:
@@ -124,11 +119,7 @@ class Simulation:
 
     def outputs(self, times: Array) -> Outputs:
         """Return room for outputs at `times`."""
-        from symgen.runtime.records import Outputs
-
-        k, given = len(times), np.ascontiguousarray(times, dtype=np.float64)
-        kept = abi.N_STATUS + self.compiled.info.windings
-        return Outputs(given, np.empty((k, self.sizes.ny)), np.empty((k, kept)))
+        return new_outputs(self.compiled.info, times)
 
     def _take_up(self, saved: Mapping[str, NDArray[Any]], p: Array) -> None:
         """Go on from what another run has kept, with the limits, outputs and inputs of this one."""
@@ -153,7 +144,7 @@ class Simulation:
 
     def store_first(self, outputs: Outputs) -> None:
         """Write the outputs up to where a run stands that was taken up: the loop writes those behind it."""
-        tiny = 0.0 if self.spec.adaptive else 1e-9 * self.setup.step
+        tiny = 0.0 if self.spec.adaptive else abi.SAME_TIME * self.setup.step
         control, out = self.state.control, 0
         while out < len(outputs.times) and outputs.times[out] <= self.state.clock[abi.TIME] + tiny:
             outputs.states[out], outputs.status[out] = self._shown
@@ -258,13 +249,13 @@ class Simulation:
 
     def is_ahead(self, moment: float) -> bool:
         """Whether a time is far enough from the present one for a step between the two."""
-        return moment - self._clock[_TIME] > self.same(moment)
+        return moment - self._clock[abi.TIME] > self.same(moment)
 
     def same(self, moment: float) -> float:
         """Return how far times may be apart that count as the same near a time [s]."""
         if self.spec.adaptive:
-            return RESOLVED * max(abs(moment), abs(self._clock[_TIME]))
-        return SAME * self.span.step
+            return abi.RESOLVED_TIME * max(abs(moment), abs(self._clock[abi.TIME]))
+        return abi.SAME_TIME * self.span.step
 
     @property
     def next_piece(self) -> float:
@@ -280,7 +271,7 @@ class Simulation:
             self._pieces_taken, last = self._pieces_taken + 1, begin
         self.changes.give(values)
         # a kink changes no number, but what multistep schemes know of the past ends there as well
-        if self._clock[_TIME] - last <= self.same(self._clock[_TIME]) and self.state.control[abi.BEGUN] == 1:
+        if self._clock[abi.TIME] - last <= self.same(self._clock[abi.TIME]) and self.state.control[abi.BEGUN] == 1:
             self.state.control[abi.BEGUN] = abi.AFRESH
 
     def go(self, until: float, pause: float, most: float | None = None) -> int:
@@ -292,7 +283,7 @@ class Simulation:
         if entry is None or not self.direct:
             snapshot.take(self.scheme)
             return self.enter(self._nothing, until, pause, most)
-        if not self._copied or self._counts[_EVENTS] > 0:
+        if not self._copied or self._counts[abi.EVENTS] > 0:
             snapshot.take(self.scheme)
         else:
             snapshot.rows = 0
@@ -309,7 +300,7 @@ class Simulation:
         """Take up what was remembered when `go` was called last, or entered its loop after an event."""
         self.scheme = self.snapshot.put_back(self.scheme)
         if self.events is not None:
-            self.events.forget_after(self._clock[_TIME])
+            self.events.forget_after(self._clock[abi.TIME])
 
     def _ended(self, code: int) -> int | None:
         """Do what a loop asks for; return how it ended, None where it is to be entered again."""
@@ -382,7 +373,7 @@ class Simulation:
             else:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
-            self.events.forget_after(self._clock[_TIME])
+            self.events.forget_after(self._clock[abi.TIME])
         if self.spec.pieces:
             self._pieces_taken = 0
             self.take_pieces()
@@ -390,27 +381,6 @@ class Simulation:
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:
         return row_chooser(self.compiled)
-
-
-def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
-    """Return what chooses the rows that stand for all at the position of w and says whether they are others.
-
-    Rows of mechanisms that are too large for it stay what they are.
-    """
-    from symgen.runtime.redundancy import LARGEST, choose_rows
-
-    info = compiled.info
-    if info.m * info.nv > LARGEST:
-        return lambda w: False
-    entries, constants = entries_of(info)
-    places = tuple(info.sections[name][0] for name in ("jacobian", "gauge", "row_weight", "mask"))
-    room, choose = np.zeros(info.m * (info.nv + info.m + 2)), compiled_form(choose_rows)
-
-    def chosen(w: Array) -> bool:
-        kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))
-        return bool(choose(info.m, info.nv, kept, entries, constants, *places, w, room))
-
-    return chosen
 
 
 def _with_room(scheme: Any) -> Any:

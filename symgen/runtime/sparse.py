@@ -387,20 +387,3 @@ def stored_entries(plan: Any) -> int:
     n, work = int(plan[SIZE]), int(plan[WORK])
     upper, end = plan[work + _UPPER * n :][:n], plan[work + _END * n :][:n]
     return int(np.sum(end - upper))
-
-
-@jit()
-def leave_out_rest(sizes: Any, w: Any, k: Any, right: Any) -> None:
-    """Set the residuals of redundant rows in the constraints of a stage to their multipliers: they shall be 0.
-
-    Parameters
-    ----------
-    sizes : Sizes
-        Of the model.
-    w, k, right : Array
-        Scratch, and unknowns and residuals of the stage.
-    """
-    first = sizes.nq + sizes.nv
-    for i in range(first, sizes.unknowns):
-        if w[sizes.mask + (i - first) % sizes.m] > 0.0:
-            right[i] = k[i]

@@ -16,13 +16,12 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
-from symgen.runtime.assembler import Assembly
 from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
+from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.scales import VANISHED, has_vanished, mean_mass, square_rows, weigh_rows
-from symgen.runtime.simulation import row_chooser
 from symgen.runtime.start_records import INSTANT, LAYOUT, Instant
 
 Array = NDArray[np.float64]
@@ -55,7 +54,7 @@ def settle_tree(
         Ready(compiled.model.masses, abi.MOVE)(p, w)
         w[abi.WINDING : abi.WINDING + info.windings] = turned
         geometry = Ready(compiled.model.geometry, abi.MEASURE)
-        layout = Assembly.of(compiled).layout._replace(t=t)
+        layout = compiled.layout._replace(t=t)
         now = Instant(y, p, w)
         w[abi.LENGTH], w[abi.SPEED], gauge = scales
         compiled.section(w, "gauge")[:] = gauge
@@ -67,7 +66,7 @@ def settle_tree(
         if masked.any() and w[abi.PIVOT] < WARN and row_chooser(compiled)(w):
             geometry(t, y, p, w)
             masked = compiled.section(w, "mask") > 0.0
-    return w, rank, tuple(info.rows[i].name for i in np.flatnonzero(masked))
+    return w, rank, compiled.redundant(w)
 
 
 class Carrying(NamedTuple):

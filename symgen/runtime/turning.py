@@ -10,17 +10,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from numba import types
-
 from symgen.runtime import abi, decisions
 from symgen.runtime.exact import exact
 from symgen.runtime.scales import row_weight
-from symgen.runtime.start_records import INSTANT, LAYOUT, WORK
-
-_SIGNATURE = types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK)
+from symgen.runtime.start_records import TURNS
 
 
-@exact(_SIGNATURE)
+@exact(TURNS.signature)
 def choose_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
     """Shift the section ``winding`` by the whole turns with which the rows on angles are nearest to closed.
 
@@ -116,7 +112,7 @@ def whole_turns(m: int, count: int, effects: Any, rest: Any, turns: int) -> None
                 rest[r] += wanted * effects[r * count + column]
 
 
-@exact(_SIGNATURE)
+@exact(TURNS.signature)
 def choose_no_turns(geometry: Any, measure: Any, layout: Any, now: Any, work: Any) -> int:
     """Stand in for `choose_turns` where no angle counts turns, so that it is not compiled."""
     return 0

@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+from symgen.describe.events import STOP
 from symgen.errors import InputError, StepError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin, begin_anew
-from symgen.runtime.events import STOP, EventRecord, record_of
+from symgen.runtime.events import EventRecord, record_of
 from symgen.runtime.run import reason_of
 
 if TYPE_CHECKING:

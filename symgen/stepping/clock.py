@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from symgen.runtime.simulation import SAME
+from symgen.runtime import abi
 
 if TYPE_CHECKING:
     from symgen.stepping.run import SteppedRun
@@ -41,4 +41,4 @@ class Clock:
 
     def is_due(self, t: float, slack: float) -> bool:
         """Whether the next beat is at a time, or was before it; `slack` is what the run takes for the same time [s]."""
-        return self.due - t <= max(slack, SAME * self.interval)
+        return self.due - t <= max(slack, abi.SAME_TIME * self.interval)

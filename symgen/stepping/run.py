@@ -16,7 +16,7 @@ from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
-from symgen.runtime.simulation import RESOLVED, Simulation
+from symgen.runtime.simulation import Simulation
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
@@ -195,7 +195,7 @@ class SteppedRun:
         """
         until = arguments.number("until", until)
         self._ready("run")
-        if until < self.t - max(self._loop.same(until), RESOLVED * abs(until)):
+        if until < self.t - max(self._loop.same(until), abi.RESOLVED_TIME * abs(until)):
             raise InputError("until", f"a time from {self.t:g} s on, where the run stands", f"{until:g}")
         if self._free:
             self._advance.take_steps_of(self._plan.spec.step or 0.0)

@@ -18,6 +18,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from symgen.memory import processors
 from symgen.store.paths import ENVIRONMENT_VARIABLE, cache_location
 
 #: Processes that were started, by the name of what they compile.
@@ -41,7 +42,7 @@ def start(function: Any) -> bool:
         single processor.
     """
     wanting = getattr(function, "wanting", None)
-    if wanting is None or not wanting() or not cache_location().persistent or _processors() < 2 or not _is_python():
+    if wanting is None or not wanting() or not cache_location().persistent or processors() < 2 or not _is_python():
         return False
     if function.is_quick():
         return False
@@ -87,11 +88,6 @@ def _name(function: Any) -> str:
 def _is_python() -> bool:
     """Whether this process is an interpreter that can be started anew, not a program with Python inside."""
     return "python" in Path(sys.executable or "").name.lower()
-
-
-def _processors() -> int:
-    """Return how many processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def main(module: str, name: str) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import platform
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+
+from symgen.memory import processors
 
 #: Libraries whose versions matter for run times and last digits.
 LIBRARIES = ("numpy", "numba", "sympy", "scipy")
@@ -23,16 +24,9 @@ def processor() -> str:
     return platform.processor() or platform.machine() or "unknown"
 
 
-def cores() -> int:
-    """Return the number of cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 def machine_class() -> str:
     """Return processor, architecture, cores and system in words."""
-    n = cores()
+    n = processors()
     core = "1 core" if n == 1 else f"{n} cores"
     return f"{processor()} ({platform.machine()}), {core}, {platform.system()}"
 

@@ -7,10 +7,10 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import Table
 from symgen.describe.names import CALLABLE
 from symgen.describe.parser import Names, parse
 from symgen.describe.printer import to_text
+from symgen.describe.tables import Table
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name, Number
 

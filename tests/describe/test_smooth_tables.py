@@ -9,8 +9,8 @@ from support.curves import curve
 from symgen.describe.builder import MechanismBuilder
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import evaluate
-from symgen.describe.mechanism import Table
 from symgen.describe.parser import Names, parse
+from symgen.describe.tables import Table
 from symgen.describe.toml import to_toml
 from symgen.describe.validate import validate
 from symgen.errors import InputError

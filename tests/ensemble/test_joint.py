@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from runtime.test_events import four_bar
 
 import symgen
+from symgen import tree_run
+from symgen.compiling import events
+from symgen.ensemble import singly
 from symgen.errors import InputError
 
 #: Model, what varies, how it is said of a single run, and whether rows of loops depend on others: those run apart.
@@ -89,3 +93,24 @@ def test_targets_without_joint_coordinates_say_so():
             symgen.sweep("four-bar", {"crank_mass": [1.0]}, coordinates="joint", target=target)
     found = symgen.sweep("four-bar", {"crank_mass": [1.0]}, coordinates="auto", target="lanes", until=0.01, step=1e-3)
     assert found.ensemble.plan.coordinates == "absolute"
+
+
+def test_rows_with_resets_share_what_is_the_same_for_all(monkeypatch):
+    """Events are compiled for the tree and for bodies, and what carries a start is found, once and not for each row."""
+    calls = []
+    for module, name in (
+        *((module, "compile_events") for module in (singly, events)),
+        *((module, "carrying_of") for module in (singly, tree_run)),
+    ):
+        original = getattr(module, name)
+
+        def counted(*arguments, name=name, original=original):
+            calls.append(name)
+            return original(*arguments)
+
+        monkeypatch.setattr(module, name, counted)
+    model = four_bar(blow={"when": "t > 0.02", "reset": {"coupler.omega": "1.5 - 0.4*coupler.omega"}})
+    asked = {"until": 0.05, "coordinates": "joint", "integrator": "rk4", "step": 1e-2}
+    found = symgen.sweep(model, {"crank.omega": [1.0, 2.0, 3.0]}, jobs=1, **asked)
+    np.testing.assert_array_equal(found["event.blow.count"], 1.0)
+    assert sorted(calls) == ["carrying_of", "compile_events", "compile_events"]

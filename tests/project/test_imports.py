@@ -179,6 +179,13 @@ def test_generating_needs_no_numba(tmp_path: Path) -> None:
     assert not loaded(code, tmp_path) & {"numba", "scipy", *DRAWING}
 
 
+@pytest.mark.parametrize("choice", [("--target", "cuda"), ("--shape", "looped")], ids=" ".join)
+def test_writing_code_that_does_not_run_here_needs_no_numba(tmp_path: Path, choice: tuple[str, str]) -> None:
+    arguments = "generate", "pendulum", *choice, "--method", "baumgarte", "--output", str(tmp_path / "written")
+    assert not loaded(CLI, tmp_path / "cache", *arguments) & {"numba", "scipy", *DRAWING}
+    assert list((tmp_path / "written").glob("*.py"))
+
+
 CLI = "from symgen.cli import main\nassert main() == 0"
 
 

@@ -13,6 +13,7 @@ from symgen.compiling.pipeline import choose_method, generate
 from symgen.runtime import sparse
 from symgen.runtime.newton import Pattern, Terms, alpha_plan, elimination_order, make_plan, projection_plan, stage_plan
 from symgen.runtime.records import Sizes
+from symgen.runtime.redundancy import leave_out_rest
 
 NOTHING = np.zeros(0, dtype=np.int64)
 
@@ -176,7 +177,7 @@ def test_rows_that_are_left_out_have_no_multiplier():
     k[9] = 0.25  # a multiplier that an earlier iterate left: the iteration takes it away
     solver = Solver(matrix, np.array([9]))
     sizes = Sizes(*[0] * len(Sizes._fields))._replace(nq=3, nv=3, m=4, unknowns=10, mask=1)
-    sparse.leave_out_rest(sizes, w, k, right)
+    leave_out_rest(sizes, w, k, right)
     assert solver.factorise(matrix) == 0
     x = solver.solve(right)
     assert x[9] == 0.25

@@ -23,7 +23,8 @@ from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.records import ALPHA
-from symgen.runtime.sparse import leave_out_rest, multiply, solve, turn_rows
+from symgen.runtime.redundancy import leave_out_rest
+from symgen.runtime.sparse import multiply, solve, turn_rows
 
 _MOST_ITERATIONS = 20
 

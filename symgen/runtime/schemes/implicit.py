@@ -15,8 +15,9 @@ from symgen.runtime.bare import part
 from symgen.runtime.frame import DIVERGED, TOO_LARGE, evaluate, loop
 from symgen.runtime.instances import called
 from symgen.runtime.records import STAGES
+from symgen.runtime.redundancy import leave_out_rest
 from symgen.runtime.scales import weights_of, with_work
-from symgen.runtime.sparse import leave_out_rest, solve
+from symgen.runtime.sparse import solve
 from symgen.runtime.vectors import copied, weigh
 
 _MOST_ITERATIONS = 15

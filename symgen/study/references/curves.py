@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from symgen.describe.mechanism import Table
+    from symgen.describe.tables import Table
 
 
 def curves(table: Table) -> dict[str, Callable[[float], Any]]:
