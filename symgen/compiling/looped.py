@@ -21,7 +21,7 @@ from symgen.ir.program import FORMAT
 from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
-from symgen.lower.looped.law import refuse_dense
+from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Forms, Tables, build_tables
@@ -35,22 +35,6 @@ if TYPE_CHECKING:
 
 #: Modules beside kernels and laws.
 _MACHINE, _MODEL = "machine", "model"
-
-
-class LoopedLawInfo(msgspec.Struct, frozen=True):
-    """Metadata of an emitted law of the looped shape; see `symgen.lower.looped.law.LoopedLaw`."""
-
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
-    sections: tuple[tuple[str, str], ...]
-    vectors: int
-    augmented: bool
-    positions: bool
-    position_correction: bool
-    velocity_correction: bool
-    modules: tuple[str, ...]
 
 
 def shared_folder(generator: str) -> str:
@@ -103,19 +87,7 @@ def emit_missing(
         law = lower_looped(method, options)
         sources = emit_looped_law(law, generator, method.summary, method.reference)
         *shared, _ = sources
-        info = LoopedLawInfo(
-            method=law.method,
-            key=law.key,
-            options=dict(law.options),
-            parameters=law.parameters,
-            sections=law.sections,
-            vectors=law.vectors,
-            augmented=law.augmented,
-            positions=law.positions,
-            position_correction=law.correction.position != "none",
-            velocity_correction=law.correction.velocity,
-            modules=tuple(shared),
-        )
+        info = msgspec.structs.replace(law.info, modules=tuple(shared))
         modules |= {name: (sources[name], {}) for name in shared}
         modules[stem] = sources[stem], msgspec.to_builtins(info)
     for name, instance in elements.items():
