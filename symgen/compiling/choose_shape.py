@@ -53,9 +53,7 @@ class ShapeChoice:
     reason: str
 
 
-def choose_shape(
-    mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float, entries: Entries | None = None
-) -> ShapeChoice:
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> ShapeChoice:
     """Decide the shape of a run.
 
     Parameters
@@ -68,8 +66,6 @@ def choose_shape(
         One of `symgen.settings.SHAPES`.
     evaluations : float
         Evaluations that are expected.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
@@ -77,7 +73,7 @@ def choose_shape(
         If there is no such shape, or the method cannot have it at this size.
     """
     coordinates = sum(len(b.coordinates) for b in mechanism.bodies)
-    store = Entries() if entries is None else entries
+    store = Entries()
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:
         return ShapeChoice("straight", f"it is compiled already ({_size(coordinates, evaluations)})")

@@ -127,7 +127,6 @@ def compile_looped(
     options: Mapping[str, str],
     implicit: bool,
     generator: str,
-    entries: Entries | None = None,
 ) -> LoopedModel:
     """Return the compiled model of `mechanism` in the looped shape, what the cache has taken from there.
 
@@ -141,8 +140,6 @@ def compile_looped(
         Whether an implicit integrator asks for it.
     generator : str
         Digest of everything that shapes emitted code.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
@@ -151,7 +148,7 @@ def compile_looped(
     """
     refuse_dense(method, options, implicit)
     began = time.perf_counter()
-    store = Entries() if entries is None else entries
+    store = Entries()
     folder, law = shared_folder(generator), law_stem(method, options)
     found, stems, elements = named(instances(mechanism))
     forms = form_stems(elements, method, options, implicit)
