@@ -112,7 +112,7 @@ def _shorter(
         shared = shared_folder(generator_digest())
         missing = 0.0 if _known(store, shared, "model") else LOOPED_GENERIC
         missing += 0.0 if _known(store, shared, law_stem(choice.method, choice.options)) else LOOPED_LAW
-        _, _, elements = named(instances(mechanism))
+        _, elements = named(instances(mechanism))
         missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in elements)
         forms = form_stems(elements, choice.method, choice.options, choice.implicit)
         missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())

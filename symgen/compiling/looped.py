@@ -150,7 +150,8 @@ def compile_looped(
     began = time.perf_counter()
     store = Entries()
     folder, law = shared_folder(generator), law_stem(method, options)
-    found, stems, elements = named(instances(mechanism))
+    found = instances(mechanism)
+    stems, elements = named(found)
     forms = form_stems(elements, method, options, implicit)
     wanted = (_MACHINE, _MODEL, law, *elements, *forms.values())
     metadata = _found(store, folder, law, wanted)
@@ -243,7 +244,8 @@ def generate_looped(
     """
     from symgen.emit.looped import emit_mechanism
 
-    found, stems, elements = named(instances(mechanism))
+    found = instances(mechanism)
+    stems, elements = named(found)
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
     for method, options, implicit in methods:
@@ -278,8 +280,8 @@ def level_of(method: Method, options: Mapping[str, str], implicit: bool) -> str:
     return record_form(method, options).form if implicit else ""
 
 
-def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dict[str, Instance]]:
-    """Return instances, the name of each one's kernel, and an instance of each kernel by its name."""
+def named(found: Sequence[Instance]) -> tuple[list[str], dict[str, Instance]]:
+    """Return the name of each instance's kernel, and an instance of each kernel by its name."""
     names: dict[bytes, str] = {}
     elements: dict[str, Instance] = {}
     stems = []
@@ -289,4 +291,4 @@ def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dic
             stem = names[instance.key] = kernel_stem(instance)
             elements.setdefault(stem, instance)
         stems.append(stem)
-    return found, stems, elements
+    return stems, elements

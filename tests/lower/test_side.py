@@ -13,7 +13,6 @@ from support.models import EVERYTHING, ROUGH
 
 from symgen import catalogue
 from symgen.api import load
-from symgen.compiling.looped import named
 from symgen.compiling.side import compile_side
 from symgen.describe.parser import parse
 from symgen.describe.scope import Model, Names
@@ -99,6 +98,5 @@ def test_angles_stand_where_each_shape_has_them(name):
     assert len(order) == len(equations.windings)
     model = Derivation(mechanism, equations.graph)  # nodes that are there already are found again
     assert [model.measure(m).value for m in order] == list(equations.windings)
-    found, _, _ = named(instances(mechanism))
-    in_loops = dict.fromkeys(angle for instance in found for angle in instance.angles)
+    in_loops = dict.fromkeys(angle for instance in instances(mechanism) for angle in instance.angles)
     assert tuple(in_loops) == winding_order(mechanism, "looped")
