@@ -1,6 +1,6 @@
 """Corrections in another metric, for model `andrews`. Emitted by symgen; do not edit.
 
-digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates a41ad10caee565d0
+digest 6cfd7ff3628f6b29fbe41b0d996b2b41bc32e77ad16c1372c56290eeefe62746, format 3, templates 6e0b1ab8b9c48d90
 """
 
 from numba import njit

@@ -1,6 +1,6 @@
 """Treatment of accepted states, for model `bricard`. Emitted by symgen; do not edit.
 
-digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates a41ad10caee565d0
+digest fd3274b7e385658e1bb048363112e7da7c265e25ce2beed16a493807bb5250bb, format 3, templates 6e0b1ab8b9c48d90
 """
 
 from numba import njit

@@ -1,6 +1,6 @@
 """Right-hand side, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a41ad10caee565d0
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 6e0b1ab8b9c48d90
 """
 
 import math

@@ -1,12 +1,12 @@
 """Right-hand side behind the closure of dependent coordinates, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a41ad10caee565d0
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 6e0b1ab8b9c48d90
 """
 
 from numba import njit
 
-from .accept_independent_03751b621a55fdaf import close
-from .rhs_dense_ca6ef50220ac480e import rhs as accelerate
+from .accept_independent_72b358a340947cdc import close
+from .rhs_dense_8c68f8a0beef1cd4 import rhs as accelerate
 
 
 @njit(error_model="numpy", fastmath={"contract"})

@@ -1,6 +1,6 @@
 """Right-hand side, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates a41ad10caee565d0
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 6e0b1ab8b9c48d90
 """
 
 import math
@@ -72,36 +72,70 @@ def expand(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def aim(t, y, p, w):
-    """the section `residual` = what D v' shall be, `force` = f: 27 operations, 54 before sharing."""
+    """the section `residual` = what D v' shall be, `force` = f: 107 operations, 259 before sharing."""
     # inputs
+    q0 = y[0]  # crank.x [m]
+    q1 = y[1]  # crank.y [m]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
+    q3 = y[3]  # coupler.x [m]
+    q4 = y[4]  # coupler.y [m]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
+    q6 = y[6]  # rocker.x [m]
+    q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p15 = p[15]  # -9.81*crank_mass
     p16 = p[16]  # -9.81*coupler_mass
     p17 = p[17]  # -9.81*rocker_mass
+    p21 = p[21]  # gain
+    p22 = p[22]  # a
+    status_12 = w[12]  # step
     # intermediate terms
-    s0 = v2*v2
-    s1 = math.cos(q2)*s0
-    s2 = math.sin(q2)*s0
-    s3 = 4.0*(v5*v5)
-    s4 = math.cos(q5)*s3
-    s5 = math.sin(q5)*s3
-    s6 = 2.5*(v8*v8)
-    s7 = math.cos(q8)*s6
-    s8 = math.sin(q8)*s6
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = min(p21, p22*(1.0/status_12))
+    s20 = v2*s1
+    s21 = v2*s0
+    s22 = v5*s8
+    s23 = v5*s7
+    s24 = v8*s15
+    s25 = v8*s14
+    s26 = 2.0*s19
+    s27 = s19*s19
     # outputs
-    w[43] = -s1  # A.x
-    w[44] = -s2  # A.y
-    w[45] = -(s1 + s4)  # B.x
-    w[46] = -(s2 + s5)  # B.y
-    w[47] = s7 - s4  # C.x
-    w[48] = s8 - s5  # C.y
-    w[49] = -s7  # D.x
-    w[50] = -s8  # D.y
+    w[43] = -(s3 + (v0 + s20)*s26 + (q0 - s0)*s27)  # A.x
+    w[44] = -(s4 + (v1 - s21)*s26 + (q1 - s1)*s27)  # A.y
+    w[45] = -(s3 + s10 + (v3 + s20 - v0 + s22)*s26 + (q3 - q0 - s7 - s0)*s27)  # B.x
+    w[46] = -(s4 + s11 + (v4 - (v1 + s21) - s23)*s26 + (q4 - q1 - s8 - s1)*s27)  # B.y
+    w[47] = s17 - s10 - (v6 + s22 - v3 - s24)*s26 - (q6 - q3 + s14 - s7)*s27  # C.x
+    w[48] = s18 - s11 - (v7 - (v4 + s23) + s25)*s26 - (q7 - q4 + s15 - s8)*s27  # C.y
+    w[49] = -(s17 + (v6 + s24)*s26 + (q6 - 10.0 - s14)*s27)  # D.x
+    w[50] = -(s18 + (v7 - s25)*s26 + (q7 - s15)*s27)  # D.y
     w[422] = 0.0
     w[423] = p15
     w[424] = 0.0
@@ -266,7 +300,7 @@ def rhs(t, y, p, w, iw, ydot):
             reflect(w, k, BASIS + 9 * c)
         for j in range(9):
             w[BASIS + 9 * c + j] *= math.sqrt(w[GAUGE + j])
-    for c in range(degrees):
+    for c in range(degrees):  # lower triangle of the mass matrix over a basis, and the right-hand side behind it
         for j in range(9):
             w[CHANGE + j] = w[BASIS + 9 * c + j]
         weigh(p, w)
