@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, render
-from symgen.emit.parts import law_loops
+from symgen.emit.module import PLATFORMS, Code, function, law_modules, render
+from symgen.emit.parts import absent, law_loops
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
-from symgen.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
+from symgen.ir.numerics import SKIP, SUSPICIOUS
 from symgen.ir.program import FORMAT, STATUS, Block, Target
 from symgen.lower.looped import statements as data
 from symgen.lower.looped.law import LoopedLaw
@@ -148,7 +148,7 @@ class TableLayout:
         """Return a parameter of the method, or what is taken where it has none."""
         if name in self.parameters:
             return f"p[{self.bases.base('method_parameters')} + {self.parameters.index(name)}]"
-        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+        return absent(name)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read the tables, where anything is read."""

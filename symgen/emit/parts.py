@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from types import SimpleNamespace
 from typing import Any, Protocol
 
-from symgen.emit.module import Code, function, render
+from symgen.emit.module import Code, function, literal, render
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction
 
@@ -95,6 +95,11 @@ class Parts:
         decorator = self.layout.decorator
         self.pieces.append(("", function(name, arguments, purpose, lines, decorator, calls=called, sections=named)))
         return ""
+
+
+def absent(name: str) -> str:
+    """Return what is taken for a parameter that a method does not have."""
+    return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
 
 def accept_kind(correction: Correction) -> str:
