@@ -2,12 +2,12 @@
 
 constraints at acceleration level only; violations grow with time
 Nikravesh, Computer-Aided Analysis of Mechanical Systems, Prentice Hall, 1988
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
 option solver = dense
 """
 
 from .accept_measured_ff439807c5f4f6fd import accept
 from .prepare_b53e6d0954ad35f8 import prepare
-from .rhs_dense_ca6ef50220ac480e import rhs
+from .rhs_dense_8c68f8a0beef1cd4 import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -2,7 +2,7 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
 option solver = dense
 option weight = identity
 """
@@ -10,6 +10,6 @@ option weight = identity
 from .accept_identity_ec40ee836b6a96be import accept
 from .metric_identity_c01f538908e67c01 import geometry, spread
 from .prepare_b53e6d0954ad35f8 import prepare
-from .rhs_dense_ca6ef50220ac480e import rhs
+from .rhs_dense_8c68f8a0beef1cd4 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

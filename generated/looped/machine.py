@@ -540,7 +540,7 @@ def factorise_code(T, p, w, table, lower, mode, value):
                         targets = np.uint32(targets + 1)
                     if y > 0:
                         w[y + T[rows + 2 + i]] -= x * y0 + z * y1
-        elif c == 1:
+        else:
             row = np.int64(T[rows])
             pivot = w[first]
             if mode == MASKED_FACTOR:
@@ -573,47 +573,6 @@ def factorise_code(T, p, w, table, lower, mode, value):
                     targets = np.uint32(targets + 1)
                 if y > 0:
                     w[y + T[rows + 1 + i]] -= x * y0
-        else:
-            for k in range(c):
-                row = np.int64(T[rows + k])
-                pivot = w[first + c * k + k]
-                if mode == MASKED_FACTOR:
-                    masked = pivot + w[mask + row]
-                    suspicious |= masked < 1e-6 * w[diagonal + row]
-                    one = 1.0 / masked
-                elif mode == PLAIN_FACTOR:
-                    one = 1.0 / pivot
-                elif mode == KEPT_FACTOR:
-                    one = 1.0 / pivot if w[kept + row] != 0.0 else 0.0
-                else:
-                    relative = pivot / w[diagonal + row]
-                    w[pivots + row] = relative
-                    smallest = min(smallest, relative + w[mask + row])
-                    one = 0.0
-                    w[kept + row] = 0.0
-                    if pivot > 1e-12 * w[diagonal + row] + w[mask + row]:
-                        w[kept + row] = 1.0
-                        rank += 1.0
-                        one = 1.0 / pivot
-                w[first + c * k + k] = one  # the pivot itself is not wanted again
-                for i in range(k + 1, c + below):
-                    x = w[first + c * i + k]
-                    if i >= c:
-                        w[panel + c * (i - c) + k] = x
-                    w[first + c * i + k] = x * one
-                    for j in range(k + 1, min(i + 1, c)):
-                        w[first + c * i + j] -= x * w[first + c * j + k]
-                if y > 0:
-                    y0 = w[y + T[rows + k]]
-                    for i in range(k + 1, c + below):
-                        w[y + T[rows + i]] -= w[first + c * i + k] * y0
-            for i in range(below):
-                for j in range(i + 1):
-                    total = 0.0
-                    for k in range(c):
-                        total += w[first + c * (c + i) + k] * w[panel + c * j + k]
-                    w[lower + T[targets]] -= total
-                    targets = np.uint32(targets + 1)
         at = np.uint32(targets)
     if mode == RANK_FACTOR:
         w[4] = smallest
@@ -649,10 +608,9 @@ def solve_code(T, p, w, table, lower, x, value):
                 for i in range(below):
                     w[x + T[at + 2 + i]] -= w[first + 4 + 2 * i] * one + w[first + 5 + 2 * i] * two
         else:
-            for k in range(c):
-                one = w[x + T[at + k]]
-                for i in range(k + 1, c + below):
-                    w[x + T[at + i]] -= w[first + c * i + k] * one
+            one = w[x + T[at]]
+            for i in range(1, 1 + below):
+                w[x + T[at + i]] -= w[first + i] * one
     for s in range(nodes - 1, -1, -1):
         at = np.uint32(start + np.int64(T[starts + s]))
         c, below, first = np.int64(T[at]), np.int64(T[at + 1]), lower + T[at + 2]
@@ -679,12 +637,11 @@ def solve_code(T, p, w, table, lower, x, value):
             w[x + other] = two
             w[x + row] = one - w[first + 2] * two
         else:
-            for k in range(c - 1, -1, -1):
-                row = np.int64(T[at + k])
-                total = w[x + row] * w[first + c * k + k]
-                for i in range(k + 1, c + below):
-                    total -= w[first + c * i + k] * w[x + T[at + i]]
-                w[x + row] = total
+            row = np.int64(T[at])
+            total = w[x + row] * w[first]
+            for i in range(1, 1 + below):
+                total -= w[first + i] * w[x + T[at + i]]
+            w[x + row] = total
 
     return 0
 

@@ -2,7 +2,7 @@
 
 momenta are integrated; velocities satisfy their constraint in every evaluation
 Bayo, Avello, Nonlinear Dyn. 5 (1994) 209-231, doi 10.1007/BF00045677
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 p[6] penalty (default 10000000.0)
 p[7] iteration_tolerance (default 1e-13)
 """

@@ -2,12 +2,12 @@
 
 accelerations in a tangent basis that is carried on from step to step
 Mani, Haug, Atkinson, J. Mech. Trans. Autom. Des. 107 (1985) 82-87; Kim, Vanderploeg, J. Mech. Trans. Autom. Des. 108 (1986) 183-188
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 p[5] tolerance (default 1e-13)
 """
 
-from .accept_scaled_e6ad27eae18c1f91 import accept
+from .accept_scaled_50557ad066f37579 import accept
 from .prepare_c87633aa2ec39f08 import prepare
-from .rhs_tangent_536f527c1a42d1bb import rhs
+from .rhs_tangent_f2198442fe1e46cc import rhs
 
 __all__ = ["accept", "prepare", "rhs"]

@@ -2,7 +2,7 @@
 
 one correction of positions and velocities after each step, not iterated
 Ascher, Chin, Reich, Numer. Math. 67 (1994) 131-149; Ascher, Chin, Petzold, Reich, Mech. Struct. Mach. 23 (1995) 135-157
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 option solver = dense
 option weight = identity
 """
@@ -10,6 +10,6 @@ option weight = identity
 from .accept_identity_0b6fe06ae1c76d55 import accept
 from .metric_identity_f2e8c58f7dcdc2c5 import geometry, spread
 from .prepare_0ab9ab4f69bf87e4 import prepare
-from .rhs_dense_638915f862273b33 import rhs
+from .rhs_dense_65c3f5cb0dd1cf11 import rhs
 
 __all__ = ["accept", "geometry", "prepare", "rhs", "spread"]

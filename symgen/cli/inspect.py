@@ -182,7 +182,7 @@ def _kernels(model: Model) -> dict[str, int]:
     from symgen.compiling.looped import named
     from symgen.lower.looped.instances import instances
 
-    _, stems, elements = named(instances(model.mechanism))
+    stems, elements = named(instances(model.mechanism))
     return {stem: stems.count(stem) for stem in elements}
 
 

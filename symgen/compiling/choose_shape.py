@@ -53,9 +53,7 @@ class ShapeChoice:
     reason: str
 
 
-def choose_shape(
-    mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float, entries: Entries | None = None
-) -> ShapeChoice:
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> ShapeChoice:
     """Decide the shape of a run.
 
     Parameters
@@ -68,8 +66,6 @@ def choose_shape(
         One of `symgen.settings.SHAPES`.
     evaluations : float
         Evaluations that are expected.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
@@ -77,7 +73,7 @@ def choose_shape(
         If there is no such shape, or the method cannot have it at this size.
     """
     coordinates, choice = sum(len(b.coordinates) for b in mechanism.bodies), for_coordinates(mechanism, choice)
-    store = Entries() if entries is None else entries
+    store = Entries()
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:
         return ShapeChoice("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
@@ -116,7 +112,7 @@ def _shorter(
         shared = shared_folder(generator_digest())
         missing = 0.0 if _known(store, shared, "model") else LOOPED_GENERIC
         missing += 0.0 if _known(store, shared, law_stem(choice.method, choice.options)) else LOOPED_LAW
-        _, _, elements = named(instances(mechanism))
+        _, elements = named(instances(mechanism))
         missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in elements)
         forms = form_stems(elements, choice.method, choice.options, choice.implicit)
         missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())

@@ -31,6 +31,8 @@ Array = NDArray[np.float64]
 
 #: Name of the emitted function, and what its module is called after.
 NAME = "linearised"
+#: What values are differentiated by: time, q, v, v', multipliers and parameters.
+SPACES = ("t", "q", "v", "a", "lam", "p")
 
 
 @dataclass(frozen=True)
@@ -72,10 +74,8 @@ class DescriptorForm:
         Their units.
     elements : tuple of (str, int)
         Force and velocity of each value of the group ``elements``.
-    spaces : tuple of str
-        Names of the spaces, by number.
     pattern : Array of int64, shape (n, 3)
-        Value, space and index of each derivative.
+        Value, space, by its place in `SPACES`, and index of each derivative.
     """
 
     function: Any
@@ -85,7 +85,6 @@ class DescriptorForm:
     units: Mapping[str, str]
     elements: tuple[tuple[str, int], ...]
     pattern: NDArray[np.int64]
-    spaces: tuple[str, ...]
 
     @property
     def values(self) -> int:
@@ -97,7 +96,7 @@ class DescriptorForm:
         found = {}
         for group, (first, size) in self.places.items():
             inside = (self.pattern[:, 0] >= first) & (self.pattern[:, 0] < first + size)
-            for k, space in enumerate(self.spaces):
+            for k, space in enumerate(SPACES):
                 entries = np.flatnonzero(inside & (self.pattern[:, 1] == k))
                 found[group, space] = entries, self.pattern[entries, 0], self.pattern[entries, 2]
         return found
@@ -177,7 +176,6 @@ def _compiled(
     known = store.made(folder, stem, lambda: _built(mechanism, by, groups, around))
     if known["still"]:
         return None
-    spaces = ("t", "q", "v", "a", "lam", "p")
     places, first = dict[str, tuple[int, int]](), 0
     functions, units, at = dict[str, tuple[int, int]](), dict[str, str](), 0
     for name, unit, orders in known["functions"]:
@@ -187,10 +185,10 @@ def _compiled(
         places[group] = first, size
         first += size
     widths = {"t": 1, "q": info.nq, "v": info.nv, "a": info.nv, "lam": info.m, "p": len(info.parameters)}
-    pattern = np.array([(i, spaces.index(space), k) for i, space, k in known["pattern"]], dtype=np.int64).reshape(-1, 3)
+    pattern = np.array([(i, SPACES.index(space), k) for i, space, k in known["pattern"]], dtype=np.int64).reshape(-1, 3)
     function = getattr(load_module(store.path(folder, stem)), NAME)
     elements = tuple((str(name), int(i)) for name, i in known["elements"])
-    return DescriptorForm(function, places, widths, functions, units, elements, pattern, spaces)
+    return DescriptorForm(function, places, widths, functions, units, elements, pattern)
 
 
 def _built(

@@ -21,7 +21,7 @@ from symgen.ir.program import FORMAT
 from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
-from symgen.lower.looped.law import refuse_dense
+from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
 from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Forms, Tables, build_tables
@@ -35,22 +35,6 @@ if TYPE_CHECKING:
 
 #: Modules beside kernels and laws.
 _MACHINE, _MODEL = "machine", "model"
-
-
-class LoopedLawInfo(msgspec.Struct, frozen=True):
-    """Metadata of an emitted law of the looped shape; see `symgen.lower.looped.law.LoopedLaw`."""
-
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
-    sections: tuple[tuple[str, str], ...]
-    vectors: int
-    augmented: bool
-    positions: bool
-    position_correction: bool
-    velocity_correction: bool
-    modules: tuple[str, ...]
 
 
 def shared_folder(generator: str) -> str:
@@ -103,19 +87,7 @@ def emit_missing(
         law = lower_looped(method, options)
         sources = emit_looped_law(law, generator, method.summary, method.reference)
         *shared, _ = sources
-        info = LoopedLawInfo(
-            method=law.method,
-            key=law.key,
-            options=dict(law.options),
-            parameters=law.parameters,
-            sections=law.sections,
-            vectors=law.vectors,
-            augmented=law.augmented,
-            positions=law.positions,
-            position_correction=law.correction.position != "none",
-            velocity_correction=law.correction.velocity,
-            modules=tuple(shared),
-        )
+        info = msgspec.structs.replace(law.info, modules=tuple(shared))
         modules |= {name: (sources[name], {}) for name in shared}
         modules[stem] = sources[stem], msgspec.to_builtins(info)
     for name, instance in elements.items():
@@ -155,7 +127,6 @@ def compile_looped(
     options: Mapping[str, str],
     implicit: bool,
     generator: str,
-    entries: Entries | None = None,
 ) -> LoopedModel:
     """Return the compiled model of `mechanism` in the looped shape, what the cache has taken from there.
 
@@ -169,8 +140,6 @@ def compile_looped(
         Whether an implicit integrator asks for it.
     generator : str
         Digest of everything that shapes emitted code.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
@@ -179,9 +148,10 @@ def compile_looped(
     """
     refuse_dense(method, options, implicit)
     began = time.perf_counter()
-    store = Entries() if entries is None else entries
+    store = Entries()
     folder, law = shared_folder(generator), law_stem(method, options)
-    found, stems, elements = named(instances(mechanism))
+    found = instances(mechanism)
+    stems, elements = named(found)
     forms = form_stems(elements, method, options, implicit)
     wanted = (_MACHINE, _MODEL, law, *elements, *forms.values())
     metadata = _found(store, folder, law, wanted)
@@ -274,7 +244,8 @@ def generate_looped(
     """
     from symgen.emit.looped import emit_mechanism
 
-    found, stems, elements = named(instances(mechanism))
+    found = instances(mechanism)
+    stems, elements = named(found)
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
     for method, options, implicit in methods:
@@ -309,8 +280,8 @@ def level_of(method: Method, options: Mapping[str, str], implicit: bool) -> str:
     return record_form(method, options).form if implicit else ""
 
 
-def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dict[str, Instance]]:
-    """Return instances, the name of each one's kernel, and an instance of each kernel by its name."""
+def named(found: Sequence[Instance]) -> tuple[list[str], dict[str, Instance]]:
+    """Return the name of each instance's kernel, and an instance of each kernel by its name."""
     names: dict[bytes, str] = {}
     elements: dict[str, Instance] = {}
     stems = []
@@ -320,4 +291,4 @@ def named(found: Sequence[Instance]) -> tuple[Sequence[Instance], list[str], dic
             stem = names[instance.key] = kernel_stem(instance)
             elements.setdefault(stem, instance)
         stems.append(stem)
-    return found, stems, elements
+    return stems, elements

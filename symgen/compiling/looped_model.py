@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.repeats import without_repeats
+from symgen.describe.topology import quantities
 from symgen.lower.looped.layout import GENERIC, HEAD
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Tables
@@ -20,9 +21,6 @@ from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
 from symgen.store.modules import interpreted
 from symgen.vocabulary.measures import Holonomic
 from symgen.vocabulary.quantities import Quantity
-
-_UNITS = {"theta": "rad", "vx": "m/s", "vy": "m/s", "vz": "m/s", "omega": "rad/s", "wx": "rad/s", "wy": "rad/s"}
-_UNITS |= {"wz": "rad/s", "x": "m", "y": "m", "z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1"}
 
 
 @final
@@ -129,6 +127,7 @@ def preparation(
 def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelInfo:
     """Return what the runtime has to know of a mechanism in the looped shape."""
     mechanism, repeats = without_repeats(mechanism)
+    coordinates, velocities = quantities(mechanism)
     operations: dict[str, int] = {}
     for group in shape.groups:
         for name, count in group.info.functions.items():
@@ -137,8 +136,8 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         name=mechanism.name,
         digest="",
         parameters=tuple(Quantity(p.name, p.unit) for p in mechanism.parameters),
-        coordinates=tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates),
-        velocities=tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds),
+        coordinates=coordinates,
+        velocities=velocities,
         rows=tuple(
             Row(f"{joint.name}.{row.label}", joint.name, row.unit, isinstance(row, Holonomic))
             for joint in mechanism.joints

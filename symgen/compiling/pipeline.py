@@ -201,9 +201,7 @@ def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -
             raise InputError(f"method '{choice.method.name}'", expected, "one for implicit ones")
 
 
-def compile_model(
-    mechanism: Mechanism, choice: MethodChoice, entries: Entries | None = None, target: str = "cpu"
-) -> CompiledModel:
+def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu") -> CompiledModel:
     """Return the compiled model of `mechanism` for one method, generated only if the cache does not have it.
 
     Parameters
@@ -212,8 +210,6 @@ def compile_model(
         A validated mechanism.
     choice : MethodChoice
         The method and its structural options.
-    entries : Entries, optional
-        The cache; by default the user's.
     target : {"cpu", "lanes", "cuda"}
         What the code is for.
 
@@ -222,12 +218,12 @@ def compile_model(
     InputError
         As for `generate`.
     """
-    store, choice = Entries() if entries is None else entries, for_coordinates(mechanism, choice)
+    store, choice = Entries(), for_coordinates(mechanism, choice)
     arguments = mechanism, choice.method.name, dict(choice.options), choice.implicit, choice.shape, target
     if choice.shape == "looped" and target == "cpu":
         from symgen.compiling.looped import compile_looped
 
-        found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest(), store)
+        found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest())
         return replace(found, origin=(compile_again, arguments))
     folder = folder_of(mechanism)
     derive_seconds = emit_seconds = 0.0

@@ -94,7 +94,6 @@ def compile_side(
     purpose: str,
     formulas: Sequence[tuple[str, Expr]],
     rates: int = 0,
-    entries: Entries | None = None,
 ) -> Side:
     """Return a function that evaluates formulas of a run, generated only if the cache does not have it.
 
@@ -111,15 +110,13 @@ def compile_side(
     rates : int
         How many derivatives of all formulas along the motion follow behind their values; they take v' from ``ydot``,
         as constant, and q' from the velocities.
-    entries : Entries, optional
-        The cache; by default the user's.
 
     Raises
     ------
     InputError
         If numbers that meet in a formula overflow.
     """
-    store = Entries() if entries is None else entries
+    store = Entries()
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
     folder, around = folder_of(mechanism), beside(mechanism, compiled)
     texts = [to_text(e) for _, e in formulas]

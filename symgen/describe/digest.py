@@ -6,17 +6,14 @@ parameters stay outside: they can change without compiling again. A number writt
 
 from __future__ import annotations
 
-import weakref
-
 import msgspec
 
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.remembered import remembered
 from symgen.describe.tables import Table
 
 #: Raised when the canonical text changes its form, so that no digest is mistaken for one of the old form.
 FORM = 1
-#: Digests of mechanisms that are there, which cannot change, by what Python tells objects apart by.
-_digests: dict[int, str] = {}
 
 
 def canonical(mechanism: Mechanism) -> str:
@@ -51,16 +48,12 @@ def canonical(mechanism: Mechanism) -> str:
     return "\n".join(_text(part) for part in parts)
 
 
+@remembered
 def digest(mechanism: Mechanism) -> str:
     """Return the SHA-256 of the canonical text in hexadecimal digits."""
     import hashlib
 
-    which = id(mechanism)  # a mechanism's hash and comparison go through all of it as well
-    if which not in _digests:
-        found = hashlib.sha256(canonical(mechanism).encode()).hexdigest()
-        _digests[which] = found
-        weakref.finalize(mechanism, _digests.pop, which, None).atexit = False  # two threads may have come here
-    return _digests[which]
+    return hashlib.sha256(canonical(mechanism).encode()).hexdigest()
 
 
 def identity(mechanism: Mechanism) -> str:

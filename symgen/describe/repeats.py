@@ -8,6 +8,7 @@ import msgspec
 
 from symgen.describe.formulas import Formulas
 from symgen.describe.mechanism import Joint, Mechanism
+from symgen.describe.remembered import remembered
 from symgen.vocabulary.expressions import Call, Name, Number
 from symgen.vocabulary.measures import GROUND, Angle, Component, Direction, Dot, Marker, RimHeight, Sum
 
@@ -23,21 +24,30 @@ def without_repeats(mechanism: Mechanism) -> tuple[Mechanism, tuple[tuple[str, s
     mechanism : Mechanism
         A validated mechanism.
     """
+    repeats = _repeats(mechanism)
+    if not repeats:
+        return mechanism, ()
+    joints: list[Joint] = []
+    for k, joint in enumerate(mechanism.joints):
+        rows = tuple(row for i, row in enumerate(joint.rows) if (k, i) not in repeats)
+        joints.append(joint if len(rows) == len(joint.rows) else msgspec.structs.replace(joint, rows=rows))
+    return msgspec.structs.replace(mechanism, joints=tuple(joints)), tuple(repeats.values())
+
+
+@remembered
+def _repeats(mechanism: Mechanism) -> dict[tuple[int, int], tuple[str, str]]:
+    """Return the rows that repeat an earlier one, by joint and place in it: their names with those of the others."""
     contents = _Contents(mechanism)
     seen: dict[object, str] = {}
-    joints: list[Joint] = []
-    repeats: list[tuple[str, str]] = []
-    for joint in mechanism.joints:
-        rows = []
-        for row in joint.rows:
+    found: dict[tuple[int, int], tuple[str, str]] = {}
+    for k, joint in enumerate(mechanism.joints):
+        for i, row in enumerate(joint.rows):
             name, content = f"{joint.name}.{row.label}", contents.of(msgspec.structs.replace(row, label="", unit=""))
             if content in seen:
-                repeats.append((name, seen[content]))
+                found[k, i] = name, seen[content]
             else:
                 seen[content] = name
-                rows.append(row)
-        joints.append(joint if len(rows) == len(joint.rows) else msgspec.structs.replace(joint, rows=tuple(rows)))
-    return msgspec.structs.replace(mechanism, joints=tuple(joints)) if repeats else mechanism, tuple(repeats)
+    return found
 
 
 class _Contents:

@@ -14,6 +14,13 @@ from symgen.describe.mechanism import Articulation, Joint, Link, Mechanism, Pres
 from symgen.describe.outputs import integrals
 from symgen.vocabulary.expressions import Number, readings
 from symgen.vocabulary.measures import GROUND, Angle, Driven, Holonomic, Measure, Sum
+from symgen.vocabulary.quantities import Quantity
+
+#: Units of the coordinates and velocities of bodies.
+UNITS = {
+    **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
+    **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
+}
 
 
 def articulation_of(joint: Joint) -> Articulation | None:
@@ -181,8 +188,8 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
         body = mechanism.body(link.body)
         found = link.articulation
         if found is None:
-            q += [(f"{body.name}.{c}", _UNITS[c]) for c in body.coordinates]
-            v += [(f"{body.name}.{c}", _UNITS[c]) for c in body.speeds]
+            q += [(f"{body.name}.{c}", UNITS[c]) for c in body.coordinates]
+            v += [(f"{body.name}.{c}", UNITS[c]) for c in body.speeds]
             continue
         turns = found.turn != "fixed" and not body.is_point
         lengths, angles = ([x for x in part if (body.name, x) not in given] for part in labels_of(mechanism, link))
@@ -204,6 +211,17 @@ def state_names(mechanism: Mechanism, topology: Topology) -> tuple[list[tuple[st
     return q, v
 
 
+def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
+    """Return names and units of q and v: of the tree where there is one, else of the bodies."""
+    if mechanism.topology is not None:
+        names = state_names(mechanism, mechanism.topology)
+        q, v = (tuple(Quantity(name, unit) for name, unit in part) for part in names)
+        return q, v
+    q = tuple(Quantity(f"{b.name}.{c}", UNITS[c]) for b in mechanism.bodies for c in b.coordinates)
+    v = tuple(Quantity(f"{b.name}.{c}", UNITS[c]) for b in mechanism.bodies for c in b.speeds)
+    return q, v
+
+
 def known_coordinates(mechanism: Mechanism, topology: Topology) -> dict[Measure, tuple[int, int, float]]:
     """Return measures that are coordinates of the state: where they stand in q and v, and with which sign."""
     names, speeds = state_names(mechanism, topology)
@@ -217,9 +235,3 @@ def known_coordinates(mechanism: Mechanism, topology: Topology) -> dict[Measure,
             if name in q:
                 found |= {m: (q[name], v[f"{name}.rate"], sign) for m, sign in _alike(measure)}
     return found
-
-
-_UNITS = {
-    **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
-    **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
-}

@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, module, render, templates_digest
+from symgen.emit.module import PLATFORMS, Code, function, law_modules, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
-from symgen.emit.parts import law_loops
+from symgen.emit.parts import absent, law_loops
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
 
 if TYPE_CHECKING:
@@ -137,7 +136,7 @@ class LiteralLayout:
         names = [parameter for parameter, _ in self.program.parameters]
         if name in names:
             return self.element(self.program.parameter_offset + names.index(name))
-        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+        return absent(name)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return nothing before a function's own lines, and the sections that were asked for."""

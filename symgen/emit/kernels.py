@@ -9,7 +9,7 @@ from symgen.emit.module import Code, function, module
 from symgen.emit.printer import Access, Printer
 from symgen.formulate.elements import RECORD
 from symgen.ir.program import FORMAT, STATUS, Block, Target
-from symgen.lower.looped.forms import FormProgram, form_stride
+from symgen.lower.looped.forms import FormProgram
 from symgen.lower.looped.kernels import KernelInfo, KernelProgram
 from symgen.lower.looped.layout import HEAD
 
@@ -22,23 +22,19 @@ def emit_kernel(kernel: KernelProgram, generator: str) -> str:
     frames = f"{len(info.frames)} frame" + ("" if len(info.frames) == 1 else "s")
     numbers = f"{info.constants} constants, {info.hoisted} numbers computed once a run"
     about = f"A {info.kind} of kind {kernel.label} over {frames}, {numbers}."
-    return _module(kernel, InstanceAccess(info), about, info.stride, generator)
+    return _module(kernel, InstanceAccess(info), about, generator)
 
 
 def emit_form(form: FormProgram, kernel: KernelInfo, generator: str) -> str:
     """Return the source of the kernel of an element's part of a descriptor form."""
     about = f"What a {kernel.kind} of kind {form.label} adds to a descriptor form."
-    return _module(form, FormAccess(kernel), about, form_stride(kernel), generator, slopes=True)
+    return _module(form, FormAccess(kernel), about, generator, slopes=True)
 
 
 def _module(
-    kernel: KernelProgram | FormProgram,
-    access: InstanceAccess,
-    about: str,
-    stride: int,
-    generator: str,
-    slopes: bool = False,
+    kernel: KernelProgram | FormProgram, access: InstanceAccess, about: str, generator: str, slopes: bool = False
 ) -> str:
+    stride = len(access.places())
     codes = [*table_codes(kernel.tables, slopes=slopes), *(_function(b, access, stride) for b in kernel.blocks)]
     stands = f"Functions go through all instances, whose table begins at `at`: how many, then {stride} numbers each."
     header = [f"format {FORMAT}, generator {generator}", about, stands]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, literal, render
-from symgen.emit.parts import law_loops
+from symgen.emit.module import PLATFORMS, Code, function, law_modules, render
+from symgen.emit.parts import absent, law_loops
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
-from symgen.ir.numerics import NUMBERS, SKIP, SUSPICIOUS
+from symgen.ir.numerics import SKIP, SUSPICIOUS
 from symgen.ir.program import FORMAT, STATUS, Block, Target
 from symgen.lower.looped import statements as data
 from symgen.lower.looped.law import LoopedLaw
@@ -67,18 +67,18 @@ def emit_shared_model(generator: str) -> str:
 
 def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
-    names = {f.part.name for f in law.functions}
+    info, names = law.info, {f.part.name for f in law.functions}
     flagged = any(f.flagged for f in law.functions)
-    loops = law_loops(TableLayout([name for name, _ in law.parameters]), law.correction, law.form, names, flagged)
+    loops = law_loops(TableLayout([name for name, _ in info.parameters]), law.correction, law.form, names, flagged)
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     made = f"format {FORMAT}, generator {generator}"
     header = [
         *(summary, reference, made),
-        *(f"option {option} = {value}" for option, value in sorted(law.options.items())),
-        *(f"parameter {i}: {name} (default {default})" for i, (name, default) in enumerate(law.parameters)),
+        *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
+        *(f"parameter {i}: {name} (default {default})" for i, (name, default) in enumerate(info.parameters)),
     ]
     known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
-    places = {name: len(HEAD) + i for i, (name, _) in enumerate(law.sections)}
+    places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
     metric = law.correction.metric if law.correction.any else "measured"
     return law_modules(
         [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *loops],
@@ -86,9 +86,9 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
         "for any mechanism, in the looped shape",
         made,
         known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
-        f"Method `{law.method}`, for any mechanism, in the looped shape.",
+        f"Method `{info.method}`, for any mechanism, in the looped shape.",
         header,
-        f"law_{law.key}",
+        f"law_{info.key}",
         offsets={**_STATUS, **places},
         note="places in w and T",
     )
@@ -148,7 +148,7 @@ class TableLayout:
         """Return a parameter of the method, or what is taken where it has none."""
         if name in self.parameters:
             return f"p[{self.bases.base('method_parameters')} + {self.parameters.index(name)}]"
-        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
+        return absent(name)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read the tables, where anything is read."""

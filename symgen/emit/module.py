@@ -11,7 +11,6 @@ from textwrap import fill
 from typing import Any, NamedTuple
 
 import jinja2
-from jinja2 import meta
 
 from symgen.emit.text import harmless
 from symgen.files import templates_folder
@@ -96,30 +95,14 @@ def literal(value: float) -> str:
     return min(repr(value), short, key=len)
 
 
-@lru_cache(maxsize=64)
-def wanted(template: str) -> frozenset[str]:
-    """Return the keys that a template asks for, itself or in templates that it names."""
-    found: set[str] = set()
-    waiting = [template]
-    while waiting:
-        tree = _environment().parse((templates_folder() / waiting.pop()).read_text(encoding="utf-8"))
-        found |= meta.find_undeclared_variables(tree)
-        waiting += [name for name in meta.find_referenced_templates(tree) if name is not None]
-    return frozenset(found)
-
-
 def render(template: str, values: Mapping[str, Any]) -> str:
-    """Render a template; the keys given must be exactly those that it asks for.
+    """Render a template.
 
     Raises
     ------
-    KeyError
-        Naming the keys that are missing or superfluous.
+    jinja2.UndefinedError
+        If it asks for something that it is not given.
     """
-    asked = wanted(template)
-    if asked != set(values):
-        missing, extra = sorted(asked - set(values)), sorted(set(values) - asked)
-        raise KeyError(f"template {template}: missing keys {missing}, keys it does not use {extra}")
     return _environment().get_template(template).render(values)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection
 from types import SimpleNamespace
 from typing import Any, Protocol
 
-from symgen.emit.module import Code, function, render, wanted
+from symgen.emit.module import Code, function, literal, render
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction
 
@@ -67,8 +67,8 @@ class Parts:
 
     def add(self, part: str, role: str = "", **roles: str) -> None:
         """Print the functions of a template; `roles` are those of single functions, where they have others."""
-        template, first = f"parts/{part}.j2", len(self.pieces)
-        render(template, {key: self.values[key] for key in wanted(template) if key in self.values})
+        first = len(self.pieces)
+        render(f"parts/{part}.j2", self.values)
         self.pieces[first:] = [(roles.get(code.name, role), code) for _, code in self.pieces[first:]]
 
     @property
@@ -95,6 +95,11 @@ class Parts:
         decorator = self.layout.decorator
         self.pieces.append(("", function(name, arguments, purpose, lines, decorator, calls=called, sections=named)))
         return ""
+
+
+def absent(name: str) -> str:
+    """Return what is taken for a parameter that a method does not have."""
+    return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
 
 def accept_kind(correction: Correction) -> str:

@@ -111,7 +111,7 @@ class Printer:
 
     def __init__(self, block: Block, access: Access) -> None:
         self.block, self.access, self.graph = block, access, block.graph
-        self.needed = self.graph.needed(block.nodes)
+        self.needed = block.needed
         self.uses = Counter(a for node in self.needed for a in self.graph.nodes[node].args) + Counter(block.nodes)
         self.text: dict[int, tuple[str, int]] = {}  # node -> (expression, precedence)
         self.functions: set[str] = set()  # what is called: math's, and others that are emitted

@@ -16,11 +16,13 @@ def harmless(text: object) -> str:
     text : object
         What a file, a method or an option says of itself.
     """
-    kept = "".join(_SIGNS.get(c, c if c.isprintable() else " ") for c in str(text)[: LONGEST + 1])
+    kept = str(text)[: LONGEST + 1].translate(_SIGNS)
+    if not kept.isprintable():
+        kept = "".join(c if c.isprintable() else " " for c in kept)
     return kept if len(kept) <= LONGEST else kept[: LONGEST - 3] + "..."
 
 
-_SIGNS = {'"': "'", "\\": "/"}
+_SIGNS = str.maketrans('"\\', "'/")
 
 #: What precedes the name of a table in each of the names that are made of it: no other emitted name begins so.
 _OF_TABLE = {"value": "table_", "slope": "slope_", "second": "second_", "x": "points_", "y": "values_"}

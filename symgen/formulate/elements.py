@@ -7,7 +7,7 @@ from the body's *record*, which is filled once for all elements on that body.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from symgen.describe.mechanism import Mechanism
@@ -63,32 +63,16 @@ class Element:
         `source` is a copy of the equations' graph with more nodes, where these are meant.
         """
         source = self.equations.graph if source is None else source
-        image: dict[int, int] = {}
+        known: dict[int, int] = {}
         for f, frame in enumerate(self.frames):
             inputs = [source.input("q", i) for i in frame.q] + [source.input("v", i) for i in frame.v]
             for place, node in enumerate((*inputs, *frame.slots)):
-                image.setdefault(node, graph.input("record", RECORD * f + place))
-        return _copied(source, nodes, graph, image)
+                known.setdefault(node, graph.input("record", RECORD * f + place))
 
+        def image(node: int) -> int:
+            return known[node] if node in known else graph.input(*source.key(node))
 
-def _copied(source: Graph, nodes: Sequence[int], graph: Graph, known: Mapping[int, int]) -> list[int]:
-    image = dict(known)
-    seen: set[int] = set()
-    stack = list(nodes)
-    while stack:
-        node = stack.pop()
-        if node not in seen and node not in image:
-            seen.add(node)
-            stack.extend(source.nodes[node].args)
-    for node in sorted(seen):
-        op, args, payload = source.nodes[node]
-        if op == "const":
-            image[node] = graph.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-        elif op == "input":
-            image[node] = graph.input(*payload)  # type: ignore[misc]  # an input's payload is its key
-        else:
-            image[node] = graph.rebuild(op, tuple(image[a] for a in args), payload)
-    return [image[n] for n in nodes]
+        return graph.rebuilt(source, nodes, image, known.__contains__)
 
 
 def derive_element(abstract: Mechanism) -> Element:

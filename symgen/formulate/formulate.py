@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 from symgen.describe.mechanism import Mechanism, SpatialBody
 from symgen.describe.repeats import without_repeats
-from symgen.describe.topology import state_names
+from symgen.describe.topology import UNITS, quantities
 from symgen.errors import finite_numbers
 from symgen.formulate.carried import carried_energies
 from symgen.formulate.efforts import exertion
@@ -21,11 +21,6 @@ from symgen.ir.program import of_table
 from symgen.vocabulary.expressions import ZERO
 from symgen.vocabulary.measures import Holonomic, Row
 from symgen.vocabulary.quantities import Quantity
-
-_UNITS = {
-    **{"x": "m", "y": "m", "theta": "rad", "vx": "m/s", "vy": "m/s", "omega": "rad/s"},
-    **{"z": "m", "e0": "1", "e1": "1", "e2": "1", "e3": "1", "vz": "m/s", "wx": "rad/s", "wy": "rad/s", "wz": "rad/s"},
-}
 
 
 def formulate(mechanism: Mechanism) -> Equations:
@@ -121,17 +116,6 @@ def _joint_coordinates(model: Model) -> list[JointCoordinate]:
     return found
 
 
-def quantities(mechanism: Mechanism) -> tuple[tuple[Quantity, ...], tuple[Quantity, ...]]:
-    """Return names and units of q and v."""
-    if mechanism.topology is not None:
-        names = state_names(mechanism, mechanism.topology)
-        q, v = (tuple(Quantity(name, unit) for name, unit in part) for part in names)
-        return q, v
-    q = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.coordinates)
-    v = tuple(Quantity(f"{b.name}.{c}", _UNITS[c]) for b in mechanism.bodies for c in b.speeds)
-    return q, v
-
-
 # -- constraints -----------------------------------------------------------------------------------------------------
 
 
@@ -162,8 +146,8 @@ def _size(model: Model, row: Row, entries: Mapping[int, int]) -> int | None:
     if model.tree is None or any(i >= model.size for i in entries):
         return None
     speeds = [speed for body in model.mechanism.bodies for speed in body.speeds]
-    turning = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "rad/s"]
-    moving = [node for i, node in sorted(entries.items()) if _UNITS[speeds[i]] == "m/s"]
+    turning = [node for i, node in sorted(entries.items()) if UNITS[speeds[i]] == "rad/s"]
+    moving = [node for i, node in sorted(entries.items()) if UNITS[speeds[i]] == "m/s"]
     if row.unit in ("rad", "rad/s"):
         return None if moving else model.graph.dot(turning, turning)
     return model.graph.dot(moving, moving) if moving else None

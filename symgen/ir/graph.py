@@ -71,6 +71,10 @@ class Graph:
         """Return the node of element `index` of ``t``, ``q``, ``v``, ``p``, ``parameter`` or of a scratch section."""
         return self._node(Operation("input", (), (space, index)), _BITS.get(space, SCRATCH))
 
+    def key(self, node: int) -> tuple[str, int]:
+        """Return space and index of `node`, an input."""
+        return self.nodes[node].payload  # type: ignore[return-value]  # an input's payload is its key
+
     def value(self, node: int) -> float | None:
         """Return the literal value of `node`, None where it is not a literal."""
         operation = self.nodes[node]
@@ -239,29 +243,43 @@ class Graph:
 
     def inline(self, other: Graph, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
         """Copy what `outputs` of `other` need into this graph, its inputs replaced; return the outputs' new nodes."""
-        image: dict[int, int] = {}
-        for node in other.needed(outputs):
-            op, args, payload = other.nodes[node]
-            if op == "const":
-                image[node] = self.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-            elif op == "input":
-                image[node] = inputs[payload]  # type: ignore[index]  # an input's payload is its key
-            else:
-                image[node] = self.rebuild(op, tuple(image[a] for a in args), payload)
-        return [image[o] for o in outputs]
+        return self.rebuilt(other, outputs, lambda node: inputs[other.key(node)])
 
     def replaced(self, outputs: Sequence[int], inputs: Mapping[tuple[str, int], int]) -> list[int]:
         """Return `outputs` with some inputs replaced by nodes of this graph."""
-        image: dict[int, int] = {}
-        for node in self.needed(outputs):
-            op, args, payload = self.nodes[node]
-            if op == "input" and payload in inputs:
-                image[node] = inputs[payload]  # type: ignore[index]  # an input's payload is its key
-            elif op in ("const", "input"):
-                image[node] = node
+        return self.rebuilt(self, outputs, lambda node: inputs.get(self.key(node), node))
+
+    def rebuilt(
+        self,
+        source: Graph,
+        outputs: Sequence[int],
+        image: Callable[[int], int],
+        stops: Callable[[int], bool] | None = None,
+    ) -> list[int]:
+        """Build what `outputs` of `source` need anew in this graph; return the outputs' nodes here.
+
+        Parameters
+        ----------
+        source : Graph
+            Where they stand now.
+        outputs : sequence of int
+            Nodes of `source`.
+        image : callable
+            Gives the node here that stands for an input of `source`, or for one that `stops` names: each is asked for
+            once, in evaluation order.
+        stops : callable, optional
+            Whether a node is not built from its operands, so that these are not needed for it; by default only inputs.
+        """
+        found: dict[int, int] = {}
+        for node in source.needed(outputs, stops):
+            op, args, payload = source.nodes[node]
+            if op == "input" or (stops is not None and stops(node)):
+                found[node] = image(node)
+            elif op == "const":
+                found[node] = self.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
             else:
-                image[node] = self.rebuild(op, tuple(image[a] for a in args), payload)
-        return [image[o] for o in outputs]
+                found[node] = self.rebuild(op, tuple(found[a] for a in args), payload)
+        return [found[o] for o in outputs]
 
     def rebuild(self, op: str, args: tuple[int, ...], payload: object = None) -> int:
         """Return the operation `op` on `args`, simplified as if it had been built by its own method."""
@@ -270,15 +288,16 @@ class Graph:
             return int(getattr(self, builder)(*args))
         return self.call(f"table:{payload}" if op == "table" else op, *args)
 
-    def needed(self, outputs: Iterable[int]) -> list[int]:
-        """Return all nodes that `outputs` depend on, in evaluation order."""
+    def needed(self, outputs: Iterable[int], stops: Callable[[int], bool] | None = None) -> list[int]:
+        """Return all nodes that `outputs` depend on, in evaluation order, none behind those that `stops` names."""
         seen: set[int] = set()
         stack = list(outputs)
         while stack:
             node = stack.pop()
             if node not in seen:
                 seen.add(node)
-                stack.extend(self.nodes[node].args)
+                if stops is None or not stops(node):
+                    stack.extend(self.nodes[node].args)
         return sorted(seen)
 
     def keys(self, outputs: Iterable[int]) -> list[tuple[str, int]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Generic, TypeVar
 
 from symgen.ir.graph import Graph
@@ -153,13 +154,18 @@ class Block:
         """All nodes that the block ends in."""
         return tuple(n for _, n in self.outputs) + (() if self.flag is None else (self.flag,))
 
+    @cached_property
+    def needed(self) -> list[int]:
+        """All nodes that these depend on, in evaluation order."""
+        return self.graph.needed(self.nodes)
+
     @property
     def tables(self) -> tuple[tuple[str, str], ...]:
         """Tables that are read, by name, and for which of `DERIVATIVES`."""
-        found = (self.graph.nodes[n] for n in self.graph.needed(self.nodes))
+        found = (self.graph.nodes[n] for n in self.needed)
         return tuple(dict.fromkeys(of_table(o.payload) for o in found if o.op == "table"))
 
-    @property
+    @cached_property
     def operations(self) -> int:
         """Operations with common subexpressions computed once."""
         return self.graph.operations(self.nodes)

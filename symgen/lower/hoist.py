@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from symgen.ir.graph import PARAMETER, Graph
 from symgen.ir.program import Block, Target
-from symgen.methods._formula import needed
 
 
 class Hoister:
@@ -37,7 +36,7 @@ class Hoister:
 
         So a law's own functions do not depend on how many parameters the method has, nor on what else it hoists.
         """
-        for node in self._reached(ends):
+        for node in self.graph.needed(ends, self._moves):
             if self._moves(node):
                 self.slots.setdefault(node, len(self.slots))
         self.reserved = len(self.slots)
@@ -59,28 +58,19 @@ class Hoister:
     ) -> Block:
         """Return a block in a graph of its own, hoisted nodes read from ``p``."""
         source, target = self.graph, Graph()
-        ends = [n for _, n in outputs] + ([] if flag is None else [flag])
-        image: dict[int, int] = {}
-        for node in self._reached(ends):
-            op, args, payload = source.nodes[node]
+        ends = [n for _, n in outputs] + ([] if flag is None else [flag])  # the flag stands last
+
+        def image(node: int) -> int:
             if self._moves(node):
-                slot = self.slots.setdefault(node, len(self.slots))
-                image[node] = target.input("p", self._place(slot))
-            elif op == "const":
-                image[node] = target.constant(payload)  # type: ignore[arg-type]  # a constant's payload is a float
-            elif op == "input":
-                image[node] = self._input(target, *payload)  # type: ignore[misc]  # an input's payload is its key
-            else:
-                image[node] = target.rebuild(op, tuple(image[a] for a in args), payload)
-        moved = tuple((where, image[n]) for where, n in outputs)
-        return Block(name, purpose, target, moved, arguments, None if flag is None else image[flag])
+                return target.input("p", self._place(self.slots.setdefault(node, len(self.slots))))
+            return self._input(target, *source.key(node))
+
+        moved = target.rebuilt(source, ends, image, self._moves)
+        places = tuple((where, node) for (where, _), node in zip(outputs, moved, strict=False))
+        return Block(name, purpose, target, places, arguments, None if flag is None else moved[-1])
 
     def _moves(self, node: int) -> bool:
         return self.graph.depends[node] == PARAMETER and self.graph.nodes[node].op != "input"
-
-    def _reached(self, ends: Sequence[int]) -> list[int]:
-        """Nodes needed for `ends`, not looking behind what is hoisted."""
-        return needed(ends, lambda node: () if self._moves(node) else self.graph.nodes[node].args)
 
     def prepare(self) -> Block:
         """Return the block that fills the hoisted numbers; call it after all other blocks."""

@@ -47,7 +47,7 @@ class OfMass(OfRows):
     def _with_mass(self, mass: tuple[MassBlock, ...]) -> Self:
         """Return the same tape with another matrix in the place of M, nothing evaluated yet."""
         other = copy(self)
-        for name in ("mass_entries", "mass_matrix", "mass_factor", "coupled", "inverse_mass", "gauge"):
+        for name in ("mass_entries", "mass_matrix", "mass_factor", "row_halves", "coupled", "inverse_mass", "gauge"):
             other.__dict__.pop(name, None)
         other.equations = replace(self.equations, mass=mass)
         return other
@@ -91,8 +91,13 @@ class OfMass(OfRows):
                 found[j] = dict.fromkeys(block.columns, 0)
         return found
 
+    @cached_property
+    def row_halves(self) -> tuple[list[list[int]], list[list[int]]]:
+        """L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
+        return self._halves(self.rows)
+
     def _halves(self, matrix: Rows) -> tuple[list[list[int]], list[list[int]]]:
-        """Return L^-1 D^T by the rows of D, and d^-1 L^-1 D^T."""
+        """Return the same as `row_halves` for some of the rows."""
         g, found = self.graph, list[list[int]]()
         for row in matrix:
             x = [g.zero] * self.equations.nv
@@ -109,7 +114,7 @@ class OfMass(OfRows):
         if operation.kind in ("add", "sub") and operation.size == "nv":
             return [getattr(g, operation.kind)(a, b) for a, b in zip(*map(self._half, parts), strict=True)]
         if operation.kind == "transposed" and self.values[parts[0]] is self.rows:
-            y, (halves, _) = self.values[parts[1]], self._halves(self.rows)
+            y, (halves, _) = self.values[parts[1]], self.row_halves
             return [g.dot([half[k] for half in halves], y) for k in range(self.equations.nv)]
         return self.mass_factor.forward(g, self.values[index])
 
@@ -117,7 +122,7 @@ class OfMass(OfRows):
         """Return D M^-1 D^T as nodes."""
         if not self.mass_entries:
             return self.gram(matrix, self.inverse_mass)
-        g, (halves, scaled) = self.graph, self._halves(matrix)
+        g, (halves, scaled) = self.graph, self.row_halves if matrix is self.rows else self._halves(matrix)
         near = self.neighbours(matrix, self.coupled)
         return self.symmetric(near, lambda i, j: g.dot(scaled[i], halves[j]))
 
@@ -157,7 +162,7 @@ class OfMass(OfRows):
         solved = self.operations[operation.operands[1]]
         if self.mass_entries and matrix is self.rows and solved.kind == "minv":  # D M^-1 u from what S is made of
             half = self._half(solved.operands[0])
-            return tuple(self.graph.dot(scaled, half) for scaled in self._halves(self.rows)[1])
+            return tuple(self.graph.dot(scaled, half) for scaled in self.row_halves[1])
         return super()._on_product(operation, matrix, x)
 
     def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:

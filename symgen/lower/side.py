@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from symgen.describe.mechanism import ACCELERATIONS, Mechanism
 from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
+from symgen.describe.topology import quantities
 from symgen.formulate.efforts import exertion
-from symgen.formulate.formulate import quantities
 from symgen.formulate.measures import Model
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph

@@ -38,8 +38,9 @@ def split(module: str, symbol: str, longest: int, left: int) -> str | None:
         Number of instructions up to which it is left to the compiler which values wait in memory.
     """
     lines = module.splitlines()
-    first = next((i for i, line in enumerate(lines) if line.startswith("define ") and f'"{symbol}"(' in line), None)
-    first = first if first is not None else _unquoted(lines, symbol)
+    heads = f'"{symbol}"(', f"@{symbol}("  # LLVM leaves out quotes where a name does without
+    found = (i for i, line in enumerate(lines) if line.startswith("define ") and any(head in line for head in heads))
+    first = next(found, None)
     if first is None:
         return None
     last = lines.index("}", first)
@@ -52,10 +53,6 @@ def split(module: str, symbol: str, longest: int, left: int) -> str | None:
     else:
         body = [line.text for line in _Blocks(plain, LENGTH).lines]
     return "\n".join([*lines[: first + 1], *body, *lines[last:], ""])
-
-
-def _unquoted(lines: list[str], symbol: str) -> int | None:
-    return next((i for i, line in enumerate(lines) if line.startswith("define ") and f"@{symbol}(" in line), None)
 
 
 def _without_repetitions(body: list[str]) -> list[Line]:

@@ -86,26 +86,21 @@ def javascript(functions: Mapping[str, lang.Function]) -> str:
     functions : mapping of str to Function
         What the text shall define, by the names that it shall have there.
     """
-    names: dict[object, str] = {_key(function): name for name, function in functions.items()}
+    names: dict[object, str] = {function.key: name for name, function in functions.items()}
     texts: list[str] = []
 
     def define(function: lang.Function) -> None:
         for called in function.called:
-            if _key(called) not in names:
-                names[_key(called)] = _free(_word(called.name), names.values())
+            if called.key not in names:
+                names[called.key] = _free(_word(called.name), names.values())
                 define(called)
-        own = _key(function)
         for array in function.tables:
-            names[own, array] = _free(f"{names[own]}_{_word(array)}", names.values())
+            names[function.key, array] = _free(f"{names[function.key]}_{_word(array)}", names.values())
         texts.append(_Printer(function, names).text())
 
     for function in functions.values():
         define(function)
     return "\n".join(texts)
-
-
-def _key(function: lang.Function) -> object:
-    return function.source, function.parameters
 
 
 def _free(name: str, taken: Iterable[str]) -> str:
@@ -141,14 +136,14 @@ class _Printer:
         """Return the definition, with the tables that it reads before it."""
         f = self.function
         tables = [
-            f"const {self.names[_key(f), name]} = [{', '.join(_literal(x)[0] for x in values)}];"
+            f"const {self.names[f.key, name]} = [{', '.join(_literal(x)[0] for x in values)}];"
             for name, values in f.tables.items()
         ]
         given = {p.name for p in f.parameters}
         local = [_word(name) for name in f.variables if name not in given and name not in f.fixed]
         lines = [f"let {', '.join(local)};"] if local else []
         lines += self.lines(f.body)
-        head = f"function {self.names[_key(f)]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
+        head = f"function {self.names[f.key]}({', '.join(_word(p.name) for p in f.parameters)}) {{"
         return "\n".join([*tables, head, *lines, "}"])
 
     def lines(self, statements: tuple[lang.Statement, ...]) -> list[str]:
@@ -192,11 +187,11 @@ class _Printer:
             return _word(e.name), 20
         if isinstance(e, lang.Element):
             constant = e.array in self.function.tables
-            array = self.names[_key(self.function), e.array] if constant else _word(e.array)
+            array = self.names[self.function.key, e.array] if constant else _word(e.array)
             return f"{array}[{self.value(e.index)}]", 20
         if isinstance(e, lang.Call):
             given = (_word(a) if isinstance(a, str) else self.value(a) for a in e.arguments)
-            return f"{self.names[_key(e.function)]}({', '.join(given)})", 20
+            return f"{self.names[e.function.key]}({', '.join(given)})", 20
         if isinstance(e, lang.Logic):
             sign, own = _SIGNS[e.name]
             return f"{self.value(e.first, own)} {sign} {self.value(e.second, own + 1)}", own

@@ -14,7 +14,7 @@ from symgen.native import sines
 from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Values, called, handed, literal, slot
 
 #: The same as one value, as functions in C's convention get it.
-_STRUCT = "{ptr, ptr, i64, i64, ptr, [1 x i64], [1 x i64]}"
+_STRUCT = "{" + ", ".join((*ARRAY[:LENGTH], "[1 x i64]", "[1 x i64]")) + "}"
 
 
 def module(
@@ -58,25 +58,20 @@ def _reached(
     function: lang.Function, inlined: Callable[[lang.Function], bool]
 ) -> tuple[list[lang.Function], list[lang.Function]]:
     """Return functions whose bodies belong into a module, and those of which it has to know the symbol alone."""
-    functions, declared, waiting = {_key(function): function}, dict[object, lang.Function](), list(function.called)
+    functions, declared, waiting = {function.key: function}, dict[object, lang.Function](), list(function.called)
     while waiting:
         each = waiting.pop(0)
-        if _key(each) not in functions and (is_copied(each) or inlined(each)):
-            functions[_key(each)] = each
+        if each.key not in functions and (is_copied(each) or inlined(each)):
+            functions[each.key] = each
             waiting.extend(each.called)
-        elif _key(each) not in functions:
-            declared[_key(each)] = each
+        elif each.key not in functions:
+            declared[each.key] = each
     return list(functions.values()), list(declared.values())
 
 
 def is_copied(function: lang.Function) -> bool:
     """Whether a function has no machine code of its own where it is called: it is handed tables of looped code."""
     return any(p.type == "unsigned" for p in function.parameters) and all(is_copied(f) for f in function.called)
-
-
-def _key(function: lang.Function) -> object:
-    """Return what tells one function from another without comparing their bodies."""
-    return function.source, function.parameters
 
 
 def declarations(texts: Iterable[str]) -> list[str]:

@@ -67,6 +67,12 @@ class Values:
         self.lines.append(f"  %.{self.count} = {text}")
         return f"%.{self.count}"
 
+    def room(self, kind: str) -> str:
+        """Return memory for the result of a function that is called, of LLVM's type `kind`."""
+        self.count += 1
+        self.slots.append(f"  %.result{self.count} = alloca {kind}")
+        return f"%.result{self.count}"
+
     def labels(self, *names: str) -> list[str]:
         """Return new labels."""
         self.count += 1
@@ -234,9 +240,7 @@ class Values:
         """Print a call of another function."""
         f = e.function
         kind = TYPES[f.returned]
-        self.count += 1
-        result = f"%.result{self.count}"
-        self.slots.append(f"  {result} = alloca {kind}")
+        result = self.room(kind)
         parts = [f"ptr {result}", "ptr null"]
         for p, argument in zip(f.parameters, e.arguments, strict=True):
             if isinstance(argument, str):
@@ -251,9 +255,7 @@ class Values:
         assert not isinstance(e.function, str), "emitted functions know addresses as numbers"
         parts = [part for argument in e.arguments for part in self.handed_on(argument)]
         address = self.put(f"inttoptr i64 {self.value(e.function)} to ptr")
-        self.count += 1
-        result = f"%.result{self.count}"
-        self.slots.append(f"  {result} = alloca {TYPES[e.type]}")
+        result = self.room(TYPES[e.type])
         self.put(f"call i32 {address}({', '.join((f'ptr {result}', 'ptr %.exception', *parts))})")
         return self.put(f"load {TYPES[e.type]}, ptr {result}")
 

@@ -24,6 +24,8 @@ class Values(Reader):
     ----------
     function : Dispatcher
         What the Python function is called through.
+    tree : FunctionDef
+        Its syntax tree.
     arguments : dict of str to object
         What arguments are that are no numbers.
     parameters : tuple of Parameter
@@ -35,14 +37,13 @@ class Values(Reader):
     def __init__(
         self,
         function: Any,
+        tree: ast.FunctionDef,
         arguments: dict[str, Value],
         parameters: tuple[lang.Parameter, ...],
         definition: Callable[[Any], ast.FunctionDef | None],
     ) -> None:
-        super().__init__(function, ast.FunctionDef(name="", args=_NONE, body=[], decorator_list=[]), (), definition, ())
-        self.parameters, self.bound = parameters, arguments
-        self.arrays = {p.name: p.type for p in parameters if p.array}
-        self.numbers = {p.name: p.type for p in parameters if not p.array and not p.address}
+        super().__init__(function, tree, parameters, definition)
+        self.bound = arguments
         self.pending: list[lang.Statement] = []
         self.count = 0
 
@@ -312,6 +313,3 @@ def _given(name: str, value: bool) -> lang.Statement:
 
 def _indices(node: ast.Subscript) -> int:
     return len(node.slice.elts) if isinstance(node.slice, ast.Tuple) else 1
-
-
-_NONE = ast.arguments(posonlyargs=[], args=[], kwonlyargs=[], kw_defaults=[], defaults=[])

@@ -37,7 +37,7 @@ from symgen.native.loop_values import (
     leaves,
     renamed,
 )
-from symgen.native.read import returns
+from symgen.native.read import body_of, returns
 from symgen.native.read_values import Foreign, as_type, truth_of
 
 
@@ -106,13 +106,13 @@ class LoopReader(Values):
             raise Foreign("arguments other than plain ones", tree)
         # an argument that is a number has its own name, and may be given another value
         bound = {n: v for n, v in zip(names, arguments, strict=True) if not isinstance(v, lang.Variable)}
-        super().__init__(function, bound, parameters, definition)
-        self.tree, self.shared = tree, shared
+        super().__init__(function, tree, bound, parameters, definition)
+        self.shared = shared
         self.copies: list[_Copied] = []
 
     def function(self) -> lang.Function:
         """Return the function."""
-        statements = self.statements(_body(self.tree))
+        statements = self.statements(body_of(self.tree))
         if not returns(statements):  # nothing is returned: a 0 that nobody asks for
             self.returned.add("int")
             statements = (*statements, lang.Return(lang.Constant("int", 0)))
@@ -335,7 +335,7 @@ class LoopReader(Values):
             raise Foreign(f"the function '{called.__name__}'", node)
         own = frozenset(called.py_func.__code__.co_varnames)
         names = {name: self.fresh(name) for name in own}
-        body = [_Renamed(names).visit(statement) for statement in _body(tree)]
+        body = [_Renamed(names).visit(statement) for statement in body_of(tree)]
         assigned = {x.id for s in body for x in ast.walk(s) if isinstance(x, ast.Name) and isinstance(x.ctx, ast.Store)}
         for x, value in zip(tree.args.args, arguments, strict=True):
             name = names[x.arg]
@@ -373,12 +373,6 @@ class _Renamed(ast.NodeTransformer):
     def visit_Name(self, node: ast.Name) -> ast.Name:
         """Return a name under its other name."""
         return ast.copy_location(ast.Name(self.names.get(node.id, node.id), node.ctx), node)
-
-
-def _body(tree: ast.FunctionDef) -> list[ast.stmt]:
-    """Return the statements of a function without its docstring."""
-    body = tree.body
-    return body[1:] if isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant) else body
 
 
 def _ends_once(body: list[ast.stmt]) -> bool:

@@ -9,12 +9,11 @@ from numba import types
 
 from symgen.native import language as lang
 from symgen.native.llvm import Printer, declarations
-from symgen.native.llvm_values import TYPES
+from symgen.native.llvm_values import ARRAY, DATA, LENGTH, TYPES
 
 #: Parts of an array as Numba hands it on, before its lengths and its strides; of a function, which has an address in
 #: C's convention and one in Numba's. Used are the address of the elements, the lengths, and the last.
-_ARRAY = ("ptr", "ptr", "i64", "i64", "ptr")
-_DATA, _SHAPE = 4, 5
+_ARRAY = ARRAY[:LENGTH]
 _ADDRESS = ("ptr", "ptr", "ptr")
 _JIT = 2
 #: What a function returns for which something in Python was not as it should be.
@@ -114,8 +113,8 @@ class LoopPrinter(Printer):
         self.inserted: dict[str, str] = {}
         for p in function.parameters:
             if p.array:
-                lengths = tuple(f'%"{p.name}.{_SHAPE + i}"' for i in range(p.rank))
-                self.views[p.name] = f'%"{p.name}.{_DATA}"', lengths
+                lengths = tuple(f'%"{p.name}.{LENGTH + i}"' for i in range(p.rank))
+                self.views[p.name] = f'%"{p.name}.{DATA}"', lengths
 
     def head(self) -> str:
         """Return result, name and parameters."""
@@ -123,7 +122,7 @@ class LoopPrinter(Printer):
         for p in self.function.parameters:
             if p.array:
                 kinds = (*_ARRAY, *("i64",) * (2 * p.rank))
-                used = range(_DATA, _SHAPE + p.rank)
+                used = range(DATA, LENGTH + p.rank)
                 parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(kinds) if self.outermost or i in used]
             elif p.address:
                 parts += [f'{k} %"{p.name}.{i}"' for i, k in enumerate(_ADDRESS)]
@@ -216,9 +215,7 @@ class LoopPrinter(Printer):
 
     def called(self, function: str, kind: lang.Scalar, parts: list[str]) -> str:
         """Print a call; where the function has failed, this one fails."""
-        self.count += 1
-        result = f"%.result{self.count}"
-        self.slots.append(f"  {result} = alloca {TYPES[kind]}")
+        result = self.room(TYPES[kind])
         status = self.put(f"call i32 {function}({', '.join((f'ptr {result}', 'ptr %.exception', *parts))})")
         failed, done = self.labels("failed", "done")
         self.branch(self.put(f"icmp eq i32 {status}, 0"), done, failed)

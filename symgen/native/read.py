@@ -48,7 +48,17 @@ def read(
         raise Foreign(f"the function '{function.__name__}'")
     if function in reading:
         raise Foreign(f"the function '{function.__name__}' calls itself", tree)
-    return Reader(function, tree, kinds, definition, (*reading, function)).function()
+    a = tree.args
+    if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults or len(a.args) != len(kinds):
+        raise Foreign("arguments other than plain ones", tree)
+    parameters = tuple(lang.Parameter(x.arg, kind, array) for x, (kind, array) in zip(a.args, kinds, strict=True))
+    return Reader(function, tree, parameters, definition, (*reading, function)).function()
+
+
+def body_of(tree: ast.FunctionDef) -> list[ast.stmt]:
+    """Return the statements of a function without its docstring."""
+    first = tree.body[0]
+    return tree.body[1:] if isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant) else tree.body
 
 
 class Reader(TableValues):
@@ -58,16 +68,11 @@ class Reader(TableValues):
         self,
         function: Any,
         tree: ast.FunctionDef,
-        kinds: tuple[Kind, ...],
+        parameters: tuple[lang.Parameter, ...],
         definition: Definition,
-        reading: tuple[object, ...],
+        reading: tuple[object, ...] = (),
     ) -> None:
-        a = tree.args
-        if a.vararg or a.kwarg or a.kwonlyargs or a.posonlyargs or a.defaults or len(a.args) != len(kinds):
-            raise Foreign("arguments other than plain ones", tree)
-        super().__init__(
-            function, tuple(lang.Parameter(x.arg, kind, array) for x, (kind, array) in zip(a.args, kinds, strict=True))
-        )
+        super().__init__(function, parameters)
         self.source, self.tree, self.definition, self.reading = function, tree, definition, reading
         self.assigned: dict[str, int] = {}  # how often; assignments below the body itself count twice
         self.returned: set[lang.Scalar] = set()
@@ -79,10 +84,7 @@ class Reader(TableValues):
 
     def function(self) -> lang.Function:
         """Return the function."""
-        body = self.tree.body
-        if body and isinstance(body[0], ast.Expr) and isinstance(body[0].value, ast.Constant):
-            body = body[1:]  # the docstring
-        statements = self.statements(body)
+        statements = self.statements(body_of(self.tree))
         if not self.returned and any(p.type == "unsigned" for p in self.parameters):
             # looped code calls functions that return nothing: a 0 that nobody asks for
             self.returned.add("int")

@@ -55,7 +55,7 @@ class Values(ABC):
         self.locals = frozenset(function.py_func.__code__.co_varnames)
         self.parameters = parameters
         self.arrays = {p.name: p.type for p in parameters if p.array}
-        self.numbers: dict[str, lang.Scalar] = {p.name: p.type for p in parameters if not p.array}
+        self.numbers: dict[str, lang.Scalar] = {p.name: p.type for p in parameters if not p.array and not p.address}
         self.variables: dict[str, lang.Scalar] = {}
         self.tables: dict[str, tuple[float, ...]] = {}
         self.called: dict[tuple[object, tuple[Kind, ...]], lang.Function] = {}

@@ -43,8 +43,8 @@ _DOUBLE, _WHOLE = np.dtype(np.float64), np.dtype(np.int64)
 
 
 def changed() -> list[str]:
-    """Return a sentence for everything of Numba that is not as expected; empty if all is well."""
-    found = internals.changed()
+    """Return a sentence for everything that is not as expected of what `internals` does not look at; else nothing."""
+    found = list[str]()
     for name in ("_get_wrapper_address", "_get_jit_address"):
         function = getattr(function_type, name, None)
         if function is None or list(inspect.signature(function).parameters) != ["func", "sig"]:

@@ -10,6 +10,7 @@ from symgen.api import load
 from symgen.compiling.pipeline import choose_method, compile_model, generate
 from symgen.ir.program import PART
 from symgen.store.entries import Entries
+from symgen.store.paths import ENVIRONMENT_VARIABLE
 
 METHODS = ("lagrange", "baumgarte", "direct-correction", "augmented-lagrangian", "coordinate-partitioning")
 LOOPED = METHODS[:4]
@@ -45,11 +46,12 @@ def test_methods_with_one_right_hand_side_share_it():
 
 @pytest.mark.parametrize("shape", ["straight", "looped"])
 @pytest.mark.parametrize("damage", ["missing", "description", "content"])
-def test_a_law_without_one_of_its_parts_is_made_again(tmp_path, shape, damage):
-    entries, mechanism = Entries(tmp_path / "cache"), load("pendulum").mechanism
+def test_a_law_without_one_of_its_parts_is_made_again(tmp_path, monkeypatch, shape, damage):
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(tmp_path / "cache"))
+    entries, mechanism = Entries(), load("pendulum").mechanism
     choice = choose_method("direct-correction")
     choice = type(choice)(choice.method, choice.options, choice.implicit, shape)
-    compile_model(mechanism, choice, entries)
+    compile_model(mechanism, choice)
     paths = [path for path in sorted((tmp_path / "cache").rglob("*.py")) if PART.fullmatch(path.stem)]
     parts = [path for path in paths if path.stem.split("_")[0] in ("rhs", "accept", "confirm", "prepare")]
     assert len(parts) >= 3
@@ -61,6 +63,6 @@ def test_a_law_without_one_of_its_parts_is_made_again(tmp_path, shape, damage):
             path.write_bytes(before[:-9] + b"1" + before[-8:])
         else:
             path.with_suffix(".json").write_text("{}")
-        compile_model(mechanism, choice, entries)
+        compile_model(mechanism, choice)
         assert path.read_bytes() == before
         assert entries.get(path.parent.name, path.stem) is not None

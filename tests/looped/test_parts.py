@@ -28,6 +28,7 @@ from symgen.runtime import decisions
 from symgen.settings import Settings
 from symgen.store.entries import Entries
 from symgen.store.jit import cache_stats
+from symgen.store.paths import ENVIRONMENT_VARIABLE
 
 DATA = Path(__file__).parents[1] / "data"
 
@@ -171,49 +172,54 @@ def test_large_mechanisms_have_implicit_runs(method, integrator):
 # -- which shape -------------------------------------------------------------------------------------------------------
 
 
-def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(tmp_path):
-    entries, choice = Entries(tmp_path), choose_method("direct-correction")
+@pytest.fixture
+def empty_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(tmp_path))
+
+
+def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(empty_cache):
+    choice = choose_method("direct-correction")
     small, large_one = load("four-bar").mechanism, load("n-four-bar:150").mechanism
-    assert choose_shape(small, choice, "auto", 1e9, entries).shape == "straight"
-    assert choose_shape(large_one, choice, "auto", 1.0, entries).shape == "looped"
-    chosen = choose_shape(load("n-four-bar:60").mechanism, choice, "auto", 1e4, entries)
+    assert choose_shape(small, choice, "auto", 1e9).shape == "straight"
+    assert choose_shape(large_one, choice, "auto", 1.0).shape == "looped"
+    chosen = choose_shape(load("n-four-bar:60").mechanism, choice, "auto", 1e4)
     assert chosen.shape == "looped"
     assert "363 coordinates" in chosen.reason
 
 
 @pytest.mark.parametrize("weight", ["identity", "body"])
-def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, tmp_path):
+def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, empty_cache):
     """What is asked for as the one is judged, found and run as the other."""
-    entries, mechanism = Entries(tmp_path), load("pendulum").mechanism
+    mechanism = load("pendulum").mechanism
     asked, identity = (choose_method("direct-correction", {"weight": name}) for name in (weight, "identity"))
-    assert choose_shape(mechanism, asked, "looped", 1e4, entries).shape == "looped"
-    assert choose_shape(mechanism, asked, "auto", 1.0, entries).reason.startswith("faster runs outweigh")
-    compile_model(mechanism, identity, entries)
-    assert "compiled already" in choose_shape(mechanism, asked, "auto", 1.0, entries).reason
+    assert choose_shape(mechanism, asked, "looped", 1e4).shape == "looped"
+    assert choose_shape(mechanism, asked, "auto", 1.0).reason.startswith("faster runs outweigh")
+    compile_model(mechanism, identity)
+    assert "compiled already" in choose_shape(mechanism, asked, "auto", 1.0).reason
 
 
-def test_short_runs_are_looped_once_the_shared_code_is_there(tmp_path):
-    entries, choice = Entries(tmp_path), choose_method("lagrange")
+def test_short_runs_are_looped_once_the_shared_code_is_there(empty_cache):
+    entries, choice = Entries(), choose_method("lagrange")
     mechanism = load("four-bar").mechanism
     folder = shared_folder(generator_digest())
-    assert choose_shape(mechanism, choice, "auto", 1e4, entries).shape == "straight"
+    assert choose_shape(mechanism, choice, "auto", 1e4).shape == "straight"
     for stem, (source, data) in generate_looped(
         mechanism, [(choice.method, choice.options, False)], generator_digest()
     ).items():
         entries.put(folder, stem, source, data)
     assert entries.path(folder, law_stem(choice.method, choice.options)).exists()
-    assert choose_shape(mechanism, choice, "auto", 1e4, entries).shape == "looped"
-    assert choose_shape(mechanism, choice, "auto", 1e12, entries).shape == "straight"
+    assert choose_shape(mechanism, choice, "auto", 1e4).shape == "looped"
+    assert choose_shape(mechanism, choice, "auto", 1e12).shape == "straight"
 
 
 @pytest.mark.parametrize("method", ["null-space", "coordinate-partitioning", "augmented-hamiltonian"])
-def test_dense_methods_have_no_loops_and_a_largest_size(method, tmp_path):
+def test_dense_methods_have_no_loops_and_a_largest_size(method, empty_cache):
     choice, small = choose_method(method), load("four-bar").mechanism
-    assert choose_shape(small, choice, "auto", 1e4, Entries(tmp_path)).shape == "straight"
+    assert choose_shape(small, choice, "auto", 1e4).shape == "straight"
     with pytest.raises(InputError, match=f"'{method}', .*; the straight shape is for it"):
-        choose_shape(small, choice, "looped", 1e4, Entries(tmp_path))
+        choose_shape(small, choice, "looped", 1e4)
     with pytest.raises(InputError, match="at most 400 coordinates"):
-        choose_shape(load("n-four-bar:80").mechanism, choice, "auto", 1e4, Entries(tmp_path))
+        choose_shape(load("n-four-bar:80").mechanism, choice, "auto", 1e4)
 
 
 def test_implicit_integrators_have_both_shapes_at_any_size():

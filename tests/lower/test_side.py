@@ -13,7 +13,6 @@ from support.models import EVERYTHING, ROUGH
 
 from symgen import catalogue
 from symgen.api import load
-from symgen.compiling.looped import named
 from symgen.compiling.side import compile_side
 from symgen.describe.parser import parse
 from symgen.describe.scope import Model, Names
@@ -22,8 +21,8 @@ from symgen.formulate.measures import Model as Derivation
 from symgen.lower.looped.instances import instances
 from symgen.lower.windings import winding_order
 from symgen.runtime.abi import OBSERVE
-from symgen.store.entries import Entries
 from symgen.store.jit import jit
+from symgen.store.paths import ENVIRONMENT_VARIABLE
 
 CRANK = "sin(crank.theta)*rod.vx + k*t**2"
 
@@ -74,16 +73,17 @@ def test_values_and_rates_are_those_of_the_formula(shape):
     np.testing.assert_allclose(out, expected, rtol=1e-14)
 
 
-def test_nothing_of_the_model_is_made_anew_and_the_module_is_found_again(tmp_path):
-    model, store = slider_crank(), Entries(tmp_path)
+def test_nothing_of_the_model_is_made_anew_and_the_module_is_found_again(tmp_path, monkeypatch):
+    model = slider_crank()
     compiled = model.compile()
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(tmp_path))
     formulas = [("x", parse("slider.x", names_of(model.mechanism), "test"))]
-    first = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, entries=store)
+    first = compile_side(model.mechanism, compiled, "trial", "A trial", formulas)
     files = sorted(path.name for path in tmp_path.rglob("*.py"))
     assert [name.partition("_")[0] for name in files] == ["trial"]
-    again = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, entries=store)
+    again = compile_side(model.mechanism, compiled, "trial", "A trial", formulas)
     assert again.function is first.function
-    other = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=1, entries=store)
+    other = compile_side(model.mechanism, compiled, "trial", "A trial", formulas, rates=1)
     assert other.function is not first.function
     assert len(list(tmp_path.rglob("trial_*.py"))) == 2
 
@@ -98,6 +98,5 @@ def test_angles_stand_where_each_shape_has_them(name):
     assert len(order) == len(equations.windings)
     model = Derivation(mechanism, equations.graph)  # nodes that are there already are found again
     assert [model.measure(m).value for m in order] == list(equations.windings)
-    found, _, _ = named(instances(mechanism))
-    in_loops = dict.fromkeys(angle for instance in found for angle in instance.angles)
+    in_loops = dict.fromkeys(angle for instance in instances(mechanism) for angle in instance.angles)
     assert tuple(in_loops) == winding_order(mechanism, "looped")

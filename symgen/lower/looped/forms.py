@@ -24,7 +24,6 @@ from symgen.methods._formula import needed
 if TYPE_CHECKING:
     from symgen.formulate.elements import Element
     from symgen.lower.looped.instances import Instance
-    from symgen.lower.looped.kernels import KernelInfo
     from symgen.methods._base import Method
 
 #: Groups of unknowns: parts of k, then the state.
@@ -68,11 +67,6 @@ def form_key(method: Method, options: Mapping[str, str], kind: str = "joint") ->
 def form_stem(key: str, stem: str) -> str:
     """Return the name of the module of an element's part, from the formula's name and its kernel's."""
     return f"form_{key}_{stem[-45:]}"
-
-
-def form_stride(kernel: KernelInfo) -> int:
-    """Return the numbers of an instance: those of its frames, row, first entry, angles, constants."""
-    return 3 * len(kernel.frames) + 2 + kernel.windings + kernel.constants
 
 
 def lower_form(

@@ -78,12 +78,6 @@ class KernelInfo(msgspec.Struct, frozen=True):
         """Numbers of an instance that are computed once a run: hoisted ones, then M and M^-1 of its larger blocks."""
         return self.hoisted + sum(2 * len(b) ** 2 for b in self.mass if len(b) > 1)
 
-    @property
-    def stride(self) -> int:
-        """Numbers of an instance in its table: frames, places, hoisted numbers, constants."""
-        places = {"body": 2, "joint": 3, "force": len(self.frames)}[self.kind]
-        return len(self.frames) + places + self.windings + 1 + self.constants
-
     def row_blocks(self, row: int) -> tuple[int, ...]:
         """Return the frames in which a row has entries, in their order."""
         return tuple(sorted({f for f, _ in self.rows[row].entries}))

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+
+import msgspec
 
 from symgen.errors import InputError
 from symgen.ir.program import Correction
@@ -19,17 +21,17 @@ from symgen.methods._formula import needed
 LARGEST_DENSE = 400
 
 
-@dataclass(frozen=True)
-class LoopedLaw:
-    """What a method adds in the looped shape.
+class LoopedLawInfo(msgspec.Struct, frozen=True):
+    """What tables and the runtime need to know of a law, beside its source.
 
     Parameters
     ----------
     method, key : str
         As in `symgen.ir.program.LawProgram`.
-    functions : tuple of LoopedFunction
-        ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
-        not the identity.
+    options : dict of str to str
+        Structural options, complete.
+    parameters : tuple of (name, default)
+        Of the method.
     sections : tuple of (name, size)
         Sections of ``w`` of its own.
     vectors : int
@@ -38,19 +40,46 @@ class LoopedLaw:
         Whether M + a D^T D is factorised.
     positions : bool
         Whether an evaluation needs Phi.
+    position_correction, velocity_correction : bool
+        What is corrected after each accepted step.
+    modules : tuple of str
+        File stems of the modules that hold the law's functions, beside its own.
     """
 
     method: str
     key: str
-    functions: tuple[LoopedFunction, ...]
+    options: dict[str, str]
+    parameters: tuple[tuple[str, float], ...]
     sections: tuple[tuple[str, str], ...]
     vectors: int
     augmented: bool
     positions: bool
-    parameters: tuple[tuple[str, float], ...]
+    position_correction: bool
+    velocity_correction: bool
+    modules: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class LoopedLaw:
+    """What a method adds in the looped shape.
+
+    Parameters
+    ----------
+    info : LoopedLawInfo
+        What goes with the source.
+    functions : tuple of LoopedFunction
+        ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
+        not the identity.
+    form : str
+        How v' is found, as in `symgen.ir.program.LawProgram`.
+    correction : Correction
+        What is done to accepted states.
+    """
+
+    info: LoopedLawInfo
+    functions: tuple[LoopedFunction, ...]
     form: str
     correction: Correction
-    options: Mapping[str, str] = field(default_factory=dict)
 
 
 def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> None:
@@ -129,16 +158,17 @@ def lower_looped(method: Method, options: Mapping[str, str], implicit: bool = Fa
     functions = tuple(loops.function(positions) for loops in found)
     known = {name: size for f in functions for name, size in f.sections.items()}
     sections = tuple((n, size) for n, size in known.items() if n not in HEAD and not n.removeprefix("x").isdigit())
-    return LoopedLaw(
+    correction = method.correction(options)
+    info = LoopedLawInfo(
         method=method.name,
         key=method.stem(options),
-        functions=functions,
+        options=dict(options),
+        parameters=tuple((p.name, p.default) for p in method.parameters),
         sections=sections,
         vectors=max(f.vectors for f in functions),
         augmented=any(size == "augmented" for _, size in sections),
         positions=positions,
-        parameters=tuple((p.name, p.default) for p in method.parameters),
-        form=record.form,
-        correction=method.correction(options),
-        options=dict(options),
+        position_correction=correction.position != "none",
+        velocity_correction=correction.velocity,
     )
+    return LoopedLaw(info, functions, record.form, correction)

@@ -28,7 +28,9 @@ from symgen.lower.replay import ARITHMETIC, Nodes, Replay
 from symgen.methods._formula import Operation, needed
 
 #: Functions of a law in which the kernels of an evaluation are called first.
-_EVALUATE = ("rhs", "accelerate", "begin")
+_EVALUATE = ("rhs", "begin")
+#: Scratch vectors that generic code has for itself.
+_FIRST_VECTOR = 2
 
 
 @dataclass(frozen=True)
@@ -52,13 +54,11 @@ class Loops(Replay):
     ----------
     parameters : tuple of str
         Names of the parameters of the method.
-    first_vector : int
-        Scratch vectors that generic code has for itself.
     """
 
-    def __init__(self, record: Record, part: Part, parameters: tuple[str, ...], first_vector: int = 2) -> None:
+    def __init__(self, record: Record, part: Part, parameters: tuple[str, ...]) -> None:
         super().__init__(Graph(), record.operations)
-        self.part, self.parameters, self.vectors = part, parameters, first_vector
+        self.part, self.parameters, self.vectors = part, parameters, _FIRST_VECTOR
         self.sections: dict[str, str] = {}
         self.statements: list[Statement] = []
         self.flagged, self.locals = False, 0

@@ -87,20 +87,6 @@ class Elimination:
         largest = max((len(n.columns) * len(n.below) for n in nodes), default=0)
         return cls(nodes, tuple(first), size, largest, place, tuple(local))
 
-    @property
-    def order(self) -> tuple[int, ...]:
-        """Rows in the order of elimination."""
-        return tuple(row for node in self.nodes for row in node.columns)
-
-    @property
-    def entries(self) -> int:
-        """Entries of L below the diagonal."""
-        total = 0
-        for node in self.nodes:
-            c = len(node.columns)
-            total += c * len(node.below) + c * (c - 1) // 2
-        return total
-
     def target(self, a: int, b: int) -> int:
         """Return where the entry of rows `a` and `b` stands."""
         (sa, ka), (sb, kb) = self.place[a], self.place[b]

@@ -20,13 +20,17 @@ from symgen.vocabulary.measures import Measure
 
 @dataclass(frozen=True)
 class RowBlock:
-    """The entries of a row of D that belong to one body: `width` numbers from `offset` on, from velocity `first` on."""
+    """The entries of a row of D that belong to one body: `width` numbers from `offset` on, from velocity `first` on.
+
+    `reach` are the velocities that M couples with those of its entries.
+    """
 
     row: int
     first: int
     width: int
     offset: int
     entries: dict[int, float | None]  # velocities with structurally nonzero entries: the literal, or None
+    reach: frozenset[int]
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,8 @@ class Shape:
                     width = info.frames[f][1]
                     literals = zip(shape.entries, shape.constant, strict=True)
                     used = {firsts[f] + j: literal for (g, j), literal in literals if g == f}
-                    self.blocks.append(RowBlock(row, firsts[f], width, entry, used))
+                    reach = frozenset(k for j in used for k in self.coupled.get(j, (j,)))
+                    self.blocks.append(RowBlock(row, firsts[f], width, entry, used, reach))
                     self.entries += [(row, j, entry + j - firsts[f]) for j in used]
                     entry += width
                 self.holonomic.append(shape.holonomic)
@@ -203,9 +208,8 @@ class Shape:
         """Pairs of row blocks of one body that contribute to D M^-1 D^T, each once, rows with themselves too."""
         found = []
         for blocks in self.by_body.values():
-            reach = [frozenset(k for j in b.entries for k in self.coupled.get(j, (j,))) for b in blocks]
             for i, a in enumerate(blocks):
-                found += [(a, b) for k, b in enumerate(blocks[: i + 1]) if k == i or not reach[i].isdisjoint(b.entries)]
+                found += [(a, b) for b in blocks[: i + 1] if b is a or not a.reach.isdisjoint(b.entries)]
         return found
 
     @cached_property
@@ -216,10 +220,9 @@ class Shape:
         slots: dict[int, int] = {}
         for a, b in self.pairs:
             target = self.gram.target(a.row, b.row)
-            reach = frozenset(k for j in a.entries for k in self.coupled.get(j, (j,)))
             varying = []
             for j, literal in b.entries.items():
-                if j in reach:
+                if j in a.reach:
                     other = a.entries.get(j)
                     if literal is None or other is None or j in self.coupled or j in self.turning:
                         varying.append(j)

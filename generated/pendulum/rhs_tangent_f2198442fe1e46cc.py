@@ -1,6 +1,6 @@
 """Right-hand side, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 """
 
 import math
@@ -181,7 +181,7 @@ def rhs(t, y, p, w, iw, ydot):
         w[FORCE + j] -= w[WEIGHED + j]
     degrees = iw[8]
     project(p, w, iw)
-    for c in range(degrees):  # lower triangle of R^T M R, and the right-hand side behind it
+    for c in range(degrees):  # lower triangle of the mass matrix over a basis, and the right-hand side behind it
         for j in range(2):
             w[CHANGE + j] = w[TRIAL + 2 * c + j]
         weigh(p, w)

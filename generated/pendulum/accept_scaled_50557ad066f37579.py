@@ -1,6 +1,6 @@
-"""Treatment of accepted states, for model `four-bar`. Emitted by symgen; do not edit.
+"""Treatment of accepted states, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 """
 
 import math
@@ -8,20 +8,20 @@ import math
 from numba import njit
 
 from .model import geometry, measure, spread
-from .rhs_tangent_0b6fa165e80aac26 import choose, project
+from .rhs_tangent_f2198442fe1e46cc import choose, project
 
-CHANGE = 67  # sections of w
-GAUGE = 85
-DEPENDENT = 138
-BASIS = 219
-TRIAL = 282
+CHANGE = 25  # sections of w
+GAUGE = 29
+DEPENDENT = 35
+BASIS = 39
+TRIAL = 43
 
 
 @njit(error_model="numpy", fastmath={"contract"})
 def accept(t, y, p, w, iw):
     """Correct and measure an accepted state, and carry the tangent basis on to it."""
     # each helper is called at one place only: the compiler copies it to every place it is called from
-    tolerance = p[24] * w[6]
+    tolerance = p[5] * w[6]
     last = math.inf
     bits = 2
     for round in range(15):
@@ -34,10 +34,10 @@ def accept(t, y, p, w, iw):
             measure(t, y, p, w)  # leaves D v - nu in the section that `spread` corrects
         spread(p, w)
         if closed:
-            for j in range(9, 18):
-                y[j] += w[CHANGE - 9 + j]
+            for j in range(2, 4):
+                y[j] += w[CHANGE - 2 + j]
             break
-        for j in range(9):
+        for j in range(2):
             y[j] += w[CHANGE + j]
         last = violation
         iw[3] += 1
@@ -48,23 +48,23 @@ def accept(t, y, p, w, iw):
         if iw[7] == 0:  # the first basis: unit vectors of independent coordinates
             choose(p, w, iw)
             degrees = 0
-            for j in range(9):
-                if w[DEPENDENT + j] == 0.0 and degrees < 7:
-                    for k in range(9):
-                        w[BASIS + 9 * degrees + k] = 1.0 if k == j else 0.0
+            for j in range(2):
+                if w[DEPENDENT + j] == 0.0 and degrees < 2:
+                    for k in range(2):
+                        w[BASIS + 2 * degrees + k] = 1.0 if k == j else 0.0
                     degrees += 1
             iw[8] = degrees
         project(p, w, iw)
         for c in range(iw[8]):
             for r in range(c + 1):  # orthogonal to the columns before it, then of length 1
                 total = 0.0
-                for j in range(9):
-                    total += w[TRIAL + 9 * c + j] * w[(BASIS if r < c else TRIAL) + 9 * r + j] / w[GAUGE + j]
+                for j in range(2):
+                    total += w[TRIAL + 2 * c + j] * w[(BASIS if r < c else TRIAL) + 2 * r + j] / w[GAUGE + j]
                 if r == c:
-                    for j in range(9):
-                        w[BASIS + 9 * c + j] = w[TRIAL + 9 * c + j] / math.sqrt(total)
+                    for j in range(2):
+                        w[BASIS + 2 * c + j] = w[TRIAL + 2 * c + j] / math.sqrt(total)
                 else:
-                    for j in range(9):
-                        w[TRIAL + 9 * c + j] -= total * w[BASIS + 9 * r + j]
+                    for j in range(2):
+                        w[TRIAL + 2 * c + j] -= total * w[BASIS + 2 * r + j]
     measure(t, y, p, w)
     return bits

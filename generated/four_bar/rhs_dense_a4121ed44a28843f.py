@@ -1,6 +1,6 @@
 """Right-hand side, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
 """
 
 import math
@@ -72,36 +72,66 @@ def expand(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def aim(t, y, p, w):
-    """the section `residual` = what D v' shall be, `force` = f: 27 operations, 54 before sharing."""
+    """the section `residual` = what D v' shall be, `force` = f: 102 operations, 171 before sharing."""
     # inputs
+    q0 = y[0]  # crank.x [m]
+    q1 = y[1]  # crank.y [m]
     q2 = y[2]  # crank.theta [rad]
+    v0 = y[9]  # crank.vx [m/s]
+    v1 = y[10]  # crank.vy [m/s]
     v2 = y[11]  # crank.omega [rad/s]
+    q3 = y[3]  # coupler.x [m]
+    q4 = y[4]  # coupler.y [m]
     q5 = y[5]  # coupler.theta [rad]
+    v3 = y[12]  # coupler.vx [m/s]
+    v4 = y[13]  # coupler.vy [m/s]
     v5 = y[14]  # coupler.omega [rad/s]
+    q6 = y[6]  # rocker.x [m]
+    q7 = y[7]  # rocker.y [m]
     q8 = y[8]  # rocker.theta [rad]
+    v6 = y[15]  # rocker.vx [m/s]
+    v7 = y[16]  # rocker.vy [m/s]
     v8 = y[17]  # rocker.omega [rad/s]
     p15 = p[15]  # -9.81*crank_mass
     p16 = p[16]  # -9.81*coupler_mass
     p17 = p[17]  # -9.81*rocker_mass
+    p18 = p[18]  # 2.0*alpha
+    p19 = p[19]  # beta*beta
     # intermediate terms
-    s0 = v2*v2
-    s1 = math.cos(q2)*s0
-    s2 = math.sin(q2)*s0
-    s3 = 4.0*(v5*v5)
-    s4 = math.cos(q5)*s3
-    s5 = math.sin(q5)*s3
-    s6 = 2.5*(v8*v8)
-    s7 = math.cos(q8)*s6
-    s8 = math.sin(q8)*s6
+    s0 = math.cos(q2)
+    s1 = math.sin(q2)
+    s2 = v2*v2
+    s3 = s0*s2
+    s4 = s1*s2
+    s5 = math.cos(q5)
+    s6 = math.sin(q5)
+    s7 = 4.0*s5
+    s8 = 4.0*s6
+    s9 = 4.0*(v5*v5)
+    s10 = s5*s9
+    s11 = s6*s9
+    s12 = math.cos(q8)
+    s13 = math.sin(q8)
+    s14 = 2.5*s12
+    s15 = 2.5*s13
+    s16 = 2.5*(v8*v8)
+    s17 = s12*s16
+    s18 = s13*s16
+    s19 = v2*s1
+    s20 = v2*s0
+    s21 = v5*s8
+    s22 = v5*s7
+    s23 = v8*s15
+    s24 = v8*s14
     # outputs
-    w[43] = -s1  # A.x
-    w[44] = -s2  # A.y
-    w[45] = -(s1 + s4)  # B.x
-    w[46] = -(s2 + s5)  # B.y
-    w[47] = s7 - s4  # C.x
-    w[48] = s8 - s5  # C.y
-    w[49] = -s7  # D.x
-    w[50] = -s8  # D.y
+    w[43] = -(s3 + (v0 + s19)*p18 + (q0 - s0)*p19)  # A.x
+    w[44] = -(s4 + (v1 - s20)*p18 + (q1 - s1)*p19)  # A.y
+    w[45] = -(s3 + s10 + (v3 + s19 - v0 + s21)*p18 + (q3 - q0 - s7 - s0)*p19)  # B.x
+    w[46] = -(s4 + s11 + (v4 - (v1 + s20) - s22)*p18 + (q4 - q1 - s8 - s1)*p19)  # B.y
+    w[47] = s17 - s10 - (v6 + s21 - v3 - s23)*p18 - (q6 - q3 + s14 - s7)*p19  # C.x
+    w[48] = s18 - s11 - (v7 - (v4 + s22) + s24)*p18 - (q7 - q4 + s15 - s8)*p19  # C.y
+    w[49] = -(s17 + (v6 + s23)*p18 + (q6 - 10.0 - s14)*p19)  # D.x
+    w[50] = -(s18 + (v7 - s24)*p18 + (q7 - s15)*p19)  # D.y
     w[422] = 0.0
     w[423] = p15
     w[424] = 0.0
@@ -121,9 +151,9 @@ def weigh(p, w):
     p0 = p[0]  # crank_mass [kg]
     p1 = p[1]  # coupler_mass [kg]
     p2 = p[2]  # rocker_mass [kg]
-    p18 = p[18]  # 0.3333333333333333*crank_mass
-    p19 = p[19]  # 5.333333333333333*coupler_mass
-    p20 = p[20]  # 2.083333333333333*rocker_mass
+    p20 = p[20]  # 0.3333333333333333*crank_mass
+    p21 = p[21]  # 5.333333333333333*coupler_mass
+    p22 = p[22]  # 2.083333333333333*rocker_mass
     change_0 = w[67]  # crank.vx
     change_1 = w[68]  # crank.vy
     change_2 = w[69]  # crank.omega
@@ -136,13 +166,13 @@ def weigh(p, w):
     # outputs
     w[431] = p0*change_0
     w[432] = p0*change_1
-    w[433] = p18*change_2
+    w[433] = p20*change_2
     w[434] = p1*change_3
     w[435] = p1*change_4
-    w[436] = p19*change_5
+    w[436] = p21*change_5
     w[437] = p2*change_6
     w[438] = p2*change_7
-    w[439] = p20*change_8
+    w[439] = p22*change_8
     return 0
 
 
@@ -266,7 +296,7 @@ def rhs(t, y, p, w, iw, ydot):
             reflect(w, k, BASIS + 9 * c)
         for j in range(9):
             w[BASIS + 9 * c + j] *= math.sqrt(w[GAUGE + j])
-    for c in range(degrees):
+    for c in range(degrees):  # lower triangle of the mass matrix over a basis, and the right-hand side behind it
         for j in range(9):
             w[CHANGE + j] = w[BASIS + 9 * c + j]
         weigh(p, w)

@@ -1,6 +1,6 @@
 """Right-hand side, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 """
 
 import math
@@ -40,17 +40,20 @@ def expand(p, w):
 
 @njit(error_model="numpy", fastmath={"contract"})
 def aim(t, y, p, w):
-    """the section `residual` = what D v' shall be, `force` = f: 16 operations, 16 before sharing."""
+    """the section `residual` = what D v' shall be, `force` = f: 21 operations, 27 before sharing."""
     # inputs
     q0 = y[0]  # bob.x [m]
     q1 = y[1]  # bob.y [m]
     v0 = y[2]  # bob.vx [m/s]
     v1 = y[3]  # bob.vy [m/s]
     p3 = p[3]  # -9.81*bob_mass
-    p4 = p[4]  # 2.0*alpha
-    p5 = p[5]  # beta*beta
+    p4 = p[4]  # gain
+    p5 = p[5]  # a
+    status_12 = w[12]  # step
+    # intermediate terms
+    s0 = min(p4, p5*(1.0/status_12))
     # outputs
-    w[22] = -(v0*v0 + v1*v1 + (q0*v0 + q1*v1)*p4 + 0.5*(q0*q0 + q1*q1 - 1.0)*p5)  # link.distance
+    w[22] = -(v0*v0 + v1*v1 + (q0*v0 + q1*v1)*(2.0*s0) + 0.5*(q0*q0 + q1*q1 - 1.0)*(s0*s0))  # link.distance
     w[53] = 0.0
     w[54] = p3
     return 0
@@ -175,7 +178,7 @@ def rhs(t, y, p, w, iw, ydot):
             reflect(w, k, BASIS + 2 * c)
         for j in range(2):
             w[BASIS + 2 * c + j] *= math.sqrt(w[GAUGE + j])
-    for c in range(degrees):
+    for c in range(degrees):  # lower triangle of the mass matrix over a basis, and the right-hand side behind it
         for j in range(2):
             w[CHANGE + j] = w[BASIS + 2 * c + j]
         weigh(p, w)

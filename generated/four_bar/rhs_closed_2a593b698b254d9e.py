@@ -1,12 +1,12 @@
 """Right-hand side behind the closure of dependent coordinates, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
 """
 
 from numba import njit
 
-from .accept_independent_03751b621a55fdaf import close
-from .rhs_dense_ca6ef50220ac480e import rhs as accelerate
+from .accept_independent_72b358a340947cdc import close
+from .rhs_dense_8c68f8a0beef1cd4 import rhs as accelerate
 
 
 @njit(error_model="numpy", fastmath={"contract"})

@@ -1,6 +1,6 @@
 """Right-hand side, for model `four-bar`. Emitted by symgen; do not edit.
 
-digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 168af4765c950236
+digest 46b2922f94755fcfcf37d7d2d33b09a20493d3c5c95f1eab876091ff3fa920d7, format 3, templates 329873645fe3a239
 """
 
 import math
@@ -300,7 +300,7 @@ def rhs(t, y, p, w, iw, ydot):
             reflect(w, k, BASIS + 9 * c)
         for j in range(9):
             w[BASIS + 9 * c + j] *= math.sqrt(w[GAUGE + j])
-    for c in range(degrees):
+    for c in range(degrees):  # lower triangle of the mass matrix over a basis, and the right-hand side behind it
         for j in range(9):
             w[CHANGE + j] = w[BASIS + 9 * c + j]
         weigh(p, w)

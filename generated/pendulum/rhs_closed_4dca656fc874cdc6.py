@@ -1,12 +1,12 @@
 """Right-hand side behind the closure of dependent coordinates, for model `pendulum`. Emitted by symgen; do not edit.
 
-digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 168af4765c950236
+digest 71af6a48b0bdb32fd18695a62bdcf1e89d0317d2a254daca133e6779d6b0e73c, format 3, templates 329873645fe3a239
 """
 
 from numba import njit
 
-from .accept_independent_82662b3c4c0e6a2d import close
-from .rhs_dense_638915f862273b33 import rhs as accelerate
+from .accept_independent_98c868838218cd47 import close
+from .rhs_dense_65c3f5cb0dd1cf11 import rhs as accelerate
 
 
 @njit(error_model="numpy", fastmath={"contract"})
