@@ -204,7 +204,7 @@ def test_rows_that_are_no_numbers_leave_the_choice_as_it_was() -> None:
     m, n, kept = 3, 2, 2
     entries = np.array([[i, j, n * i + j] for i in range(m) for j in range(n)], dtype=np.int64).ravel()
     w = np.concatenate([[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], np.ones(n), [0.0, 0.0, np.inf]])
-    places, mask = (0, m * n, m * n + n), slice(m * n + n, None)
+    places, mask = (0, m * n, -1, m * n + n), slice(m * n + n, None)
     room = np.full(m * (n + m) + 2 * m + 1, 7.0)
     for broken, where in ((np.nan, slice(6)), (np.inf, slice(6)), (np.nan, slice(4, 6)), (np.nan, slice(2, 6))):
         w[:6] = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0]
