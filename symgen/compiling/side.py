@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +23,13 @@ from symgen.describe.outputs import integrals
 from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
 from symgen.lower.windings import Beside, winding_order
-from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
-from symgen.runtime.probe import Few
 from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
 from symgen.vocabulary.expressions import Expr
+
+if TYPE_CHECKING:
+    from symgen.runtime.probe import Few
 
 Array = NDArray[np.float64]
 
@@ -64,6 +65,9 @@ class Side:
 
     @cached_property
     def _few(self) -> Few:
+        from symgen.runtime.abi import OBSERVE  # which need Numba: code is written without it
+        from symgen.runtime.probe import Few
+
         return Few(self.function, OBSERVE)
 
     def __call__(self, t: float, y: Array, p: Array, w: Array, ydot: Array) -> Array:

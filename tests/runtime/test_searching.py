@@ -42,7 +42,7 @@ def test_the_first_root_of_a_cubic_is_numpys():
 def hunted(*functions):
     """What is kept of events whose values and rates are given, with a state of one number that is their time."""
     n, width = len(functions), 8
-    notes = hunting.notes_at(n, width, 1, abi.N_COUNTERS)
+    notes = hunting.notes_at(n, width, 1)
     hunt = np.zeros(notes + (searching.NOTES + 2 * n) * (2 + width))
     hunt[searching.COUNT] = n
     w, iw, y = np.zeros(1), np.zeros(abi.N_COUNTERS, dtype=np.int64), np.zeros(width)
