@@ -103,7 +103,20 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
         spins=equations.spins,
         operations={b.name: b.operations for b in program.blocks},
         inputs=equations.inputs,
+        alone=_alone(program, len(equations.rows)),
     )
+
+
+def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
+    """Return the rows whose pivot is the same everywhere, so that ``geometry`` has nothing to say of it."""
+    said = {
+        target.index
+        for block in program.blocks
+        if block.name == "geometry"
+        for target, _ in block.outputs
+        if target.space == "pivot"
+    }
+    return tuple(i for i in range(rows) if i not in said)
 
 
 def law_info(program: LawProgram, modules: tuple[str, ...] = ()) -> LawInfo:

@@ -259,10 +259,11 @@ class Kernel:
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
         redundant, layout = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0), model.assembly.layout
-        places = layout.entries, layout.constants, np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
+        room = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
+        places = layout.entries, layout.constants, layout.alone, room
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
-        room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
-        state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
+        numbers = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
+        state = new_state(model.compiled, sizes, model.setup.memory, numbers)._replace(control=control)
         if model.lanes is not None:
             ends = *seen[:2], law.accept, seen[2]
             if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):

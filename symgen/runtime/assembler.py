@@ -43,6 +43,7 @@ def layout_of(compiled: CompiledModel) -> Layout:
         *(_marked(those, info.nv) for those in (info.massless, (), ())),
         np.zeros(0, dtype=np.int64),
         np.array([(joints[row.joint], row.unit != "rad") for row in info.rows], dtype=np.int64).ravel(),
+        _marked(info.alone, info.m),
         np.array(spins_of(info), dtype=np.int64),
         lengths_of(info),
         np.full(info.windings, np.nan),

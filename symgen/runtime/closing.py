@@ -189,7 +189,9 @@ def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: 
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
     if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
         places = layout.jacobian, layout.gauge, -1, mask
-        choose_rows(m, layout.nv, m - count, layout.entries, layout.constants, *places, here, work.numbers)
+        choose_rows(
+            m, layout.nv, m - count, layout.entries, layout.constants, layout.alone, *places, here, work.numbers
+        )
         for i in range(m):
             now.w[mask + i] = here[mask + i]
         geometry(layout.t, now.y, now.p, now.w)

@@ -38,7 +38,8 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
     or None, slot or None) of D's structural entries; `windings` counts the angles whose turns are counted; `spins` says
     for each body with Euler parameters where these begin in q and its angular velocity in v; `inputs` are those
-    parameters that may change during a run; `integrals` counts auxiliary states behind the work.
+    parameters that may change during a run; `integrals` counts auxiliary states behind the work; `alone` are rows that
+    are eliminated before all that have to do with them: they are never left out, so nothing reads their mask.
     """
 
     name: str
@@ -58,6 +59,7 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     operations: dict[str, int]
     inputs: tuple[str, ...] = ()
     integrals: int = 0
+    alone: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"

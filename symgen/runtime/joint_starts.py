@@ -82,6 +82,7 @@ class _Rows:
             entries=np.concatenate([base.entries, np.array(places, dtype=np.int64).ravel()]),
             constants=np.concatenate([base.constants, np.zeros(k * n)]),
             rows=np.concatenate([base.rows, np.array(kinds, dtype=np.int64).ravel()]),
+            alone=np.concatenate([base.alone, np.zeros(k, dtype=np.int64)]),
         )
         self._geometry = Ready(self.compiled.model.geometry, abi.MEASURE)
 

@@ -112,13 +112,14 @@ def farthest(
     return kept
 
 
-@exact(_N(_N, _N, _N, _I, _A, _N, _N, _N, _N, _A, _A))
+@exact(_N(_N, _N, _N, _I, _A, _I, _N, _N, _N, _N, _A, _A))
 def choose_rows(
     m: int,
     n: int,
     kept: int,
     entries: Any,
     constants: Any,
+    alone: Any,
     jacobian: int,
     gauge: int,
     weights: int,
@@ -130,8 +131,9 @@ def choose_rows(
 
     An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
     chosen that is farthest from those before it (`farthest`) are sums of all rows that vanish. Of these sums the
-    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen. The
-    position alone decides, not what was left out before.
+    largest part is left out, each in turn: so no factor is much above 1, however the first ones were chosen. Rows that
+    are eliminated alone stay, whatever their part: they have nothing to do with each other. The position alone decides,
+    not what was left out before.
 
     Parameters
     ----------
@@ -139,6 +141,8 @@ def choose_rows(
         Rows and columns of D, and how many rows are kept.
     entries, constants : Array
         D's structural entries, as in `symgen.runtime.start_records.Layout`.
+    alone : Array of int, shape (m,)
+        1 for rows that are never left out: their masks are not read.
     jacobian, gauge, weights, mask : int
         Where these sections of w begin, as for `farthest`.
     w : Array
@@ -162,7 +166,7 @@ def choose_rows(
         for i in range(m):
             for k in range(m if room[lengths + i] >= 0.0 else 0):
                 size = abs(room[i * width + n + k])
-                if room[masked + k] == 0.0 and size > most:
+                if room[masked + k] == 0.0 and alone[k] == 0 and size > most:
                     sum_, row, most = i, k, size
         if row < 0:  # all sums that are left are those of rows that are not finite
             return 0
@@ -192,11 +196,12 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
     room, choose = np.zeros(room_of_choice(info.m, info.nv)), compiled_form(choose_rows)
     if not len(room):
         return lambda w: False
-    places = layout.entries, layout.constants, layout.jacobian, layout.gauge, layout.row_weight, layout.mask
+    places = layout.jacobian, layout.gauge, layout.row_weight, layout.mask
 
     def chosen(w: Array) -> bool:
         kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))
-        return bool(choose(info.m, info.nv, kept, *places, w, room))
+        given = layout.entries, layout.constants, layout.alone
+        return bool(choose(info.m, info.nv, kept, *given, *places, w, room))
 
     return chosen
 

@@ -136,7 +136,7 @@ def follow_rows(sizes: Any, chunk: Any, state: Any, w: Any) -> int:
         return 0
     m, kept = sizes.m, sizes.m - state.control[abi.MASKED]
     places = sizes.jacobian, sizes.gauge, sizes.row_weight, sizes.mask
-    return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, *places, w, chunk.dense))
+    return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, chunk.alone, *places, w, chunk.dense))
 
 
 def end_run(

@@ -35,6 +35,8 @@ class Layout(NamedTuple):
         (coordinate, velocity) of each coordinate that is held.
     rows : Array of int, shape (2 m,)
         (joint, 0 for a row that is an angle or a number) of each row.
+    alone : Array of int, shape (m,)
+        1 for rows that are never left out, see `symgen.runtime.compiled.ModelInfo`.
     spin : Array of int, shape (nv,)
         The body's first angular velocity for an angular velocity, -1 for others.
     lengths : Array, shape (nq,)
@@ -67,6 +69,7 @@ class Layout(NamedTuple):
     fixed: Any
     held: Any
     rows: Any
+    alone: Any
     spin: Any
     lengths: Any
     branches: Any
@@ -138,7 +141,7 @@ def new_work(layout: Layout, nw: int) -> Work:
 
 
 _A, _I = types.float64[::1], types.int64[::1]
-LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 16, _I, _A, *(_I,) * 6, _A, _A), Layout)
+LAYOUT = types.NamedTuple((types.float64, *(types.int64,) * 16, _I, _A, *(_I,) * 7, _A, _A), Layout)
 INSTANT = types.NamedUniTuple(_A, 3, Instant)
 ASKED = types.NamedUniTuple(_A, 3, Asked)
 WORK = types.NamedTuple((*(_A,) * 8, _I, _I), Work)

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import symgen
+from benchmarks.plain.motion import integrate
+from benchmarks.plain.system import read
 from symgen.api import Model
 from symgen.describe import MechanismBuilder
 from symgen.plan import make_plan
@@ -72,7 +74,9 @@ def test_kept_rows_span_the_others() -> None:
     d = np.vstack([d, d[0] + d[1], 1e3 * d[2], d[1] - 2.0 * d[2]])[rng.permutation(6)]
     entries = np.array([(i, j, 6 * i + j) for i in range(6) for j in range(6)], dtype=np.int64).ravel()
     w = np.concatenate([d.ravel(), np.ones(6), np.zeros(6)])
-    changed = plain_form(choose_rows)(6, 6, 3, entries, np.zeros(36), 0, 36, -1, 42, w, np.zeros(84))
+    changed = plain_form(choose_rows)(
+        6, 6, 3, entries, np.zeros(36), np.zeros(6, dtype=np.int64), 0, 36, -1, 42, w, np.zeros(84)
+    )
     kept = w[42:] == 0.0
     assert changed == 1 and kept.sum() == 3
     rows = d[kept] / np.linalg.norm(d[kept], axis=1, keepdims=True)
@@ -110,7 +114,9 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     mask[rng.permutation(m)[:left_out]] = np.inf
     w = np.concatenate([d.ravel(), np.ones(n), mask])
     places = 0, m * n, -1, m * n + n
-    plain_form(choose_rows)(m, n, m - left_out, entries, np.zeros(m * n), *places, w, np.zeros(m * (n + m + 2)))
+    plain_form(choose_rows)(
+        m, n, m - left_out, entries, np.zeros(m * n), np.zeros(m, dtype=np.int64), *places, w, np.zeros(m * (n + m + 2))
+    )
     kept = w[m * n + n :] == 0.0
     assert kept.sum() == m - left_out
     rows = d / np.linalg.norm(d, axis=1, keepdims=True)
@@ -199,6 +205,47 @@ def test_the_rank_is_none_of_the_order_of_elimination(name: str, rank: int, unti
     assert off(result, system, q) < 1e-7
 
 
+@pytest.mark.parametrize(
+    "settings",
+    (
+        {"method": "lagrange", "integrator": "dop853", "rtol": 1e-10},
+        {"method": "direct-correction", "integrator": "rk4", "step": 2.5e-3},
+        {"method": "lagrange", "integrator": "dop853", "rtol": 1e-10, "shape": "looped"},
+    ),
+    ids=lambda s: " ".join(map(str, s.values())),
+)
+def test_a_hinge_beside_a_slide(settings: dict) -> None:
+    """One of the rows that would be left out from 0.56 s on is eliminated before all others, whatever its mask."""
+    times = [0.0, 0.4, 0.8]
+    result = symgen.load(DEFECTS / "doubled_slide.toml").simulate(until=0.8, times=times, **settings)
+    assert (result.status, result.reason, result.warnings, result.rank_events) == ("ok", None, (), ())
+    system = read(raw("doubled_slide"))
+    q, v = (
+        np.asarray(values)[0, [values.names.index(name) for name in names]]
+        for values, names in ((result.q, system.names_q), (result.v, system.names_v))
+    )
+    system.follow(system.at(0.0, q, v))
+    motion = integrate(system, q, v, np.array(times), 1e-11)
+    assert not motion.ended and off(result, system, np.array(motion.q)) < 1e-6
+
+
+def test_rows_that_are_eliminated_alone_are_never_left_out() -> None:
+    """Their masks are not read: left out they would count as kept, and a row that depends on them as singular."""
+    rng = np.random.default_rng(11)
+    m, n = 6, 8
+    first = np.linalg.qr(rng.uniform(-1.0, 1.0, (n, 2)))[0].T
+    others = rng.uniform(-1.0, 1.0, (2, n))
+    d = np.vstack([first, others, 5.0 * first[0] + 0.1 * others[0], first[1] - 0.2 * others[1]])
+    entries = np.array([(i, j, n * i + j) for i in range(m) for j in range(n)], dtype=np.int64).ravel()
+    for alone in ([0, 0, 0, 0, 0, 0], [1, 1, 0, 0, 0, 0]):
+        w = np.concatenate([d.ravel(), np.ones(n), np.zeros(m)])
+        given = entries, np.zeros(m * n), np.array(alone, dtype=np.int64), 0, m * n, -1, m * n + n
+        plain_form(choose_rows)(m, n, 4, *given, w, np.zeros(m * (n + m + 2)))
+        kept = w[m * n + n :] == 0.0
+        assert kept.sum() == 4 and np.linalg.matrix_rank(d[kept]) == 4
+        assert not any(alone) or kept[:2].all()
+
+
 def test_rows_that_are_no_numbers_leave_the_choice_as_it_was() -> None:
     """Three rows in two columns, one to be left out: where D is not defined, nothing is chosen or written."""
     m, n, kept = 3, 2, 2
@@ -211,7 +258,9 @@ def test_rows_that_are_no_numbers_leave_the_choice_as_it_was() -> None:
         w[where] = broken
         before = w.copy()
         with np.errstate(invalid="ignore"):
-            changed = plain_form(choose_rows)(m, n, kept, entries, np.zeros(len(entries) // 3), *places, w, room[1:])
+            changed = plain_form(choose_rows)(
+                m, n, kept, entries, np.zeros(6), np.zeros(3, dtype=np.int64), *places, w, room[1:]
+            )
         assert changed == 0
         np.testing.assert_array_equal(w, before)
         assert np.count_nonzero(w[mask]) == m - kept and room[0] == 7.0
