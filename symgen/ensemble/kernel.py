@@ -19,8 +19,9 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
-from symgen.runtime.integrator import Integrator, Setup, law_functions, rates_of
+from symgen.runtime.integrator import Integrator, Setup, law_functions
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.probe import rates_of
 from symgen.runtime.run import RunSpec
 from symgen.runtime.start_records import Asked, Instant
 
@@ -259,11 +260,11 @@ class Kernel:
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
         redundant, layout = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0), model.assembly.layout
-        room = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        places = layout.entries, layout.constants, layout.alone, room
+        dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
+        places = layout.entries, layout.constants, layout.alone, dense
         chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
-        numbers = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
-        state = new_state(model.compiled, sizes, model.setup.memory, numbers)._replace(control=control)
+        room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
+        state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
             ends = *seen[:2], law.accept, seen[2]
             if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):

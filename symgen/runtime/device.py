@@ -23,7 +23,7 @@ from numba import config, cuda, float64, int64, types
 from symgen.runtime import abi, frame, observe, rows, watch
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.instances import Instances, viewing
-from symgen.runtime.integrator import rates_of
+from symgen.runtime.probe import rates_of
 from symgen.runtime.records import SIZES, SPAN, TABLEAU, Kept, Observed, Outputs, State
 from symgen.runtime.redundancy import never
 from symgen.runtime.schemes import explicit

@@ -118,12 +118,6 @@ class Integrator(Protocol):
         """
 
 
-def rates_of(law: Any) -> tuple[Any, Any]:
-    """Return the functions of an emitted law that give rates of v and multipliers for results, and confirm them."""
-    rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
-    return rates, getattr(law, "confirm", rates)
-
-
 def law_functions(compiled: CompiledModel, *names: str) -> tuple[Any, ...]:
     """Return the emitted functions that a loop takes first, 0 in place of those that it does not call.
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
-from symgen.runtime.integrator import rates_of
 from symgen.runtime.new_state import sizes_of
+from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.simulation import Simulation
 

@@ -69,6 +69,12 @@ class Few:
                 return self._ready(*arguments)
 
 
+def rates_of(law: Any) -> tuple[Any, Any]:
+    """Return the functions of an emitted law that give rates of v and multipliers for results, and confirm them."""
+    rates = getattr(law, "rates", law.rhs)  # a law that integrates something else than v has rates of v beside
+    return rates, getattr(law, "confirm", rates)
+
+
 def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     """Return the function (t, y, p, w, iw, rate) that sets `rate` to q' and v' at a state, and the multipliers in w.
 
@@ -80,9 +86,7 @@ def rate_function(compiled: CompiledModel) -> Callable[..., None]:
     compiled : CompiledModel
         Model and method.
     """
-    law = compiled.law_module
-    function = getattr(law, "rates", law.rhs)
-    rates, confirm = Ready(function, abi.RHS), Ready(getattr(law, "confirm", function), abi.RHS)
+    rates, confirm = (Ready(function, abi.RHS) for function in rates_of(compiled.law_module))
 
     def evaluate(*arguments: Any) -> None:
         if rates(*arguments) != 0:

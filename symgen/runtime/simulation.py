@@ -16,6 +16,7 @@ from symgen.runtime import abi
 from symgen.runtime.changes import Changes
 from symgen.runtime.knots import stepped
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
+from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
 from symgen.runtime.snapshot import Snapshot, names_kept, with_kept
 
@@ -112,8 +113,8 @@ class Simulation:
         from symgen.runtime.hunting import with_events
         from symgen.runtime.searching import decide
 
-        law = self.compiled.law_module
-        functions = *self.setup.functions, watched.function, decide, getattr(law, "rates", law.rhs)
+        rates, _ = rates_of(self.compiled.law_module)
+        functions = *self.setup.functions, watched.function, decide, rates
         self.setup = replace(self.setup, loop=with_events(self.setup.loop), functions=functions)
         self.events = Events(self.compiled, watched, self.spec.until)
 
