@@ -1,7 +1,9 @@
 """Straight and looped code of growing mechanisms: derivation, compilation, an evaluation, memory; all in one run.
 
 Every line is a process of its own with a cache of its own. ``cold`` finds nothing in it; ``shared`` finds what runs of
-other mechanisms have left. Seconds are those of the processor, as the wall's depend on what else the machine does.
+other mechanisms have left. ``--pieces`` compiles mechanisms one after the other on one cache and says what each found
+missing of the pieces that looped code shares, beside straight code of the same. Seconds are those of the processor, as
+the wall's depend on what else the machine does.
 The constants of `symgen.compiling.choose_shape` come from these figures.
 """
 
@@ -15,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +25,8 @@ import numpy as np
 #: Straight code of larger mechanisms takes many minutes to compile.
 LARGEST_STRAIGHT = 40
 SIZES = (1, 10, 40, 100, 400, 1000)
+#: Mechanisms of ``--pieces``, each with kernels that those before it have not.
+PIECES = ("four-bar", "slider-crank", "andrews", "scissor-lift", "n-four-bar:40", "bricard", "stewart-platform")
 
 
 def measure(model: str, shape: str, method: str) -> dict[str, Any]:
@@ -66,9 +71,45 @@ def measure(model: str, shape: str, method: str) -> dict[str, Any]:
     }
 
 
+def compile_pieces(model: str, method: str, form: str, shape: str) -> dict[str, Any]:
+    """Compile a model, count what was missing and what it took; called in a process of its own."""
+    from symgen.api import load
+    from symgen.compiling.choose_shape import missing_pieces
+    from symgen.compiling.pipeline import choose_method
+    from symgen.store.entries import Entries
+
+    loaded = load(model)
+    choice = replace(choose_method(method, implicit=form == "implicit"), shape=shape)
+    missing = missing_pieces(loaded.mechanism, choice, Entries()) if shape == "looped" else {}
+    began = time.process_time()
+    compiled = loaded.compiled(choice)
+    for name in ("rhs", "accept", "residual", "tangent"):
+        getattr(compiled.law_module, name, None)
+    loaded.assemble(compiled)
+    taken = time.process_time() - began
+    return {"coordinates": loaded.mechanism.body_coordinates, "missing": missing, "seconds": taken}
+
+
+def print_pieces(method: str) -> None:
+    """Print what models take in both shapes, one after the other on one cache.
+
+    The first model in the plane and the first in space compile loops of the runtime for their starts besides.
+    """
+    print("| model | form | coordinates | straight | looped | again | missing before |\n" + "| --- " * 7 + "|")
+    for form in ("ode", "implicit"):
+        with tempfile.TemporaryDirectory() as shared:
+            for model in PIECES:
+                first, again, straight = (
+                    process(shared, "--piece", model, method, form, shape) for shape in ("looped", "looped", "straight")
+                )
+                seconds = " | ".join(f"{r['seconds']:.2f}" for r in (straight, first, again))
+                missing = ", ".join(f"{count} {piece}" for piece, count in first["missing"].items() if count)
+                print(f"| {model} | {form} | {first['coordinates']} | {seconds} | {missing} |", flush=True)
+
+
 def process(cache: str, *arguments: str) -> dict[str, Any]:
     """Measure in a process of its own."""
-    command = [sys.executable, "-m", "benchmarks.shapes", "--one", *arguments]
+    command = [sys.executable, "-m", "benchmarks.shapes", *arguments]
     done = subprocess.run(
         command, env=os.environ | {"SYMGEN_CACHE_DIR": cache}, capture_output=True, text=True, check=True
     )
@@ -80,12 +121,20 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--one", nargs=3, metavar=("MODEL", "SHAPE", "METHOD"), help="measure one line, as JSON")
+    parser.add_argument("--piece", nargs=4, metavar=("MODEL", "METHOD", "FORM", "SHAPE"), help="the same, of a piece")
+    parser.add_argument("--pieces", action="store_true", help="what the pieces of looped code take")
     parser.add_argument("--model", default="n-four-bar", help="sized model")
     parser.add_argument("--sizes", default=",".join(map(str, SIZES)))
     parser.add_argument("--method", default="lagrange")
     arguments = parser.parse_args()
     if arguments.one:
         json.dump(measure(*arguments.one), sys.stdout)
+        return
+    if arguments.piece:
+        json.dump(compile_pieces(*arguments.piece), sys.stdout)
+        return
+    if arguments.pieces:
+        print_pieces(arguments.method)
         return
     columns = "model shape cache coordinates rows read generate compile evaluation[us] ns/coordinate w[MB] peak[MB]"
     print("| " + " | ".join(columns.split()) + " |")
@@ -100,7 +149,7 @@ def main() -> None:
             ]
             for shape, cache in kinds:
                 with tempfile.TemporaryDirectory() as own:
-                    r = process(own if cache == "cold" else shared, model, shape, arguments.method)
+                    r = process(own if cache == "cold" else shared, "--one", model, shape, arguments.method)
                 each = 1e9 * r["evaluation"] / r["coordinates"]
                 times = " | ".join(f"{r[k]:.2f}" for k in ("read", "generate", "compile"))
                 print(

@@ -51,7 +51,7 @@ def place_of(at: object, where: str = "at") -> str | float:
 
 def is_large(mechanism: Mechanism, settings: Settings) -> bool:
     """Whether sparse matrices are asked for, or a mechanism is so large that they are taken."""
-    size = sum(len(body.coordinates) for body in mechanism.bodies)
+    size = mechanism.body_coordinates
     return settings.shape == "looped" or (settings.shape == "auto" and size > LARGE)
 
 

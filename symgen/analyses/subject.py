@@ -184,7 +184,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     given = give_inputs(mechanism, settings)
     mechanism, settings = given.mechanism, given.settings
     if settings.shape == "auto":
-        size = sum(len(body.coordinates) for body in mechanism.bodies)
+        size = mechanism.body_coordinates
         looped = size > LARGE and settings.coordinates == "absolute"
         settings = replace(settings, shape="looped" if looped else "straight")
     plan = make_plan(mechanism, settings)

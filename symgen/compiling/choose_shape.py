@@ -1,16 +1,16 @@
 """Which shape the code of a run gets: straight lines for this mechanism alone, or loops that all mechanisms share.
 
-Straight code is about two and a half times as fast and has to be compiled for every mechanism, which takes time that
-grows with it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as
-most of it is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
-compilation and run together are expected to be shorter. The figures below come from ``benchmarks/shapes.py`` and
-``benchmarks/newton.py``; they need not be exact, as the shapes differ by factors where the choice matters.
+Straight code is two to four times as fast and has to be compiled for every mechanism, which takes time that grows with
+it; looped code is compiled once for all. A step of an implicit integrator costs about the same in both, as most of it
+is the solution of its equations, and its Jacobian makes straight code longer. ``auto`` takes the shape whose
+compilation and run together are expected to be shorter. The figures below come from ``benchmarks/shapes.py``; they need
+not be exact, as the shapes differ by factors where the choice matters, and another machine changes all of them alike.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.compiling.pipeline import folder_of, for_coordinates, generator_digest
 from symgen.errors import InputError
@@ -21,17 +21,30 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
 
-#: Seconds to derive, emit and compile a mechanism straight: at least, and for each coordinate (in the plane 0.009, in
-#: space 0.024).
-STRAIGHT_LEAST, STRAIGHT_EACH = 0.4, 0.013
-#: The same for each coordinate with the Jacobian for implicit integrators (0.009 and 0.035).
-STRAIGHT_EACH_IMPLICIT = 0.02
-#: Seconds to compile what the looped shape shares: generic code, a law, a kernel, a kernel's part of a descriptor form.
-LOOPED_GENERIC, LOOPED_LAW, LOOPED_KERNEL, LOOPED_FORM = 7.0, 1.7, 0.45, 0.6
-#: Part of these seconds that counts: other mechanisms and later runs will not pay them again.
-SHARED_PART = 0.4
-#: Seconds of an evaluation for each coordinate; looped ones cost something whatever the size.
-STRAIGHT_EVALUATION, LOOPED_EVALUATION, LOOPED_CALL = 1.0e-8, 2.1e-8, 1.0e-7
+class Seconds(NamedTuple):
+    """What a mechanism costs for each of its coordinates; turns and their kernels make more of one in space.
+
+    Attributes
+    ----------
+    compilation, implicit : float
+        To derive, emit and compile it straight; the same with the Jacobian for implicit integrators [s].
+    straight, looped : float
+        An evaluation in either shape [s].
+    """
+
+    compilation: float
+    implicit: float
+    straight: float
+    looped: float
+
+
+#: Seconds to derive, emit and compile any mechanism straight.
+STRAIGHT_LEAST = 0.3
+EACH = {"planar": Seconds(0.011, 0.013, 0.8e-8, 1.8e-8), "spatial": Seconds(0.03, 0.036, 2.5e-8, 1.0e-7)}
+#: Seconds to compile each piece of what the looped shape shares; a form is a kernel's part of a descriptor form.
+LOOPED = {"generic code": 0.2, "law": 0.35, "kernel": 0.2, "form": 0.2}
+#: Seconds of a looped evaluation whatever the size.
+LOOPED_CALL = 1.0e-7
 #: From this many coordinates on straight code is not considered: eight seconds here, most of a minute at three times as
 #: many, for a mechanism in the plane.
 LARGEST_STRAIGHT = 600
@@ -53,6 +66,12 @@ class ShapeChoice:
     reason: str
 
 
+def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
+    """Return about how long the straight code of a method takes to derive and compile [s]."""
+    each = EACH[mechanism.space]
+    return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
+
+
 def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> ShapeChoice:
     """Decide the shape of a run.
 
@@ -72,7 +91,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
     InputError
         If there is no such shape, or the method cannot have it at this size.
     """
-    coordinates, choice = sum(len(b.coordinates) for b in mechanism.bodies), for_coordinates(mechanism, choice)
+    coordinates, choice = mechanism.body_coordinates, for_coordinates(mechanism, choice)
     store = Entries()
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:
@@ -102,24 +121,31 @@ def _shorter(
     mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
 ) -> ShapeChoice:
     """Return the shape that is expected to be done sooner."""
-    from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
-    from symgen.lower.looped.instances import instances
-
-    looped = evaluations * (LOOPED_CALL + coordinates * LOOPED_EVALUATION)
-    straight = looped if choice.implicit else evaluations * coordinates * STRAIGHT_EVALUATION
-    straight += STRAIGHT_LEAST + (STRAIGHT_EACH_IMPLICIT if choice.implicit else STRAIGHT_EACH) * coordinates
+    each = EACH[mechanism.space]
+    looped = evaluations * (LOOPED_CALL + coordinates * each.looped)
+    straight = looped if choice.implicit else evaluations * coordinates * each.straight
+    straight += straight_seconds(mechanism, choice.implicit)
     if looped < straight:  # what is missing is looked up only where it can matter
-        shared = shared_folder(generator_digest())
-        missing = 0.0 if _known(store, shared, "model") else LOOPED_GENERIC
-        missing += 0.0 if _known(store, shared, law_stem(choice.method, choice.options)) else LOOPED_LAW
-        _, elements = named(instances(mechanism))
-        missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in elements)
-        forms = form_stems(elements, choice.method, choice.options, choice.implicit)
-        missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())
-        looped += SHARED_PART * missing
+        looped += sum(LOOPED[piece] * count for piece, count in missing_pieces(mechanism, choice, store).items())
     if looped < straight:
         return ShapeChoice("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
     return ShapeChoice("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
+
+
+def missing_pieces(mechanism: Mechanism, choice: MethodChoice, store: Entries) -> dict[str, int]:
+    """Return how many pieces of what looped code shares the cache does not have, by the names in `LOOPED`."""
+    from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
+    from symgen.lower.looped.instances import instances
+
+    _, elements = named(instances(mechanism))
+    stems = {
+        "generic code": ["model"],
+        "law": [law_stem(choice.method, choice.options)],
+        "kernel": list(elements),
+        "form": list(form_stems(elements, choice.method, choice.options, choice.implicit).values()),
+    }
+    shared = shared_folder(generator_digest())
+    return {piece: sum(not _known(store, shared, stem) for stem in each) for piece, each in stems.items()}
 
 
 def _size(coordinates: int, evaluations: float) -> str:

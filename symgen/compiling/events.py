@@ -80,7 +80,7 @@ def _carried_masses(
     mass = np.diag(diagonal)
     for i, j, value in _products(mechanism, values):
         mass[i, j] = mass[j, i] = value
-    first, count = sum(len(body.coordinates) for body in mechanism.bodies), len(diagonal)
+    first, count = mechanism.body_coordinates, len(diagonal)
     out, ydot, bodies = np.zeros(first + 2 * count), np.zeros(info.ny), Ready(compiled.model.bodies, OBSERVE)
 
     def velocities(state: Array) -> Array:

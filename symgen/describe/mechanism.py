@@ -344,6 +344,11 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         """Names of the inputs, which stand behind the other parameters."""
         return tuple(p.name for p in self.parameters if p.input)
 
+    @property
+    def body_coordinates(self) -> int:
+        """How many coordinates all bodies have together."""
+        return sum(len(body.coordinates) for body in self.bodies)
+
     def body(self, name: str) -> AnyBody:
         """Return the body called `name`.
 

@@ -55,7 +55,7 @@ def build_scene(
     if q is None:
         q = described_start(mechanism, scalars(known))[0]
     rows = np.atleast_2d(np.asarray(q, dtype=np.float64))
-    size = sum(len(body.coordinates) for body in mechanism.bodies)
+    size = mechanism.body_coordinates
     if rows.ndim != 2 or rows.shape[1] != size or not len(rows):
         raise InputError("q", f"{size} coordinates, as {mechanism.name} has", str(rows.shape[-1]))
     rows = rows[:: max(1, len(rows) // 60)]

@@ -137,7 +137,7 @@ def _script(mechanism: Mechanism, joint: bool, begun: Array | None) -> str:
     if joint:
         return text + "const describe = null;\n"
     if begun is not None:
-        nq = sum(len(b.coordinates) for b in mechanism.bodies)
+        nq = mechanism.body_coordinates
         numbers = [repr(float(x)) for x in begun]
         told = f"q: [{', '.join(numbers[:nq])}], v: [{', '.join(numbers[nq:])}]"
         return f"{text}function describe(p) {{ return {{ {told} }}; }}\n"
@@ -197,7 +197,7 @@ def _spec(
         "np": len(start.p),
         "windings": info.windings,
         "joint": joint,
-        "nb": sum(len(b.coordinates) for b in mechanism.bodies),
+        "nb": mechanism.body_coordinates,
         "nbv": sum(len(b.speeds) for b in mechanism.bodies),
         "y0": [float(x) for x in start.y],
         "lengths": [int(x) for x in lengths_of(info)],

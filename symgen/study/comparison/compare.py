@@ -221,7 +221,7 @@ def compare_all(
         chosen = load(model)
         end = _end(chosen, asked.until)
         times = _times(chosen, end, asked.output_step)
-        small = sum(len(b.coordinates) for b in chosen.mechanism.bodies) <= LARGEST_STRAIGHT
+        small = chosen.mechanism.body_coordinates <= LARGEST_STRAIGHT
         shape = "straight" if asked.shape == "auto" and small else asked.shape
         base = replace(asked, output_step=None, shape=shape, until=end, times=times.tolist())
         settings = list(runs.settings(base, chosen.mechanism.defaults.step))

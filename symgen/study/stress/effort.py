@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from symgen.auto import AUTO
-from symgen.compiling.choose_shape import STRAIGHT_EACH, STRAIGHT_LEAST
+from symgen.compiling.choose_shape import straight_seconds
 from symgen.compiling.pipeline import choose_method
 from symgen.integrators import INTEGRATORS
 from symgen.lower.looped.law import is_loopable
@@ -37,14 +37,9 @@ LARGEST_IMPLICIT_REFERENCE = 40
 HOPELESS = 1.5
 
 
-def coordinates(mechanism: Mechanism) -> int:
-    """Return the number of a mechanism's coordinates."""
-    return sum(len(body.coordinates) for body in mechanism.bodies)
-
-
 def explicit_budget(mechanism: Mechanism, most: int = BUDGET) -> int:
     """Return how many evaluations of a sparse right-hand side may be made, `most` for a small mechanism."""
-    return int(most * min(1.0, SMALL / coordinates(mechanism)))
+    return int(most * min(1.0, SMALL / mechanism.body_coordinates))
 
 
 def implicit_budget(mechanism: Mechanism, most: int = IMPLICIT_BUDGET) -> int:
@@ -129,11 +124,6 @@ def needs_straight(method: str, integrator: str) -> bool:
     return not is_loopable(choice.method, choice.options, choice.implicit)
 
 
-def straight_seconds(mechanism: Mechanism) -> float:
-    """Return about how long the straight code of a method takes to derive and compile [s]."""
-    return STRAIGHT_LEAST + STRAIGHT_EACH * coordinates(mechanism)
-
-
 def left_out(
     mechanisms: Sequence[Mechanism], pairs: Sequence[tuple[str, str]], seconds: float, straight: bool = False
 ) -> tuple[LeftOut, ...]:
@@ -164,8 +154,8 @@ def left_out(
                 fits[stem] = spent <= seconds
             if not fits[stem]:
                 why = (
-                    f"its code takes about {each:.2g} s to compile for {coordinates(mechanism)} coordinates, and the "
-                    f"{seconds:g} s that are allowed are used up by others"
+                    f"its code takes about {each:.2g} s to compile for {mechanism.body_coordinates} coordinates, "
+                    f"and the {seconds:g} s that are allowed are used up by others"
                 )
                 found.append(LeftOut(mechanism.name, method, integrator, why))
     return tuple(found)

@@ -25,7 +25,7 @@ from symgen.runtime.probe import Ready
 from symgen.runtime.run import integrate
 from symgen.settings import Settings
 from symgen.study.references.reference import Reference
-from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, coordinates, explicit_budget, implicit_budget
+from symgen.study.stress.effort import LARGEST_IMPLICIT_REFERENCE, explicit_budget, implicit_budget
 
 Array = NDArray[np.float64]
 
@@ -90,7 +90,7 @@ def agreed(model: Model, parameters: Mapping[str, float], times: Array, decay: f
     """
     # twelve evaluations a step of dop853, which is stable up to 6.39 over the decay
     stiff = decay * float(times[-1]) * 12.0 / 6.39 > explicit_budget(model.mechanism, STIFF_FROM)
-    if stiff and coordinates(model.mechanism) > LARGEST_IMPLICIT_REFERENCE:
+    if stiff and model.mechanism.body_coordinates > LARGEST_IMPLICIT_REFERENCE:
         raise SimulationError(
             f"its fastest decay, {decay:.2g} 1/s, asks for implicit steps, whose dense matrices are too large for "
             f"references from {LARGEST_IMPLICIT_REFERENCE} coordinates on"
