@@ -26,7 +26,6 @@ from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
 from symgen.lower.looped.tables import Forms, Tables, build_tables
 from symgen.lower.record import record_form
-from symgen.runtime.compiled import LawInfo
 from symgen.store.entries import Entries, FolderName
 from symgen.store.modules import load_module
 
@@ -188,20 +187,14 @@ def compile_looped(
     functions.masses, functions.prepare = diagonal(shape, tables), preparation(mechanism, shape, tables, kernels)
     return LoopedModel(
         info=model_info,
-        law=LawInfo(
-            method=info.method,
-            key=info.key,
-            options=info.options,
-            parameters=info.parameters,
+        law=msgspec.structs.replace(
+            info,
             parameter_offset=shape.parameters + shape.hoisted,
-            hoisted=0,
-            position_correction=info.position_correction,
-            velocity_correction=info.velocity_correction,
             nw=tables.nw,
             unknowns=tables.unknowns,
             level=level,
             tangent=tables.tangent,
-            operations={},
+            modules=(),
         ),
         model=functions,  # type: ignore[arg-type]  # functions by name, as a module has them
         law_module=law_module,

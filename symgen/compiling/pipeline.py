@@ -19,7 +19,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from symgen.compiling.straight_model import law_info, load_compiled, model_info
+import msgspec
+
+from symgen.compiling.straight_model import load_compiled, model_info
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, finite_numbers
@@ -188,7 +190,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
             sources = emit_law(law, program, equations, *words, target)
         *shared, own = sources
         modules |= {stem: (sources[stem], {}) for stem in shared}
-        modules[own] = (sources[own], law_info(law, tuple(shared)).to_dict())
+        modules[own] = (sources[own], msgspec.structs.replace(law.info, modules=tuple(shared)).to_dict())
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 

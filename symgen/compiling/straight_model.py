@@ -17,7 +17,7 @@ from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
-    from symgen.ir.program import LawProgram, ModelProgram
+    from symgen.ir.program import ModelProgram
 
 
 @final
@@ -117,23 +117,3 @@ def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
         if target.space == "pivot"
     }
     return tuple(i for i in range(rows) if i not in said)
-
-
-def law_info(program: LawProgram, modules: tuple[str, ...] = ()) -> LawInfo:
-    """Collect the metadata of a program."""
-    return LawInfo(
-        method=program.method,
-        key=program.key,
-        options=dict(program.options),
-        parameters=program.parameters,
-        parameter_offset=program.parameter_offset,
-        hoisted=program.hoisted,
-        position_correction=program.correction.position != "none",
-        velocity_correction=program.correction.velocity,
-        nw=program.layout.nw,
-        unknowns=program.unknowns,
-        level=program.level,
-        tangent=program.tangent,
-        operations={b.name: b.operations for b in program.blocks},
-        modules=modules,
-    )

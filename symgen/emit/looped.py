@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, render
-from symgen.emit.parts import absent, law_loops
+from symgen.emit.emit import law_header
+from symgen.emit.module import Code, function, law_modules, render
+from symgen.emit.parts import PartsLayout, law_loops
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
@@ -72,11 +73,6 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
     loops = law_loops(TableLayout([name for name, _ in info.parameters]), law.correction, law.form, names, flagged)
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     made = f"format {FORMAT}, generator {generator}"
-    header = [
-        *(summary, reference, made),
-        *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
-        *(f"parameter {i}: {name} (default {default})" for i, (name, default) in enumerate(info.parameters)),
-    ]
     known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
     metric = law.correction.metric if law.correction.any else "measured"
@@ -87,7 +83,7 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
         made,
         known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
-        header,
+        law_header(info, summary, reference, made, "parameter {}:"),
         f"law_{info.key}",
         offsets={**_STATUS, **places},
         note="places in w and T",
@@ -128,10 +124,10 @@ class _Size(str):
         return _Size(f"{self} + {other}")
 
 
-class TableLayout:
-    """Sizes and places are read from the tables; see `symgen.emit.parts.PartsLayout`."""
+class TableLayout(PartsLayout):
+    """Sizes and places are read from the tables."""
 
-    turning, decorator = "y, w", PLATFORMS["cpu"].decorator
+    turning = "y, w"
 
     def __init__(self, parameters: Sequence[str]) -> None:
         self.parameters, self.bases = parameters, Bases()
@@ -144,11 +140,9 @@ class TableLayout:
         """Return the local that says where a section begins."""
         return self.bases.base(name)
 
-    def parameter(self, name: str) -> str:
-        """Return a parameter of the method, or what is taken where it has none."""
-        if name in self.parameters:
-            return f"p[{self.bases.base('method_parameters')} + {self.parameters.index(name)}]"
-        return absent(name)
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them."""
+        return f"p[{self.bases.base('method_parameters')} + {place}]"
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read the tables, where anything is read."""

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any
 
-from symgen.emit.module import Code, function, literal, render
+from symgen.emit.module import PLATFORMS, Code, function, literal, render
 from symgen.ir.numerics import NUMBERS
 from symgen.ir.program import COUNTERS, STATUS, Correction
 
 
-class PartsLayout(Protocol):
-    """How a shape or target writes sizes, sections and parameters in functions with loops.
+class PartsLayout:
+    """How a shape or target writes sizes, sections and parameters in functions with loops; here, that it has none.
 
     Attributes
     ----------
@@ -20,22 +20,35 @@ class PartsLayout(Protocol):
         Arguments of ``normalise``, empty in the plane.
     decorator : str
         What precedes each function.
+    parameters : sequence of str
+        Parameters of the method.
     """
 
-    turning: str
-    decorator: str
+    turning: str = ""
+    decorator: str = PLATFORMS["cpu"].decorator
+    parameters: Sequence[str] = ()
 
     def size(self, name: str) -> Any:
         """Return ``nq``, ``nv``, ``m`` or ``degrees``: a number, or text that can be added."""
+        raise KeyError(name)
 
     def at(self, name: str) -> str:
         """Return where a section of ``w`` begins."""
+        raise KeyError(name)
+
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them."""
+        raise KeyError(place)
 
     def parameter(self, name: str) -> str:
         """Return a parameter of the method, or what is taken where it has none."""
+        if name in self.parameters:
+            return self.given(self.parameters.index(name))
+        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return lines before a function's own, and the names and sections that were asked for since the last one."""
+        return [], set(), set()
 
 
 class _Names:
@@ -95,11 +108,6 @@ class Parts:
         decorator = self.layout.decorator
         self.pieces.append(("", function(name, arguments, purpose, lines, decorator, calls=called, sections=named)))
         return ""
-
-
-def absent(name: str) -> str:
-    """Return what is taken for a parameter that a method does not have."""
-    return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
 
 def accept_kind(correction: Correction) -> str:

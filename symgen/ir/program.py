@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
+
+import msgspec
 
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
@@ -268,22 +270,66 @@ class Correction:
         return self.position != "none" or self.velocity
 
 
+class LawInfo(msgspec.Struct, frozen=True, kw_only=True):
+    """What is known of an emitted law beside its source; in looped code the sizes follow with a mechanism's tables.
+
+    Parameters
+    ----------
+    method, key : str
+        The method's name, and the file stem: it and its structural options.
+    options : dict of str to str
+        Structural options, complete.
+    parameters : tuple of (name, default)
+        Of the method.
+    parameter_offset : int
+        Where these stand in p: behind the numbers that the law itself hoists.
+    hoisted : int
+        Numbers behind the parameters, for corrections and descriptor forms.
+    position_correction, velocity_correction : bool
+        What is corrected after each accepted step.
+    nw : int
+        Length of ``w``.
+    unknowns : int
+        Of a stage in the descriptor form, before q and v; 0 where it was not asked for.
+    level : str
+        Of the constraints in the descriptor form.
+    tangent : tuple of (int, int)
+        Equation and unknown, in the descriptor form, of each number that the function of this name writes.
+    operations : dict of str to int
+        Of each function of straight code.
+    modules : tuple of str
+        File stems of the modules that hold the law's functions, beside its own.
+    """
+
+    method: str
+    key: str
+    options: dict[str, str]
+    parameters: tuple[tuple[str, float], ...]
+    parameter_offset: int = 0
+    hoisted: int = 0
+    position_correction: bool
+    velocity_correction: bool
+    nw: int = 0
+    unknowns: int = 0
+    level: str = ""
+    tangent: tuple[tuple[int, int], ...] = ()
+    operations: dict[str, int] = {}  # noqa: RUF012  # msgspec copies it
+    modules: tuple[str, ...] = ()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+
 @dataclass(frozen=True)
 class LawProgram:
     """What one method adds: a module of the emitted folder beside ``model``."""
 
-    method: str
-    key: str  # file stem: the method and its structural options
+    info: LawInfo
     layout: Layout
     blocks: tuple[Block, ...]
-    parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
-    parameter_offset: int  # behind the numbers that the law itself hoists
-    hoisted: int  # numbers behind the parameters, for corrections and descriptor forms
     form: str  # how v' is found: direct, iterated, dense or tangent
     closed: bool  # whether dependent coordinates are closed before every evaluation
     correction: Correction
-    options: Mapping[str, str] = field(default_factory=dict)
     degrees: int = 0  # room for columns of a tangent basis
-    unknowns: int = 0  # of a stage in the descriptor form; 0 where it was not asked for
-    level: str = ""  # of the constraints in the descriptor form
-    tangent: tuple[tuple[int, int], ...] = ()  # equation and unknown of each number that `tangent` writes

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
+from symgen.ir.program import Block, LawInfo, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, Record, record_form, record_law
@@ -56,22 +56,26 @@ def lower_law(
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
         found, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += found
-    return LawProgram(
+    blocks.insert(0, replace(hoister.prepare(), role="preparation"))
+    layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
+    correction = method.correction(options)
+    info = LawInfo(
         method=method.name,
         key=method.stem(options, implicit),
-        layout=replace(model.layout, sections=_sections(model.layout, record, blocks, degrees)),
-        blocks=(replace(hoister.prepare(), role="preparation"), *blocks),
+        options=dict(options),
         parameters=tuple((p.name, p.default) for p in method.parameters),
         parameter_offset=hoister.first_parameter,
         hoisted=len(hoister.slots) - hoister.reserved,
-        form=record.form,
-        closed=method.integrates == "independent",
-        correction=method.correction(options),
-        options=dict(options),
-        degrees=degrees,
+        position_correction=correction.position != "none",
+        velocity_correction=correction.velocity,
+        nw=layout.nw,
         unknowns=unknowns,
         level=level,
         tangent=pattern,
+        operations={b.name: b.operations for b in blocks},
+    )
+    return LawProgram(
+        info, layout, tuple(blocks), record.form, method.integrates == "independent", correction, degrees
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
-from symgen.ir.program import SCALES, STATUS
+from symgen.ir.program import SCALES, STATUS, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
 if TYPE_CHECKING:
@@ -87,34 +87,6 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     def parts(self, y: Array) -> tuple[Array, Array]:
         """Return views of q and v of a state, or of one state a row."""
         return y[..., : self.nq], y[..., self.nq : self.work]
-
-
-class LawInfo(msgspec.Struct, frozen=True):
-    """Metadata of an emitted law module; `parameters` are (name, default) pairs.
-
-    `tangent` says for each number that the function of this name writes its equation and unknown in the descriptor
-    form; from `unknowns` on, unknowns are q and v. `modules` are those that hold the law's functions, beside its own.
-    """
-
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
-    parameter_offset: int
-    hoisted: int
-    position_correction: bool
-    velocity_correction: bool
-    nw: int
-    unknowns: int
-    level: str
-    tangent: tuple[tuple[int, int], ...]
-    operations: dict[str, int]
-    modules: tuple[str, ...] = ()
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        result: dict[str, Any] = msgspec.to_builtins(self)
-        return result
 
 
 @dataclass(frozen=True, repr=False)

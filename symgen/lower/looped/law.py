@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import msgspec
-
 from symgen.errors import InputError
-from symgen.ir.program import Correction
+from symgen.ir.program import Correction, LawInfo
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.loops import KINDS, Loops
 from symgen.lower.looped.statements import LoopedFunction
@@ -21,17 +19,11 @@ from symgen.methods._formula import needed
 LARGEST_DENSE = 400
 
 
-class LoopedLawInfo(msgspec.Struct, frozen=True):
-    """What tables and the runtime need to know of a law, beside its source.
+class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
+    """What tables need to know of a law, beside what is known of every one.
 
     Parameters
     ----------
-    method, key : str
-        As in `symgen.ir.program.LawProgram`.
-    options : dict of str to str
-        Structural options, complete.
-    parameters : tuple of (name, default)
-        Of the method.
     sections : tuple of (name, size)
         Sections of ``w`` of its own.
     vectors : int
@@ -40,23 +32,12 @@ class LoopedLawInfo(msgspec.Struct, frozen=True):
         Whether M + a D^T D is factorised.
     positions : bool
         Whether an evaluation needs Phi.
-    position_correction, velocity_correction : bool
-        What is corrected after each accepted step.
-    modules : tuple of str
-        File stems of the modules that hold the law's functions, beside its own.
     """
 
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
     sections: tuple[tuple[str, str], ...]
     vectors: int
     augmented: bool
     positions: bool
-    position_correction: bool
-    velocity_correction: bool
-    modules: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
