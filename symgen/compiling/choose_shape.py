@@ -102,20 +102,17 @@ def _shorter(
     mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
 ) -> ShapeChoice:
     """Return the shape that is expected to be done sooner."""
-    from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
-    from symgen.lower.looped.instances import instances
+    from symgen.compiling.looped import Needs, shared_folder
 
     looped = evaluations * (LOOPED_CALL + coordinates * LOOPED_EVALUATION)
     straight = looped if choice.implicit else evaluations * coordinates * STRAIGHT_EVALUATION
     straight += STRAIGHT_LEAST + (STRAIGHT_EACH_IMPLICIT if choice.implicit else STRAIGHT_EACH) * coordinates
     if looped < straight:  # what is missing is looked up only where it can matter
-        shared = shared_folder(generator_digest())
+        shared, needs = shared_folder(generator_digest()), Needs.of(mechanism, choice)
         missing = 0.0 if _known(store, shared, "model") else LOOPED_GENERIC
-        missing += 0.0 if _known(store, shared, law_stem(choice.method, choice.options)) else LOOPED_LAW
-        _, elements = named(instances(mechanism))
-        missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in elements)
-        forms = form_stems(elements, choice.method, choice.options, choice.implicit)
-        missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in forms.values())
+        missing += 0.0 if _known(store, shared, needs.law) else LOOPED_LAW
+        missing += LOOPED_KERNEL * sum(not _known(store, shared, stem) for stem in needs.elements)
+        missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in needs.forms.values())
         looped += SHARED_PART * missing
     if looped < straight:
         return ShapeChoice("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")

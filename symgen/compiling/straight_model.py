@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, final
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
-from symgen.runtime.compiled import Array, CompiledModel, LawInfo, ModelInfo, Row
-from symgen.store.modules import interpreted, load_module
+from symgen.ir.program import LawInfo
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
+from symgen.store.modules import load_module
 from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -25,27 +25,11 @@ if TYPE_CHECKING:
 class StraightModel(CompiledModel):
     """A compiled model in the straight shape: code for one mechanism alone."""
 
-    @property
-    def shape(self) -> str:
-        """Return ``straight``."""
-        return "straight"
-
-    @property
-    def sparse(self) -> bool:
-        """Return False: starts use dense algebra."""
-        return False
+    shape, sparse = "straight", False
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
         return self.with_scales(np.zeros(max(1, self.law.nw)))
-
-    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
-        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
-        if not self.info.spins:
-            y[: self.info.nq] += change
-            return
-        self.section(w, "change")[:] = change
-        interpreted(self.model.move)(y, w)
 
 
 def load_compiled(

@@ -20,7 +20,8 @@ from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import LawInfo, ModelInfo
+    from symgen.ir.program import LawInfo
+    from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.run import RunSpec
 
 Array = NDArray[np.float64]

@@ -313,7 +313,7 @@ class LawInfo(msgspec.Struct, frozen=True, kw_only=True):
     unknowns: int = 0
     level: str = ""
     tangent: tuple[tuple[int, int], ...] = ()
-    operations: dict[str, int] = {}  # noqa: RUF012  # msgspec copies it
+    operations: dict[str, int] = {}  # msgspec copies it
     modules: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:

@@ -74,9 +74,7 @@ def lower_law(
         tangent=pattern,
         operations={b.name: b.operations for b in blocks},
     )
-    return LawProgram(
-        info, layout, tuple(blocks), record.form, method.integrates == "independent", correction, degrees
-    )
+    return LawProgram(info, layout, tuple(blocks), record.form, method.integrates == "independent", correction, degrees)
 
 
 def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import msgspec
 import numpy as np
@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
 from symgen.ir.program import SCALES, STATUS, LawInfo
+from symgen.store.modules import interpreted
 from symgen.vocabulary.quantities import Counted, Quantity
 
 if TYPE_CHECKING:
@@ -94,7 +95,17 @@ class CompiledModel(ABC):
     """Emitted functions of one model and one method, ready for the loops, in one of the shapes of code.
 
     Nothing is compiled by loading: each function is compiled, or read from the cache, when a loop first takes it.
+
+    Class attributes
+    ----------------
+    shape : {"straight", "looped"}
+        Of the code.
+    sparse : bool
+        Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra.
     """
+
+    shape: ClassVar[str]
+    sparse: ClassVar[bool]
 
     info: ModelInfo
     law: LawInfo
@@ -118,23 +129,18 @@ class CompiledModel(ABC):
         told = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
         return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {told}>"
 
-    @property
-    @abstractmethod
-    def shape(self) -> str:
-        """Return ``straight`` or ``looped``."""
-
-    @property
-    @abstractmethod
-    def sparse(self) -> bool:
-        """Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra."""
-
     @abstractmethod
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
 
-    @abstractmethod
     def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
         """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+        if not self.info.spins:
+            y[: self.info.nq] += change
+            return
+        self.section(w, "change")[:] = change
+        # looped code calls kernels by their addresses, which plain Python cannot
+        (self.model.move if self.shape == "looped" else interpreted(self.model.move))(y, w)
 
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""

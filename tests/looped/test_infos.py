@@ -32,7 +32,7 @@ def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
     """What results and reports learn of a mechanism from its straight and from its looped code."""
     equations = formulate(mechanism)
     method = choose_method("lagrange")
-    looped = compile_looped(mechanism, method.method, method.options, False, generator_digest())
+    looped = compile_looped(mechanism, method, generator_digest())
     straight, found = model_info(lower_model(equations, ""), equations), []
     for info in (straight, looped.info):
         found.append({name: value for name, value in info.to_dict().items() if name not in OWN})

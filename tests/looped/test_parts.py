@@ -14,7 +14,7 @@ from support.checks import RANDOM
 from symgen import auto
 from symgen.api import load
 from symgen.compiling.choose_shape import choose_shape
-from symgen.compiling.looped import generate_looped, law_stem, shared_folder
+from symgen.compiling.looped import Needs, generate_looped, shared_folder
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError
 from symgen.lower.looped.forms import form_key
@@ -91,9 +91,9 @@ def test_panels_hold_a_factor(seed):
 
 
 def test_kernels_do_not_know_their_mechanism():
-    methods = [(METHODS.get("lagrange"), METHODS.get("lagrange").complete_options({}), True)]
+    choices = [choose_method("lagrange", implicit=True)]
     few, many = (
-        generate_looped(load(name).mechanism, methods, generator_digest()) for name in ("four-bar", "n-four-bar:7")
+        generate_looped(load(name).mechanism, choices, generator_digest()) for name in ("four-bar", "n-four-bar:7")
     )
     common = few.keys() & many.keys() - {"mechanism"}
     assert {"machine", "model", "law_lagrange"} <= common
@@ -203,11 +203,9 @@ def test_short_runs_are_looped_once_the_shared_code_is_there(empty_cache):
     mechanism = load("four-bar").mechanism
     folder = shared_folder(generator_digest())
     assert choose_shape(mechanism, choice, "auto", 1e4).shape == "straight"
-    for stem, (source, data) in generate_looped(
-        mechanism, [(choice.method, choice.options, False)], generator_digest()
-    ).items():
+    for stem, (source, data) in generate_looped(mechanism, [choice], generator_digest()).items():
         entries.put(folder, stem, source, data)
-    assert entries.path(folder, law_stem(choice.method, choice.options)).exists()
+    assert entries.path(folder, Needs.of(mechanism, choice).law).exists()
     assert choose_shape(mechanism, choice, "auto", 1e4).shape == "looped"
     assert choose_shape(mechanism, choice, "auto", 1e12).shape == "straight"
 

@@ -16,8 +16,9 @@ from benchmarks import stiff
 from symgen.api import load
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.errors import InputError
+from symgen.ir.program import LawInfo
 from symgen.plan import make_plan
-from symgen.runtime.compiled import LawInfo, ModelInfo
+from symgen.runtime.compiled import ModelInfo
 from symgen.settings import Settings
 
 #: Every joint kind, the weld among them, and every force kind.

@@ -115,22 +115,14 @@ def is_loopable(method: Method, options: Mapping[str, str], implicit: bool) -> b
     return True
 
 
-def lower_looped(method: Method, options: Mapping[str, str], implicit: bool = False) -> LoopedLaw:
+def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     """Lower one method to loops.
 
     Parameters
     ----------
     method, options : Method, mapping
-        The method with its structural options, complete.
-    implicit : bool
-        Whether an implicit integrator asks for it.
-
-    Raises
-    ------
-    InputError
-        If the method needs dense algebra.
+        A method that `refuse_dense` lets pass, with its structural options, complete.
     """
-    refuse_dense(method, options, implicit)
     record = record_law(method, options)
     names = tuple(p.name for p in method.parameters)
     found = [Loops(record, part, names) for part in record.parts]
