@@ -160,22 +160,8 @@ def print_function(f: data.LoopedFunction) -> Code:
             called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}
             for name in statement.arguments:
                 access.bases.base(name)
-        elif isinstance(statement, data.Number):
-            (left,), (right,) = _printed(f.graph, ((*statement.place, statement.node),), access)
-            lines += [*right[:-1], f"{left} = {right[-1]}"]
-        elif isinstance(statement, data.Total):
-            (left,), (right,) = _printed(f.graph, ((data.LOCAL, statement.local, statement.node),), access)
-            loop = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in right[:-1])]
-            loop.append(f"    {left} += {right[-1]}")
-            if statement.driven:
-                called.add("DRIVEN")
-                loop = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in loop)]
-            lines += [f"{left} = 0.0", *loop]
         else:
-            lines.append(f"for j in range({access.bases.base(statement.size)}):")
-            outputs = [(target, 0, node) for target, node in statement.outputs]
-            for left, right in zip(*_printed(f.graph, outputs, access), strict=True):
-                lines += [*(f"    {line}" for line in right[:-1]), f"    {left} = {right[-1]}"]
+            lines += _assigned(f.graph, statement, access)
     flagged = f.flagged and f.part.flag is not None
     lines.append("return int(suspicious)" if flagged else "return 0")
     before, names, own = access.bases.finished()
@@ -186,17 +172,18 @@ def print_function(f: data.LoopedFunction) -> Code:
     return function(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
 
 
-def _printed(
-    graph: Graph, outputs: Sequence[tuple[str, int, int]], access: LoopAccess
-) -> tuple[list[str], list[list[str]]]:
-    """Return left-hand sides, and for each the lines of its terms with its expression as the last one."""
-    block = Block("", "", graph, tuple((Target(space, index), node) for space, index, node in outputs), ())
-    printer = Printer(block, access)
-    lines = printer.lines()
-    access.functions |= lines.functions
-    rights = [[printer.text[node][0]] for _, _, node in outputs]
-    rights[0] = [*lines.terms, *rights[0]]
-    return [access.write(target) for target, _ in block.outputs], rights
+def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:
+    """Print values that are assigned or added up, in a loop where they are general elements."""
+    outputs = tuple((Target(space, index), node) for space, index, node in statement.outputs)
+    found = Printer(Block("", "", graph, outputs, ()), access).lines()
+    lines = [*found.terms, *found.outputs]
+    access.functions |= found.functions
+    if statement.size:
+        lines = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in lines)]
+    if statement.driven:
+        access.functions.add("DRIVEN")
+        lines = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in lines)]
+    return [*(f"{access.write(target)} = 0.0" for target, _ in outputs if target.space == data.SUM), *lines]
 
 
 class LoopAccess(Access):
@@ -212,10 +199,14 @@ class LoopAccess(Access):
         text = self.write(Target(space, index))
         return text, text
 
+    def operator(self, target: Target) -> str:
+        """Return what joins an output to its value."""
+        return "+=" if target.space == data.SUM else "="
+
     def write(self, target: Target) -> str:
         """Return an element or a number."""
         space, index = target.space, target.index
-        if space == data.LOCAL:
+        if space in (data.LOCAL, data.SUM):
             return f"a{index}"
         if space == data.PARAMETER:
             return f"p[{self.bases.base('method_parameters')} + {index}]"

@@ -14,14 +14,13 @@ from symgen.lower.looped.statements import (
     PARAMETER,
     RATES,
     STATE,
+    SUM,
     VELOCITIES,
     WORK,
+    Assignment,
     Call,
-    Loop,
     LoopedFunction,
-    Number,
     Statement,
-    Total,
 )
 from symgen.lower.record import Part, Record
 from symgen.lower.replay import ARITHMETIC, Nodes, Replay
@@ -69,7 +68,7 @@ class Loops(Replay):
         """Return the function; `positions` says whether an evaluation needs Phi."""
         part, ends = self.part, self.ends
         if part.name in _EVALUATE:
-            self.statements.append(Number((STATE, STATUS.index("power")), self.graph.zero))
+            self._number((STATE, STATUS.index("power")), self.graph.zero)
             for stage in ("FRAMES", "FULL" if positions else "MOTION"):
                 self._call("run", stage, "t", "y", "p", "w", "T", "w")
         indices = self.needed
@@ -144,10 +143,14 @@ class Loops(Replay):
     def _loop(self, size: str, target: str, node: int) -> None:
         """Add a loop, or an assignment to the loop before it."""
         last = self.statements[-1] if self.statements else None
-        if isinstance(last, Loop) and last.size == size:
-            self.statements[-1] = Loop(size, (*last.outputs, (target, node)))
-        else:
-            self.statements.append(Loop(size, ((target, node),)))
+        before: tuple[tuple[str, int, int], ...] = ()
+        if isinstance(last, Assignment) and last.size == size and last.outputs[0][0] != SUM:
+            before = last.outputs
+            self.statements.pop()
+        self.statements.append(Assignment((*before, (target, 0, node)), size))
+
+    def _number(self, place: tuple[str, int], node: int) -> None:
+        self.statements.append(Assignment(((*place, node),)))
 
     def _call(self, function: str, *arguments: str, result: str = "") -> None:
         self.statements.append(Call(function, arguments, result))
@@ -157,7 +160,7 @@ class Loops(Replay):
         op, _, payload = self.graph.nodes[node]
         if op == "const" or (isinstance(payload, tuple) and payload[0] == LOCAL):
             return node
-        self.statements.append(Number((LOCAL, self.locals), node))
+        self._number((LOCAL, self.locals), node)
         self.locals += 1
         return self.graph.input(LOCAL, self.locals - 1)
 
@@ -178,7 +181,7 @@ class Loops(Replay):
                 self._call("run", "RATES", "t", "y", "p", "w", "T", "ydot")
             elif place == WORK or place.startswith("status."):
                 status = (STATE, STATUS.index(place.partition(".")[2])) if place != WORK else (WORK, 0)
-                self.statements.append(Number(status, value))
+                self._number(status, value)
             elif isinstance(value, tuple) and value != self._leaf(place, size):
                 reads = {self.graph.nodes[n].payload for n in self.graph.needed(value)}
                 if reads & {(written, 0) for _, written, _ in vectors}:
@@ -224,7 +227,8 @@ class Loops(Replay):
         if node == self.graph.zero:
             return node
         driven = self.graph.input("nu", 0) in (a[0], b[0])  # nu is 0 where nothing is driven
-        self.statements.append(Total(self.locals, self.operations[operation.operands[0]].size, node, driven))
+        size = self.operations[operation.operands[0]].size
+        self.statements.append(Assignment(((SUM, self.locals, node),), size, driven))
         self.locals += 1
         return self.graph.input(LOCAL, self.locals - 1)
 
