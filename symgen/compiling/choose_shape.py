@@ -9,9 +9,9 @@ compilation and run together are expected to be shorter. The figures below come 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from symgen.compiling.choose_coordinates import Taken
 from symgen.compiling.pipeline import folder_of, for_coordinates, generator_digest
 from symgen.errors import InputError
 from symgen.store.entries import Entries
@@ -37,24 +37,8 @@ STRAIGHT_EVALUATION, LOOPED_EVALUATION, LOOPED_CALL = 1.0e-8, 2.1e-8, 1.0e-7
 LARGEST_STRAIGHT = 600
 
 
-@dataclass(frozen=True)
-class ShapeChoice:
-    """A shape, and why.
-
-    Attributes
-    ----------
-    shape : {"straight", "looped"}
-        What is compiled.
-    reason : str
-        One sentence.
-    """
-
-    shape: str
-    reason: str
-
-
-def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> ShapeChoice:
-    """Decide the shape of a run.
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> Taken:
+    """Decide the shape of a run, ``straight`` or ``looped``.
 
     Parameters
     ----------
@@ -76,7 +60,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
     store = Entries()
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:
-        return ShapeChoice("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
+        return Taken("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
     # what only looped code asks for is not loaded where straight code is there to be run
     from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
 
@@ -90,17 +74,15 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
             f"{coordinates} coordinates",
         )
     if asked != "auto":
-        return ShapeChoice(asked, "it was asked for")
+        return Taken(asked, "it was asked for")
     if dense:
-        return ShapeChoice("straight", f"{choice.method.name} needs what the looped shape does without")
+        return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
-        return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take long to compile")
+        return Taken("looped", f"straight code for {coordinates} coordinates would take long to compile")
     return _shorter(mechanism, choice, coordinates, evaluations, store)
 
 
-def _shorter(
-    mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
-) -> ShapeChoice:
+def _shorter(mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries) -> Taken:
     """Return the shape that is expected to be done sooner."""
     from symgen.compiling.looped import Needs, shared_folder
 
@@ -115,8 +97,8 @@ def _shorter(
         missing += LOOPED_FORM * sum(not _known(store, shared, stem) for stem in needs.forms.values())
         looped += SHARED_PART * missing
     if looped < straight:
-        return ShapeChoice("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
-    return ShapeChoice("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
+        return Taken("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
+    return Taken("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
 
 
 def _size(coordinates: int, evaluations: float) -> str:

@@ -90,20 +90,41 @@ def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str
     )
 
 
-class Bases:
+class _Size(str):
+    """The name of a size, which can be added to another one."""
+
+    def __add__(self, other: str) -> _Size:
+        return _Size(f"{self} + {other}")
+
+
+class TableLayout(PartsLayout):
     """Sizes, and places where sections and scratch vectors begin, read from the head of the tables into locals."""
 
-    def __init__(self) -> None:
-        self.names: set[str] = set()
+    turning = "y, w"
 
-    def base(self, name: str) -> str:
+    def __init__(self, parameters: Sequence[str] = ()) -> None:
+        self.parameters, self.names = parameters, set[str]()
+
+    def size(self, name: str) -> _Size:
+        """Return the local that holds a size."""
+        return _Size(self.at(name))
+
+    def at(self, name: str) -> str:
         """Return the name of a size or of where a section begins, noted where it is one."""
         if name.islower() and name not in ("t", "y", "p", "w", "ydot"):
             self.names.add(name)
         return name
 
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them."""
+        return f"p[{self.at('method_parameters')} + {place}]"
+
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read what has been noted, what they call, and the law's own sections among it."""
+        return self.read() if self.names else ([], set(), set())
+
+    def read(self) -> tuple[list[str], set[str], set[str]]:
+        """Return the same where the tables are wanted in any case."""
         scratch = sorted((n for n in self.names if n[0] == "x" and n[1:].isdigit()), key=lambda name: int(name[1:]))
         named = sorted(self.names.difference(scratch), key=lambda n: (HEAD.index(n) if n in HEAD else len(HEAD), n))
         lines = [f"{name} = np.int64(T[{name.upper()}])" for name in named]
@@ -117,38 +138,6 @@ class Bases:
         return ["T = tables(w)", *lines], calls, own
 
 
-class _Size(str):
-    """The name of a size, which can be added to another one."""
-
-    def __add__(self, other: str) -> _Size:
-        return _Size(f"{self} + {other}")
-
-
-class TableLayout(PartsLayout):
-    """Sizes and places are read from the tables."""
-
-    turning = "y, w"
-
-    def __init__(self, parameters: Sequence[str]) -> None:
-        self.parameters, self.bases = parameters, Bases()
-
-    def size(self, name: str) -> _Size:
-        """Return the local that holds a size."""
-        return _Size(self.bases.base(name))
-
-    def at(self, name: str) -> str:
-        """Return the local that says where a section begins."""
-        return self.bases.base(name)
-
-    def given(self, place: int) -> str:
-        """Return the method's parameter in a place among them."""
-        return f"p[{self.bases.base('method_parameters')} + {place}]"
-
-    def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return the lines that read the tables, where anything is read."""
-        return self.bases.finished() if self.bases.names else ([], set(), set())
-
-
 def print_function(f: data.LoopedFunction) -> Code:
     """Print statements: loops over elements j, sums, numbers and calls."""
     access, lines = LoopAccess(), list[str]()
@@ -159,12 +148,12 @@ def print_function(f: data.LoopedFunction) -> Code:
             lines.append(f"{result}{statement.function}({', '.join(statement.arguments)})")
             called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}
             for name in statement.arguments:
-                access.bases.base(name)
+                access.layout.at(name)
         else:
             lines += _assigned(f.graph, statement, access)
     flagged = f.flagged and f.part.flag is not None
     lines.append("return int(suspicious)" if flagged else "return 0")
-    before, names, own = access.bases.finished()
+    before, names, own = access.layout.read()
     called |= names | access.functions
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
@@ -179,7 +168,7 @@ def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> l
     lines = [*found.terms, *found.outputs]
     access.functions |= found.functions
     if statement.size:
-        lines = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in lines)]
+        lines = [f"for j in range({access.layout.at(statement.size)}):", *(f"    {line}" for line in lines)]
     if statement.driven:
         access.functions.add("DRIVEN")
         lines = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in lines)]
@@ -190,7 +179,7 @@ class LoopAccess(Access):
     """How the general element of a section, and numbers, are written; notes which names that takes."""
 
     def __init__(self) -> None:
-        self.bases = Bases()
+        self.layout = TableLayout()
         self.status: set[str] = set()
         self.functions: set[str] = set()  # what is called
 
@@ -209,15 +198,15 @@ class LoopAccess(Access):
         if space in (data.LOCAL, data.SUM):
             return f"a{index}"
         if space == data.PARAMETER:
-            return f"p[{self.bases.base('method_parameters')} + {index}]"
+            return self.layout.given(index)
         if space == data.STATE:
             self.status.add(STATUS[index])
             return f"w[{STATUS[index].upper()}]"
         if space == data.WORK:
-            return f"ydot[{self.bases.base('nq')} + {self.bases.base('nv')}]"
+            return f"ydot[{self.layout.at('nq')} + {self.layout.at('nv')}]"
         if space in (data.VELOCITIES, data.RATES):
-            return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
-        return f"w[{self.bases.base(space)} + j]"
+            return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.layout.at('nq')} + j]"
+        return f"w[{self.layout.at(space)} + j]"
 
 
 def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:

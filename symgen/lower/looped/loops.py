@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partialmethod
 from typing import Any
 
 from symgen.ir.graph import Graph
@@ -47,17 +48,11 @@ class _Factor:
 
 
 class Loops(Replay):
-    """Lays out one function of a law.
-
-    Parameters
-    ----------
-    parameters : tuple of str
-        Names of the parameters of the method.
-    """
+    """Lays out one function of a law."""
 
     def __init__(self, record: Record, part: Part, parameters: tuple[str, ...]) -> None:
-        super().__init__(Graph(), record.operations)
-        self.part, self.parameters, self.vectors = part, parameters, _FIRST_VECTOR
+        super().__init__(Graph(), record.operations, parameters)
+        self.part, self.vectors = part, _FIRST_VECTOR
         self.sections: dict[str, str] = {}
         self.statements: list[Statement] = []
         self.flagged, self.locals = False, 0
@@ -202,12 +197,6 @@ class Loops(Replay):
     def _on_zeros(self, operation: Operation) -> Nodes:
         return (self.graph.zero,)
 
-    def _on_parameter(self, operation: Operation) -> int:
-        return self.graph.input(PARAMETER, self.parameters.index(str(operation.payload[0])))
-
-    def _on_status(self, operation: Operation) -> int:
-        return self.graph.input(STATE, STATUS.index(str(operation.payload[0])))
-
     def _on_power(self, operation: Operation) -> int:
         return self.graph.input(STATE, STATUS.index("power"))
 
@@ -234,7 +223,8 @@ class Loops(Replay):
 
     # -- products ------------------------------------------------------------------------------------------------------
 
-    def _times(self, helper: str, operation: Operation, x: Nodes) -> Nodes:
+    def _times(self, operation: Operation, *operands: Any, helper: str) -> Nodes:
+        x: Nodes = operands[-1]
         if x[0] == self.graph.zero:
             return x
         source = self._place(x[0], self.operations[operation.operands[-1]].size)
@@ -245,35 +235,24 @@ class Loops(Replay):
     def _on_inverse_mass_root(self, operation: Operation) -> str:
         return "root"
 
-    def _on_product(self, operation: Operation, matrix: None, x: Nodes) -> Nodes:
-        return self._times("rows_times", operation, x)
-
     def _on_transposed(self, operation: Operation, matrix: str | None, y: Nodes) -> Nodes:
-        return self._times("columns_times" if matrix is None else "inverse_mass_times", operation, y)
+        return self._times(operation, y, helper="columns_times" if matrix is None else "inverse_mass_times")
 
-    def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:
-        return self._times("mass_times", operation, x)
-
-    def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
-        return self._times("inverse_mass_times", operation, x)
-
-    _on_free_acceleration = _on_minv
+    _on_product = partialmethod(_times, helper="rows_times")
+    _on_mass = partialmethod(_times, helper="mass_times")
+    _on_minv = _on_free_acceleration = partialmethod(_times, helper="inverse_mass_times")
 
     def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
         return (self.graph.mul(self._leaf("gauge", "nv")[0], x[0]),)
 
     # -- factorisations ------------------------------------------------------------------------------------------------
 
-    def _on_schur(self, operation: Operation, matrix: None = None) -> _Factor:
-        return _Factor("schur", "schur_lower")
+    def _gram(self, operation: Operation, _: None = None, *, matrix: str, section: str) -> _Factor:
+        return _Factor(matrix, section)
 
-    _on_pseudoinverse = _on_schur
-
-    def _on_weighted_mass(self, operation: Operation, rank: None) -> _Factor:
-        return _Factor("weighted", "law_lower")
-
-    def _on_weighted_identity(self, operation: Operation, rank: None) -> _Factor:
-        return _Factor("identity", "law_lower")
+    _on_schur = _on_pseudoinverse = partialmethod(_gram, matrix="schur", section="schur_lower")
+    _on_weighted_mass = partialmethod(_gram, matrix="weighted", section="law_lower")
+    _on_weighted_identity = partialmethod(_gram, matrix="identity", section="law_lower")
 
     def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])
