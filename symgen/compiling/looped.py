@@ -25,9 +25,8 @@ from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
-from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
-from symgen.lower.looped.tables import Forms, Tables, build_tables
+from symgen.lower.looped.tables import Builder, Tables
 from symgen.lower.record import record_form
 from symgen.store.entries import Entries, FolderName, Modules
 from symgen.store.modules import load_module
@@ -137,7 +136,8 @@ class Needs:
             sources = emit_looped_law(law, generator, method.summary, method.reference)
             *shared, _ = sources
             modules |= {name: (source, {}) for name, source in sources.items()}
-            modules[self.law] = sources[self.law], msgspec.structs.replace(law.info, modules=tuple(shared)).to_dict()
+            info = msgspec.structs.replace(law.info, modules=tuple(shared))
+            modules[self.law] = sources[self.law], msgspec.to_builtins(info)
         for name, instance in self.elements.items():
             form = self.forms.get(name)
             if known(name) and (form is None or known(form)):
@@ -161,9 +161,7 @@ class Needs:
         shape = Shape(self.instances, self.stems, infos, len(self.mechanism.parameters))
         parts = {stem: (form, msgspec.convert(known[form], FormInfo)) for stem, form in self.forms.items()}
         level = record_form(choice.method, choice.options).form if choice.implicit else ""
-        stages = [name for name in STAGES if name != "full" or law.positions]
-        forms = Forms(level, parts) if parts else None
-        tables = build_tables(shape, law.sections, law.vectors, law.augmented, stages, forms)
+        tables = Builder(shape, law, level, parts).tables()
         sizes = {"nw": tables.nw, "unknowns": tables.unknowns, "level": level, "tangent": tables.tangent}
         first = shape.parameters + shape.hoisted
         return shape, tables, msgspec.structs.replace(law, parameter_offset=first, modules=(), **sizes)

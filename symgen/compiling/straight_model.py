@@ -71,9 +71,9 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     return ModelInfo(
         name=program.name,
         digest=program.digest,
-        parameters=tuple(Quantity(p.name, p.unit) for p in equations.parameters),
-        coordinates=tuple(Quantity(q.name, q.unit) for q in equations.coordinates),
-        velocities=tuple(Quantity(v.name, v.unit) for v in equations.velocities),
+        parameters=equations.parameters,
+        coordinates=equations.coordinates,
+        velocities=equations.velocities,
         rows=tuple(Row(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
         joint_coordinates=tuple(Quantity(c.name, c.unit) for c in equations.joint_coordinates),
         sections=dict(program.layout.sections),

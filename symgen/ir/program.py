@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 import msgspec
 
@@ -270,6 +270,33 @@ class Correction:
         return self.position != "none" or self.velocity
 
 
+#: What linearised functions are differentiated by: time, q, v, v', multipliers and parameters.
+BY = ("t", "q", "v", "a", "lam", "p")
+
+
+class LinearisedInfo(msgspec.Struct, frozen=True):
+    """What the numbers of a descriptor form with its derivatives are: all values, then their structural nonzeros.
+
+    Parameters
+    ----------
+    sizes : tuple of (str, int)
+        Groups of values in their order, and how many there are.
+    functions : tuple of (str, str, int)
+        Coordinates of joints and outputs of the file, whose values stand behind the groups, order by order: name, unit,
+        and how many there are of value, rate and second rate. A quantity of positions has all three, one of velocities
+        two, as the rate of v' is not known; one of accelerations or multipliers its value alone.
+    pattern : tuple of (int, int, int)
+        Value, which of `BY`, and index of each derivative.
+    elements : tuple of (str, int)
+        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
+    """
+
+    sizes: tuple[tuple[str, int], ...] = ()
+    functions: tuple[tuple[str, str, int], ...] = ()
+    pattern: tuple[tuple[int, int, int], ...] = ()
+    elements: tuple[tuple[str, int], ...] = ()
+
+
 class LawInfo(msgspec.Struct, frozen=True, kw_only=True):
     """What is known of an emitted law beside its source; in looped code the sizes follow with a mechanism's tables.
 
@@ -315,11 +342,6 @@ class LawInfo(msgspec.Struct, frozen=True, kw_only=True):
     tangent: tuple[tuple[int, int], ...] = ()
     operations: dict[str, int] = {}  # msgspec copies it
     modules: tuple[str, ...] = ()
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        result: dict[str, Any] = msgspec.to_builtins(self)
-        return result
 
 
 @dataclass(frozen=True)

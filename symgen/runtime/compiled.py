@@ -65,11 +65,6 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        result: dict[str, Any] = msgspec.to_builtins(self)
-        return result
-
     @property
     def work(self) -> int:
         """Index of the work in the state."""
