@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, module, render, templates_digest
+from symgen.emit.module import PLATFORMS, Code, function, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
-from symgen.emit.parts import PartsLayout, law_loops
+from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
@@ -71,15 +71,13 @@ def emit_law(
     own = {("p", info.parameter_offset + i): name for i, (name, _) in enumerate(info.parameters)}
     printed = straight(blocks, program.layout, equations, target, of_model(equations, model.jacobian) | own)
     layout = LiteralLayout(program, "y" if equations.spins else "", platform.decorator)
-    names, flagged = {b.name for b in blocks}, any(b.flag is not None for b in blocks)
-    loops = law_loops(layout, program.correction, program.form, names, flagged, program.closed)
-    pieces = [*zip((b.role for b in blocks), printed, strict=True), *loops]
-    metric = program.correction.metric if program.correction.any else "measured"
     model_stem = f"model{SUFFIXES[target]}"
     defined = *(block.name for block in model.blocks), *table_names(model.tables)
     return law_modules(
-        pieces,
-        {"acceleration": program.form, "metric": metric, "correction": metric, "form": info.level},
+        program,
+        layout,
+        list(zip((b.role for b in blocks), printed, strict=True)),
+        any(b.flag is not None for b in blocks),
         f"for model `{model.name}`{platform.words}",
         versions(model.digest),
         {name: (model_stem, name) for name in defined} | {"geometry_of_model": (model_stem, "geometry")},

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from symgen.emit.emit import law_header
-from symgen.emit.module import Code, function, law_modules, render
-from symgen.emit.parts import PartsLayout, law_loops
+from symgen.emit.module import Code, function, render
+from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
@@ -68,17 +68,16 @@ def emit_shared_model(generator: str) -> str:
 
 def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
-    info, names = law.info, {f.part.name for f in law.functions}
-    flagged = any(f.flagged for f in law.functions)
-    loops = law_loops(TableLayout([name for name, _ in info.parameters]), law.correction, law.form, names, flagged)
+    info = law.info
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     made = f"format {FORMAT}, generator {generator}"
     known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
-    metric = law.correction.metric if law.correction.any else "measured"
     return law_modules(
-        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *loops],
-        {"acceleration": law.form, "metric": metric, "correction": metric},
+        law,
+        TableLayout([name for name, _ in info.parameters]),
+        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing)],
+        any(f.flagged for f in law.functions),
         "for any mechanism, in the looped shape",
         made,
         known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},

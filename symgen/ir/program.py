@@ -345,13 +345,31 @@ class LawInfo(msgspec.Struct, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True)
-class LawProgram:
-    """What one method adds: a module of the emitted folder beside ``model``."""
+class Law:
+    """What one method adds beside its functions.
+
+    Parameters
+    ----------
+    info : LawInfo
+        What goes with the source.
+    form : {"direct", "iterated", "dense", "tangent"}
+        How v' is found.
+    closed : bool
+        Whether dependent coordinates are closed before every evaluation.
+    correction : Correction
+        What is done to accepted states.
+    """
 
     info: LawInfo
+    form: str
+    closed: bool
+    correction: Correction
+
+
+@dataclass(frozen=True)
+class LawProgram(Law):
+    """What one method adds in straight code: modules of the emitted folder beside ``model``."""
+
     layout: Layout
     blocks: tuple[Block, ...]
-    form: str  # how v' is found: direct, iterated, dense or tangent
-    closed: bool  # whether dependent coordinates are closed before every evaluation
-    correction: Correction
     degrees: int = 0  # room for columns of a tangent basis

@@ -74,7 +74,8 @@ def lower_law(
         tangent=pattern,
         operations={b.name: b.operations for b in blocks},
     )
-    return LawProgram(info, layout, tuple(blocks), record.form, method.integrates == "independent", correction, degrees)
+    closed = method.integrates == "independent"
+    return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
 
 
 def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:

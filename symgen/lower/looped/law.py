@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.errors import InputError
-from symgen.ir.program import Correction, LawInfo
+from symgen.ir.program import Law, LawInfo
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.loops import KINDS, Loops
 from symgen.lower.looped.statements import LoopedFunction
@@ -41,26 +41,18 @@ class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True)
-class LoopedLaw:
+class LoopedLaw(Law):
     """What a method adds in the looped shape.
 
     Parameters
     ----------
-    info : LoopedLawInfo
-        What goes with the source.
     functions : tuple of LoopedFunction
         ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
         not the identity.
-    form : str
-        How v' is found, as in `symgen.ir.program.LawProgram`.
-    correction : Correction
-        What is done to accepted states.
     """
 
     info: LoopedLawInfo
     functions: tuple[LoopedFunction, ...]
-    form: str
-    correction: Correction
 
 
 def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> None:
@@ -144,4 +136,4 @@ def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
     )
-    return LoopedLaw(info, functions, record.form, correction)
+    return LoopedLaw(info, record.form, method.integrates == "independent", correction, functions)
