@@ -20,11 +20,11 @@ from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
-from symgen.ir.program import BY, LinearisedInfo
 from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.probe import Few
 from symgen.store.modules import load_module
+from symgen.vocabulary.infos import BY, LinearisedInfo
 
 Array = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ class DescriptorForm:
     elements : tuple of (str, int)
         Force and velocity of each value of the group ``elements``.
     pattern : Array of int64, shape (n, 3)
-        Value, space, by its place in `symgen.ir.program.BY`, and index of each derivative.
+        Value, space, by its place in `symgen.vocabulary.infos.BY`, and index of each derivative.
     """
 
     function: Any
@@ -178,7 +178,7 @@ def _compiled(
             return '"""Nothing decays."""\n', {}
         with finite_numbers(f"mechanism '{mechanism.name}'"):
             side, info = lower_linearised(mechanism, by, around, groups)
-        return emit_side(side), msgspec.to_builtins(info)
+        return emit_side(side), info.to_dict()
 
     said = around, by, derived(mechanism.parameters) if by else "", groups, reported
     known, path = made_beside(mechanism, NAME, said, make)

@@ -20,7 +20,7 @@ import msgspec
 
 from symgen.compiling.looped_model import LoopedModel, describe_model, diagonal, preparation
 from symgen.describe.mechanism import Mechanism
-from symgen.ir.program import FORMAT, LawInfo
+from symgen.ir.program import FORMAT
 from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
@@ -30,6 +30,7 @@ from symgen.lower.looped.tables import Builder, Tables
 from symgen.lower.record import record_form
 from symgen.store.entries import Entries, FolderName, Modules
 from symgen.store.modules import load_module
+from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -137,7 +138,7 @@ class Needs:
             *shared, _ = sources
             modules |= {name: (source, {}) for name, source in sources.items()}
             info = msgspec.structs.replace(law.info, modules=tuple(shared))
-            modules[self.law] = sources[self.law], msgspec.to_builtins(info)
+            modules[self.law] = sources[self.law], info.to_dict()
         for name, instance in self.elements.items():
             form = self.forms.get(name)
             if known(name) and (form is None or known(form)):

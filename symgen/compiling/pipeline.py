@@ -180,7 +180,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
     source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
-    modules[f"model{suffix}"] = source, msgspec.to_builtins(model_info(program, equations))
+    modules[f"model{suffix}"] = source, model_info(program, equations).to_dict()
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         words = (choice.method.summary, choice.method.reference)
@@ -191,7 +191,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
         *shared, own = sources
         modules |= {stem: (sources[stem], {}) for stem in shared}
         info = msgspec.structs.replace(law.info, modules=tuple(shared))
-        modules[own] = sources[own], msgspec.to_builtins(info)
+        modules[own] = sources[own], info.to_dict()
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 

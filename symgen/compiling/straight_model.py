@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, final
 import msgspec
 import numpy as np
 
-from symgen.ir.program import LawInfo
 from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
 from symgen.store.modules import load_module
+from symgen.vocabulary.infos import LawInfo
 from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:

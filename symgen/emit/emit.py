@@ -13,7 +13,8 @@ from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
-from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawInfo, LawProgram, Layout, ModelProgram
+from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
+from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
     from symgen.lower.side import SideProgram

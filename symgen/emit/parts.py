@@ -9,7 +9,7 @@ from typing import Any
 
 from symgen.emit.module import PLATFORMS, Code, Known, function, literal, module, render
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import COUNTERS, STATUS, Correction, Law
+from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
 
 
 class PartsLayout:
@@ -132,7 +132,7 @@ _EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread"
 
 
 def law_modules(
-    law: Law,
+    law: LawCode,
     layout: PartsLayout,
     printed: Sequence[tuple[str, Code]],
     flagged: bool,
@@ -151,7 +151,7 @@ def law_modules(
 
     Parameters
     ----------
-    law : Law
+    law : LawCode
         The law.
     layout : PartsLayout
         How its functions with loops are written.
@@ -191,7 +191,7 @@ def law_modules(
     return modules
 
 
-def _loops(law: Law, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, Code]]:
+def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, Code]]:
     """Return the functions of a law that are no formulas, with their roles, in the order of their text."""
     form, parts = law.form, Parts(layout, law.correction)
     if "refactor" in names:

@@ -13,7 +13,6 @@ from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Any
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
@@ -65,12 +64,12 @@ class Module:
 
         law, model = Path(str(compiled.law_module.__file__)), Path(str(compiled.model.__file__))
         entries, folder = Entries(), law.parent.name
-        info = msgspec.to_builtins(compiled.info)
+        info = compiled.info.to_dict()
         return cls(
             folder=folder,
             stem=law.stem,
             model=(model.read_text(encoding="utf-8"), info),
-            law=(law.read_text(encoding="utf-8"), msgspec.to_builtins(compiled.law)),
+            law=(law.read_text(encoding="utf-8"), compiled.law.to_dict()),
             parts={
                 stem: (law.with_name(f"{stem}.py").read_text(encoding="utf-8"), entries.get(folder, stem) or {})
                 for stem in compiled.law.modules

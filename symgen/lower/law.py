@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from symgen.formulate.equations import Equations
 from symgen.ir.derivative import jacobian
-from symgen.ir.program import Block, LawInfo, LawProgram, Layout, ModelProgram, Target
+from symgen.ir.program import Block, LawProgram, Layout, ModelProgram, Target
 from symgen.lower.factor import Factor
 from symgen.lower.hoist import Hoister
 from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, Record, record_form, record_law
 from symgen.lower.scalar import Scalars
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
+from symgen.vocabulary.infos import LawInfo
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6

@@ -16,9 +16,10 @@ from symgen.formulate.equations import Equations
 from symgen.formulate.formulate import formulate
 from symgen.ir.derivative import Key, jacobian
 from symgen.ir.graph import Graph
-from symgen.ir.program import BY, Block, LinearisedInfo, Target
+from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
 from symgen.lower.windings import Beside, winding_order
+from symgen.vocabulary.infos import BY, LinearisedInfo
 from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
-from symgen.ir.program import SCALES, STATUS, LawInfo
+from symgen.ir.program import SCALES, STATUS
 from symgen.store.modules import interpreted
+from symgen.vocabulary.infos import Info, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class Row(msgspec.Struct, frozen=True):
     holonomic: bool
 
 
-class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
+class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant

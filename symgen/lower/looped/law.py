@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from symgen.errors import InputError
-from symgen.ir.program import Law, LawInfo
+from symgen.ir.program import LawCode
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.loops import KINDS, Loops
 from symgen.lower.looped.statements import LoopedFunction
@@ -14,6 +14,7 @@ from symgen.lower.record import Record, record_form, record_law
 from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
+from symgen.vocabulary.infos import LawInfo
 
 #: Methods that need dense matrices are refused above this number of coordinates.
 LARGEST_DENSE = 400
@@ -41,7 +42,7 @@ class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
 
 
 @dataclass(frozen=True)
-class LoopedLaw(Law):
+class LoopedLaw(LawCode):
     """What a method adds in the looped shape.
 
     Parameters
