@@ -141,9 +141,9 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         choose_coordinates(mechanism, s.coordinates, asked_shape)
         asked_shape = "straight"
     shape = choose_shape(mechanism, choice, asked_shape, expected_evaluations(tableau, until - begin, step, adaptive))
-    choice = replace(choice, shape=shape.shape)
-    coordinates = choose_coordinates(mechanism, s.coordinates, shape.shape)
-    if coordinates.coordinates == "joint" and not _asked(s, "weight"):
+    choice = replace(choice, shape=shape.name)
+    coordinates = choose_coordinates(mechanism, s.coordinates, shape.name)
+    if coordinates.name == "joint" and not _asked(s, "weight"):
         choice = weighed(choice, massless)
     holds = () if last is not None else holds_of(mechanism, "start", s.start)
     return Plan(
@@ -157,7 +157,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         holds,
         last,
         events,
-        coordinates.coordinates,
+        coordinates.name,
         coordinates.reason,
     )
 

@@ -130,7 +130,7 @@ def write_document(name: str, asked: Asked, select: str | None, symbols: bool) -
     raw, source = read_raw(name)
     model = Model(validate(with_symbols(raw) if symbols else raw, source))
     values = model.parameters(asked.parameters)
-    found = model.equations_in(choose_coordinates(model.mechanism, asked.coordinates, "straight").coordinates)
+    found = model.equations_in(choose_coordinates(model.mechanism, asked.coordinates, "straight").name)
     wanted = tuple(item.strip() for item in (select or "").split(",") if item.strip())
     steps = law(asked.named, asked.options, found.derived.driving is not None)
     return document(found.mechanism, found.derived, steps, values, wanted)

@@ -66,7 +66,7 @@ def command(
     choices: list[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     mechanism = load(model)
     chosen = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped")
-    if chosen.coordinates == "joint":
+    if chosen.name == "joint":
         mechanism = on_tree(mechanism)
         massless = any(body.massless for body in mechanism.bodies)
         given = {name for name, asked in wanted.items() if "weight" in asked}
@@ -85,7 +85,7 @@ def command(
         from symgen.api import Model
         from symgen.cli._package import may_write, package
 
-        found = package(Model(load(model)), choices, chosen.coordinates)
+        found = package(Model(load(model)), choices, chosen.name)
         beside = {name: text for name, text in found.items() if may_write(folder / name)}
     written = write_modules(folder, generated.modules, beside)
     if as_json:

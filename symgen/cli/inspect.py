@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -179,11 +180,10 @@ def _links(topology: Topology) -> list[dict[str, str | None]]:
 
 def _kernels(model: Model) -> dict[str, int]:
     """Return how many instances each kernel of the looped shape would have."""
-    from symgen.compiling.looped import named
+    from symgen.compiling.looped import kernel_stems
     from symgen.lower.looped.instances import instances
 
-    stems, elements = named(instances(model.mechanism))
-    return {stem: stems.count(stem) for stem in elements}
+    return dict(Counter(kernel_stems(instances(model.mechanism))))
 
 
 def pattern(equations: Equations) -> list[str]:
@@ -229,7 +229,7 @@ def _method(mechanism: Mechanism, equations: Equations, choice: Any) -> dict[str
         "name": choice.method.name,
         "summary": choice.method.summary,
         "options": dict(choice.options),
-        "parameters": dict(law.parameters),
+        "parameters": dict(law.info.parameters),
         "functions": {
             block.name: {"purpose": block.purpose, "before": block.tree_operations, "after": block.operations}
             for block in (*program.blocks, *law.blocks)

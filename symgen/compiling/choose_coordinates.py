@@ -6,8 +6,7 @@ only, so where loops are better the coordinates are those of bodies.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from symgen.describe.topology import spanning_tree, state_names
 from symgen.errors import InputError
@@ -17,19 +16,10 @@ if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
 
 
-@dataclass(frozen=True)
-class CoordinateChoice:
-    """Coordinates, and why.
+class Taken(NamedTuple):
+    """The coordinates, or the shape of code, that are taken, and one sentence that says why."""
 
-    Attributes
-    ----------
-    coordinates : {"absolute", "joint"}
-        What the state is made of.
-    reason : str
-        One sentence.
-    """
-
-    coordinates: str
+    name: str
     reason: str
 
 
@@ -44,8 +34,8 @@ def weighed(choice: MethodChoice, massless: bool) -> MethodChoice:
     return choice.given(weight="body" if massless else "mass")
 
 
-def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> CoordinateChoice:
-    """Decide the coordinates of a run.
+def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> Taken:
+    """Decide the coordinates of a run, ``absolute`` or ``joint``.
 
     Parameters
     ----------
@@ -62,14 +52,14 @@ def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> Coordina
         If joint coordinates and looped code are asked for together.
     """
     if asked == "absolute":
-        return CoordinateChoice("absolute", "it was asked for")
+        return Taken("absolute", "it was asked for")
     if asked == "joint":
         if shape == "looped":
             expected = "absolute ones for code that is not straight: loops, lanes and CUDA have no joint coordinates"
             raise InputError("coordinates", expected, "joint")
-        return CoordinateChoice("joint", "it was asked for")
+        return Taken("joint", "it was asked for")
     if shape == "looped":
-        return CoordinateChoice("absolute", "loops, lanes and CUDA have no joint coordinates")
+        return Taken("absolute", "loops, lanes and CUDA have no joint coordinates")
     topology = spanning_tree(mechanism)
     own = sum(len(body.speeds) for body in mechanism.bodies)
     rows = sum(len(joint.rows) for joint in mechanism.joints)
@@ -78,5 +68,5 @@ def choose_coordinates(mechanism: Mechanism, asked: str, shape: str) -> Coordina
     left = sum(len(joint.rows) for joint in mechanism.joints if joint.name not in inside)
     counts = f"{tree} velocities and {left} rows in joint coordinates, {own} and {rows} in absolute ones"
     if tree + left < own + rows:
-        return CoordinateChoice("joint", counts)
-    return CoordinateChoice("absolute", counts)
+        return Taken("joint", counts)
+    return Taken("absolute", counts)

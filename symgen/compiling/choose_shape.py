@@ -9,9 +9,9 @@ not be exact, as the shapes differ by factors where the choice matters, and anot
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from symgen.compiling.choose_coordinates import Taken
 from symgen.compiling.pipeline import folder_of, for_coordinates, generator_digest
 from symgen.errors import InputError
 from symgen.store.entries import Entries
@@ -50,30 +50,14 @@ LOOPED_CALL = 1.0e-7
 LARGEST_STRAIGHT = 600
 
 
-@dataclass(frozen=True)
-class ShapeChoice:
-    """A shape, and why.
-
-    Attributes
-    ----------
-    shape : {"straight", "looped"}
-        What is compiled.
-    reason : str
-        One sentence.
-    """
-
-    shape: str
-    reason: str
-
-
 def straight_seconds(mechanism: Mechanism, implicit: bool = False) -> float:
     """Return about how long the straight code of a method takes to derive and compile [s]."""
     each = EACH[mechanism.space]
     return STRAIGHT_LEAST + (each.implicit if implicit else each.compilation) * mechanism.body_coordinates
 
 
-def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> ShapeChoice:
-    """Decide the shape of a run.
+def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluations: float) -> Taken:
+    """Decide the shape of a run, ``straight`` or ``looped``.
 
     Parameters
     ----------
@@ -95,7 +79,7 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
     store = Entries()
     compiled = asked == "auto" and _is_compiled(mechanism, choice, store)
     if compiled and coordinates <= LARGEST_STRAIGHT:
-        return ShapeChoice("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
+        return Taken("straight", f"it is compiled already ({_size(coordinates, evaluations)})")
     # what only looped code asks for is not loaded where straight code is there to be run
     from symgen.lower.looped.law import LARGEST_DENSE, is_loopable, refuse_dense
 
@@ -109,17 +93,15 @@ def choose_shape(mechanism: Mechanism, choice: MethodChoice, asked: str, evaluat
             f"{coordinates} coordinates",
         )
     if asked != "auto":
-        return ShapeChoice(asked, "it was asked for")
+        return Taken(asked, "it was asked for")
     if dense:
-        return ShapeChoice("straight", f"{choice.method.name} needs what the looped shape does without")
+        return Taken("straight", f"{choice.method.name} needs what the looped shape does without")
     if coordinates > LARGEST_STRAIGHT:
-        return ShapeChoice("looped", f"straight code for {coordinates} coordinates would take long to compile")
+        return Taken("looped", f"straight code for {coordinates} coordinates would take long to compile")
     return _shorter(mechanism, choice, coordinates, evaluations, store)
 
 
-def _shorter(
-    mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries
-) -> ShapeChoice:
+def _shorter(mechanism: Mechanism, choice: MethodChoice, coordinates: int, evaluations: float, store: Entries) -> Taken:
     """Return the shape that is expected to be done sooner."""
     each = EACH[mechanism.space]
     looped = evaluations * (LOOPED_CALL + coordinates * each.looped)
@@ -128,21 +110,20 @@ def _shorter(
     if looped < straight:  # what is missing is looked up only where it can matter
         looped += sum(LOOPED[piece] * count for piece, count in missing_pieces(mechanism, choice, store).items())
     if looped < straight:
-        return ShapeChoice("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
-    return ShapeChoice("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
+        return Taken("looped", f"compilation would outweigh faster runs ({_size(coordinates, evaluations)})")
+    return Taken("straight", f"faster runs outweigh compilation ({_size(coordinates, evaluations)})")
 
 
 def missing_pieces(mechanism: Mechanism, choice: MethodChoice, store: Entries) -> dict[str, int]:
     """Return how many pieces of what looped code shares the cache does not have, by the names in `LOOPED`."""
-    from symgen.compiling.looped import form_stems, law_stem, named, shared_folder
-    from symgen.lower.looped.instances import instances
+    from symgen.compiling.looped import Needs, shared_folder
 
-    _, elements = named(instances(mechanism))
+    needs = Needs.of(mechanism, choice)
     stems = {
         "generic code": ["model"],
-        "law": [law_stem(choice.method, choice.options)],
-        "kernel": list(elements),
-        "form": list(form_stems(elements, choice.method, choice.options, choice.implicit).values()),
+        "law": [needs.law],
+        "kernel": list(needs.elements),
+        "form": list(needs.forms.values()),
     }
     shared = shared_folder(generator_digest())
     return {piece: sum(not _known(store, shared, stem) for stem in each) for piece, each in stems.items()}

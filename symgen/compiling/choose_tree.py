@@ -7,11 +7,9 @@ mechanism has the same tree everywhere. What was chosen is kept beside the emitt
 
 from __future__ import annotations
 
-from symgen.compiling.pipeline import folder_of
-from symgen.compiling.side import stem_of
+from symgen.compiling.side import made_beside
 from symgen.describe.mechanism import Mechanism, Topology
 from symgen.describe.topology import loops_of, spanning_tree, with_joint_coordinates
-from symgen.store.entries import Entries
 
 #: Operations that are counted before the best tree so far is taken; the first tree is always counted.
 ENOUGH = 12_000
@@ -26,13 +24,10 @@ def on_tree(mechanism: Mechanism) -> Mechanism:
     first = spanning_tree(mechanism, mechanism.cuts)
     if not loops_of(mechanism, first):
         return with_joint_coordinates(mechanism, first)
-    store, folder = Entries(), folder_of(mechanism)
-    stem = stem_of("tree", sorted(mechanism.cuts))
-    known = store.get(folder, stem)
-    if known is None:
-        cut = _cheapest(mechanism, first)
-        known = {"cut": list(cut)}
-        store.put(folder, stem, f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n', known)
+    text = f'"""Joints that carry nothing where `{mechanism.name}` is a tree."""\n'
+    known, _ = made_beside(
+        mechanism, "tree", [sorted(mechanism.cuts)], lambda: (text, {"cut": list(_cheapest(mechanism, first))})
+    )
     return with_joint_coordinates(mechanism, spanning_tree(mechanism, tuple(known["cut"])))
 
 

@@ -11,28 +11,25 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.compiling.pipeline import folder_of
-from symgen.compiling.side import beside, stem_of
+from symgen.compiling.side import beside, made_beside
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.errors import finite_numbers
-from symgen.lower.windings import Beside
 from symgen.runtime.abi import OBSERVE
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.probe import Few
-from symgen.store.entries import Entries
 from symgen.store.modules import load_module
+from symgen.vocabulary.infos import BY, LinearisedInfo
 
 Array = NDArray[np.float64]
 
 #: Name of the emitted function, and what its module is called after.
 NAME = "linearised"
-#: What values are differentiated by: time, q, v, v', multipliers and parameters.
-SPACES = ("t", "q", "v", "a", "lam", "p")
 
 
 @dataclass(frozen=True)
@@ -75,7 +72,7 @@ class DescriptorForm:
     elements : tuple of (str, int)
         Force and velocity of each value of the group ``elements``.
     pattern : Array of int64, shape (n, 3)
-        Value, space, by its place in `SPACES`, and index of each derivative.
+        Value, space, by its place in `symgen.vocabulary.infos.BY`, and index of each derivative.
     """
 
     function: Any
@@ -96,7 +93,7 @@ class DescriptorForm:
         found = {}
         for group, (first, size) in self.places.items():
             inside = (self.pattern[:, 0] >= first) & (self.pattern[:, 0] < first + size)
-            for k, space in enumerate(SPACES):
+            for k, space in enumerate(BY):
                 entries = np.flatnonzero(inside & (self.pattern[:, 1] == k))
                 found[group, space] = entries, self.pattern[entries, 0], self.pattern[entries, 2]
         return found
@@ -169,45 +166,40 @@ def compile_growth(mechanism: Mechanism, compiled: CompiledModel) -> DescriptorF
 def _compiled(
     mechanism: Mechanism, compiled: CompiledModel, by: tuple[str, ...], groups: tuple[str, ...]
 ) -> DescriptorForm | None:
-    store, info, around, folder = Entries(), compiled.info, beside(mechanism, compiled), folder_of(mechanism)
+    of_model, around = compiled.info, beside(mechanism, compiled)
     # outputs stand outside the digest that folders are named by
     reported = () if groups else [(o.name, o.unit, to_text(o.value)) for o in mechanism.outputs]
-    stem = stem_of(NAME, around, by, derived(mechanism.parameters) if by else "", groups, reported)
-    known = store.made(folder, stem, lambda: _built(mechanism, by, groups, around))
-    if known["still"]:
+
+    def make() -> tuple[str, dict[str, Any]]:
+        from symgen.emit.side import emit_side
+        from symgen.lower.linearised import can_decay, lower_linearised
+
+        if groups and not can_decay(mechanism, around):
+            return '"""Nothing decays."""\n', {}
+        with finite_numbers(f"mechanism '{mechanism.name}'"):
+            side, info = lower_linearised(mechanism, by, around, groups)
+        return emit_side(side), info.to_dict()
+
+    said = around, by, derived(mechanism.parameters) if by else "", groups, reported
+    known, path = made_beside(mechanism, NAME, said, make)
+    if not known:
         return None
+    info = msgspec.convert(known, LinearisedInfo)
     places, first = dict[str, tuple[int, int]](), 0
-    functions, units, at = dict[str, tuple[int, int]](), dict[str, str](), 0
-    for name, unit, orders in known["functions"]:
-        functions[name], units[name] = (at, orders), unit
+    functions, at = dict[str, tuple[int, int]](), 0
+    for name, _, orders in info.functions:
+        functions[name] = at, orders
         at += orders
-    for group, size in (*known["sizes"], ("functions", at)):
+    for group, size in (*info.sizes, ("functions", at)):
         places[group] = first, size
         first += size
-    widths = {"t": 1, "q": info.nq, "v": info.nv, "a": info.nv, "lam": info.m, "p": len(info.parameters)}
-    pattern = np.array([(i, SPACES.index(space), k) for i, space, k in known["pattern"]], dtype=np.int64).reshape(-1, 3)
-    function = getattr(load_module(store.path(folder, stem)), NAME)
-    elements = tuple((str(name), int(i)) for name, i in known["elements"])
-    return DescriptorForm(function, places, widths, functions, units, elements, pattern)
-
-
-def _built(
-    mechanism: Mechanism, by: tuple[str, ...], groups: tuple[str, ...], around: Beside
-) -> tuple[str, dict[str, Any]]:
-    """Return the module of the function, and what its numbers are."""
-    from symgen.emit.side import emit_side
-    from symgen.lower.linearised import can_decay, lower_linearised
-
-    known: dict[str, Any] = {"still": bool(groups) and not can_decay(mechanism, around)}
-    text = '"""Nothing decays."""\n'
-    if not known["still"]:
-        with finite_numbers(f"mechanism '{mechanism.name}'"):
-            program = lower_linearised(mechanism, by, around, groups)
-        text = emit_side(program.side)
-        known |= {
-            "sizes": list(program.sizes.items()),
-            "pattern": [list(place) for place in program.pattern],
-            "elements": [list(place) for place in program.elements],
-            "functions": [[f.name, f.unit, f.orders] for f in program.functions],
-        }
-    return text, known
+    nv, m, parameters = of_model.nv, of_model.m, len(of_model.parameters)
+    return DescriptorForm(
+        function=getattr(load_module(path), NAME),
+        places=places,
+        widths=dict(zip(BY, (1, of_model.nq, nv, nv, m, parameters), strict=True)),
+        functions=functions,
+        units={name: unit for name, unit, _ in info.functions},
+        elements=info.elements,
+        pattern=np.array(info.pattern, dtype=np.int64).reshape(-1, 3),
+    )

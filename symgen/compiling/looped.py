@@ -9,8 +9,11 @@ alone are tables. SymPy and Jinja2 are imported only for kernels that no mechani
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from types import SimpleNamespace
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import msgspec
@@ -22,16 +25,15 @@ from symgen.lower.looped.forms import FormInfo, form_key, form_stem, lower_form
 from symgen.lower.looped.instances import Instance, instances
 from symgen.lower.looped.kernels import KernelInfo, kernel_stem
 from symgen.lower.looped.law import LoopedLawInfo, refuse_dense
-from symgen.lower.looped.layout import STAGES
 from symgen.lower.looped.shape import Shape
-from symgen.lower.looped.tables import Forms, Tables, build_tables
+from symgen.lower.looped.tables import Builder, Tables
 from symgen.lower.record import record_form
-from symgen.runtime.compiled import LawInfo
-from symgen.store.entries import Entries, FolderName
+from symgen.store.entries import Entries, FolderName, Modules
 from symgen.store.modules import load_module
+from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
-    from symgen.methods._base import Method
+    from symgen.compiling.pipeline import MethodChoice
 
 #: Modules beside kernels and laws.
 _MACHINE, _MODEL = "machine", "model"
@@ -48,96 +50,133 @@ def shared_folder(generator: str) -> str:
     return str(FolderName("looped", generator, FORMAT))
 
 
-def emit_missing(
-    elements: Mapping[str, Instance],
-    method: Method,
-    options: Mapping[str, str],
-    generator: str,
-    known: Callable[[str], bool],
-    forms: Mapping[str, str],
-) -> dict[str, tuple[str, Mapping[str, Any]]]:
-    """Derive and emit kernels, the law and the generic code, except those that are `known`.
+def kernel_stems(found: Sequence[Instance]) -> list[str]:
+    """Return the module of each instance's kernel."""
+    names: dict[bytes, str] = {}
+    return [names.get(i.key) or names.setdefault(i.key, kernel_stem(i)) for i in found]
+
+
+@dataclass(frozen=True)
+class Needs:
+    """Modules that a mechanism needs for a method, all of them shared with other mechanisms.
 
     Parameters
     ----------
-    elements : mapping of str to Instance
-        An instance of each kernel, by the kernel's name.
-    method, options : Method, mapping
-        The law.
-    generator : str
-        Digest for the headers.
-    known : callable
-        Whether a module need not be emitted.
-    forms : mapping of str to str
-        Module of each kernel's part of the descriptor form; empty where no implicit integrator asks for it.
+    mechanism : Mechanism
+        A validated mechanism.
+    choice : MethodChoice
+        The method.
+    instances : tuple of Instance
+        Its bodies, joints and forces.
     """
-    from symgen.emit.kernels import emit_form, emit_kernel
-    from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
-    from symgen.lower.looped.kernels import lower_kernel
-    from symgen.lower.looped.law import lower_looped
 
-    generator = generator[:16]
-    modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
-    if not known(_MACHINE):
-        modules[_MACHINE] = emit_machine(generator), {}
-    if not known(_MODEL):
-        modules[_MODEL] = emit_shared_model(generator), {}
-    stem = law_stem(method, options)
-    if not known(stem):
-        law = lower_looped(method, options)
-        sources = emit_looped_law(law, generator, method.summary, method.reference)
-        *shared, _ = sources
-        info = msgspec.structs.replace(law.info, modules=tuple(shared))
-        modules |= {name: (sources[name], {}) for name in shared}
-        modules[stem] = sources[stem], msgspec.to_builtins(info)
-    for name, instance in elements.items():
-        form = forms.get(name)
-        if known(name) and (form is None or known(form)):
-            continue
-        from symgen.formulate.elements import derive_element
+    mechanism: Mechanism
+    choice: MethodChoice
+    instances: tuple[Instance, ...]
 
-        element = derive_element(instance.abstract)
-        kernel = lower_kernel(element, instance)
-        if not known(name):
-            modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
-        if form is not None and not known(form):
-            part = lower_form(element, instance, method, options, form)
-            modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
-    return modules
+    @classmethod
+    def of(cls, mechanism: Mechanism, choice: MethodChoice) -> Needs:
+        """Return what a mechanism needs for a method."""
+        return cls(mechanism, choice, instances(mechanism))
+
+    @cached_property
+    def stems(self) -> list[str]:
+        """Module of each instance's kernel."""
+        return kernel_stems(self.instances)
+
+    @cached_property
+    def elements(self) -> dict[str, Instance]:
+        """An instance of each kernel, the first one, by its module."""
+        found: dict[str, Instance] = {}
+        for stem, instance in zip(self.stems, self.instances, strict=True):
+            found.setdefault(stem, instance)
+        return found
+
+    @property
+    def law(self) -> str:
+        """Module of the law; kernels begin with ``body``, ``joint`` or ``force``."""
+        return f"law_{self.choice.method.stem(self.choice.options)}"
+
+    @cached_property
+    def forms(self) -> dict[str, str]:
+        """Module of each kernel's part of the descriptor form; empty where no implicit integrator asks for it."""
+        choice = self.choice
+        if not choice.implicit:
+            return {}
+        keys = {kind: form_key(choice.method, choice.options, kind) for kind in ("body", "joint", "force")}
+        return {stem: form_stem(keys[instance.kind], stem) for stem, instance in self.elements.items()}
+
+    @property
+    def modules(self) -> tuple[str, ...]:
+        """All of them."""
+        return (_MACHINE, _MODEL, self.law, *self.elements, *self.forms.values())
+
+    def missing(self, known: Callable[[str], bool], generator: str) -> Modules:
+        """Derive and emit kernels, the law and the generic code, with metadata, except what is `known`.
+
+        Parameters
+        ----------
+        known : callable
+            Whether a module need not be emitted.
+        generator : str
+            Digest for the headers.
+        """
+        from symgen.emit.kernels import emit_form, emit_kernel
+        from symgen.emit.looped import emit_looped_law, emit_machine, emit_shared_model
+        from symgen.lower.looped.kernels import lower_kernel
+        from symgen.lower.looped.law import lower_looped
+
+        generator, method, options = generator[:16], self.choice.method, self.choice.options
+        modules: dict[str, tuple[str, dict[str, Any]]] = {}
+        if not known(_MACHINE):
+            modules[_MACHINE] = emit_machine(generator), {}
+        if not known(_MODEL):
+            modules[_MODEL] = emit_shared_model(generator), {}
+        if not known(self.law):
+            law = lower_looped(method, options)
+            sources = emit_looped_law(law, generator, method.summary, method.reference)
+            *shared, _ = sources
+            modules |= {name: (source, {}) for name, source in sources.items()}
+            info = msgspec.structs.replace(law.info, modules=tuple(shared))
+            modules[self.law] = sources[self.law], info.to_dict()
+        for name, instance in self.elements.items():
+            form = self.forms.get(name)
+            if known(name) and (form is None or known(form)):
+                continue
+            from symgen.formulate.elements import derive_element
+
+            element = derive_element(instance.abstract)
+            kernel = lower_kernel(element, instance)
+            if not known(name):
+                modules[name] = emit_kernel(kernel, generator), msgspec.to_builtins(kernel.info)
+            if form is not None and not known(form):
+                part = lower_form(element, instance, method, options, form)
+                modules[form] = emit_form(part, kernel.info, generator), msgspec.to_builtins(part.info)
+        return modules
+
+    def laid_out(self, known: Mapping[str, Mapping[str, Any]]) -> tuple[Shape, Tables, LawInfo]:
+        """Return the mechanism's indices, its tables and what is known of the law with these, from all metadata."""
+        choice = self.choice
+        infos = {stem: msgspec.convert(known[stem], KernelInfo) for stem in self.elements}
+        law = msgspec.convert(known[self.law], LoopedLawInfo)
+        shape = Shape(self.instances, self.stems, infos, len(self.mechanism.parameters))
+        parts = {stem: (form, msgspec.convert(known[form], FormInfo)) for stem, form in self.forms.items()}
+        level = record_form(choice.method, choice.options).form if choice.implicit else ""
+        tables = Builder(shape, law, level, parts).tables()
+        sizes = {"nw": tables.nw, "unknowns": tables.unknowns, "level": level, "tangent": tables.tangent}
+        first = shape.parameters + shape.hoisted
+        return shape, tables, msgspec.structs.replace(law, parameter_offset=first, modules=(), **sizes)
 
 
-def form_stems(
-    elements: Mapping[str, Instance], method: Method, options: Mapping[str, str], implicit: bool
-) -> dict[str, str]:
-    """Return the module of each kernel's part of a method's descriptor form; empty where it is not asked for."""
-    if not implicit:
-        return {}
-    keys = {kind: form_key(method, options, kind) for kind in ("body", "joint", "force")}
-    return {stem: form_stem(keys[instance.kind], stem) for stem, instance in elements.items()}
-
-
-def law_stem(method: Method, options: Mapping[str, str]) -> str:
-    """Return the file stem of a law; kernels begin with ``body``, ``joint`` or ``force``."""
-    return f"law_{method.stem(options)}"
-
-
-def compile_looped(
-    mechanism: Mechanism,
-    method: Method,
-    options: Mapping[str, str],
-    implicit: bool,
-    generator: str,
-) -> LoopedModel:
+def compile_looped(mechanism: Mechanism, choice: MethodChoice, generator: str) -> LoopedModel:
     """Return the compiled model of `mechanism` in the looped shape, what the cache has taken from there.
 
     Parameters
     ----------
     mechanism : Mechanism
         A validated mechanism.
-    method, options : Method, mapping
-        The method with its structural options, complete.
-    implicit : bool
-        Whether an implicit integrator asks for it.
+    choice : MethodChoice
+        The method with its structural options, and whether an implicit integrator asks for it.
     generator : str
         Digest of everything that shapes emitted code.
 
@@ -146,149 +185,78 @@ def compile_looped(
     InputError
         If the method needs dense algebra.
     """
-    refuse_dense(method, options, implicit)
-    began = time.perf_counter()
-    store = Entries()
-    folder, law = shared_folder(generator), law_stem(method, options)
-    found = instances(mechanism)
-    stems, elements = named(found)
-    forms = form_stems(elements, method, options, implicit)
-    wanted = (_MACHINE, _MODEL, law, *elements, *forms.values())
-    metadata = _found(store, folder, law, wanted)
-    emit_seconds = 0.0
-    if any(data is None for data in metadata.values()):
-        with store.building(folder):
-            metadata = _found(store, folder, law, wanted)  # another process may have been faster
-            emitting = time.perf_counter()
-            modules = emit_missing(elements, method, options, generator, lambda stem: metadata[stem] is not None, forms)
-            for stem, (source, data) in modules.items():
-                store.put(folder, stem, source, data)
-                metadata[stem] = dict(data)
-            emit_seconds = time.perf_counter() - emitting
-    infos = {stem: msgspec.convert(metadata[stem], KernelInfo) for stem in elements}
-    info = msgspec.convert(metadata[law], LoopedLawInfo)
-    shape = Shape(found, stems, infos, len(mechanism.parameters))
-    parts = {stem: (form, msgspec.convert(metadata[form], FormInfo)) for stem, form in forms.items()}
-    level = level_of(method, options, implicit)
-    tables = law_tables(shape, info, parts, level)
+    refuse_dense(choice.method, choice.options, choice.implicit)
+    began, took = time.perf_counter(), 0.0
+    store, folder, needs = Entries(), shared_folder(generator), Needs.of(mechanism, choice)
+
+    def make(known: Callable[[str], bool]) -> Modules:
+        nonlocal took
+        emitting = time.perf_counter()
+        modules = needs.missing(known, generator)
+        took = time.perf_counter() - emitting
+        return modules
+
+    known = store.built(folder, needs.modules, make)
+    shape, tables, law = needs.laid_out(known)
     path = store.path(folder, _MODEL).parent
-    kernels = {stem: load_module(path / f"{stem}.py") for stem in (*elements, *forms.values())}
+    kernels = {stem: load_module(path / f"{stem}.py") for stem in (*needs.elements, *needs.forms.values())}
     machine, model = load_module(path / f"{_MACHINE}.py"), load_module(path / f"{_MODEL}.py")
-    model_info = describe_model(mechanism, shape, tables)
-    functions = SimpleNamespace(
-        **{name: getattr(model, name) for name in ("geometry", "spread", "measure", "observe", "move", "turn")}
-    )
-    law_module: Any = load_module(path / f"{law}.py")
-    if implicit:
-        names = [
-            name for name in ("rhs", "confirm", "accept", "prepare", "geometry", "spread") if hasattr(law_module, name)
-        ]
-        found_functions = {name: getattr(law_module, name) for name in names}
-        law_module = SimpleNamespace(**found_functions, residual=model.residual, tangent=model.tangent)
+    info, law_module = describe_model(mechanism, shape, tables), load_module(path / f"{needs.law}.py")
+    functions = _gathered(model, "geometry", "spread", "measure", "observe", "move", "turn")
     functions.masses, functions.prepare = diagonal(shape, tables), preparation(mechanism, shape, tables, kernels)
+    if choice.implicit:
+        law_module = _gathered(law_module, "rhs", "confirm", "accept", "prepare", "geometry", "spread")
+        law_module.residual, law_module.tangent = model.residual, model.tangent
     return LoopedModel(
-        info=model_info,
-        law=LawInfo(
-            method=info.method,
-            key=info.key,
-            options=info.options,
-            parameters=info.parameters,
-            parameter_offset=shape.parameters + shape.hoisted,
-            hoisted=0,
-            position_correction=info.position_correction,
-            velocity_correction=info.velocity_correction,
-            nw=tables.nw,
-            unknowns=tables.unknowns,
-            level=level,
-            tangent=tables.tangent,
-            operations={},
-        ),
-        model=functions,  # type: ignore[arg-type]  # functions by name, as a module has them
+        info=info,
+        law=law,
+        model=functions,
         law_module=law_module,
-        derive_seconds=time.perf_counter() - began - emit_seconds,
-        emit_seconds=emit_seconds,
+        derive_seconds=time.perf_counter() - began - took,
+        emit_seconds=took,
         tables=tables,
         kernels=kernels,
         machine=machine,
     )
 
 
-def _found(store: Entries, folder: str, law: str, wanted: Iterable[str]) -> dict[str, dict[str, Any] | None]:
-    """Return the metadata of modules, None for those that are not there: a law without its parts is not."""
-    metadata = {stem: store.get(folder, stem) for stem in wanted}
-    own = metadata[law]
-    if own is not None and any(store.get(folder, stem) is None for stem in own["modules"]):
-        metadata[law] = None
-    return metadata
+def _gathered(module: ModuleType, *names: str) -> Any:
+    """Return functions by name, as a module has them, as far as this one has them."""
+    return SimpleNamespace(**{name: getattr(module, name) for name in names if hasattr(module, name)})
 
 
-def generate_looped(
-    mechanism: Mechanism, methods: Sequence[tuple[Method, Mapping[str, str], bool]], generator: str
-) -> dict[str, tuple[str, Mapping[str, Any]]]:
+def generate_looped(mechanism: Mechanism, choices: Sequence[MethodChoice], generator: str) -> Modules:
     """Return the source of everything that a mechanism and some methods need, with metadata, by file stem.
 
     Parameters
     ----------
     mechanism : Mechanism
         A validated mechanism.
-    methods : sequence of (Method, mapping, bool)
-        Methods with their structural options, complete, and whether implicit integrators ask for them.
+    choices : sequence of MethodChoice
+        Methods with their structural options, and whether implicit integrators ask for them.
     generator : str
         Digest of everything that shapes emitted code.
 
     Returns
     -------
-    dict
+    mapping
         Generic code, kernels and laws, which are the same for all mechanisms; ``mechanism`` says how often each kernel
         is used, and its metadata are the tables for every law.
     """
     from symgen.emit.looped import emit_mechanism
 
-    found = instances(mechanism)
-    stems, elements = named(found)
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     tables: dict[str, Any] = {}
-    for method, options, implicit in methods:
-        refuse_dense(method, options, implicit)
-        forms = form_stems(elements, method, options, implicit)
-        modules |= emit_missing(elements, method, options, generator, modules.__contains__, forms)
-        law = law_stem(method, options)
-        infos = {stem: msgspec.convert(modules[stem][1], KernelInfo) for stem in elements}
-        shape = Shape(found, stems, infos, len(mechanism.parameters))
-        parts = {stem: (form, msgspec.convert(modules[form][1], FormInfo)) for stem, form in forms.items()}
-        info, level = msgspec.convert(modules[law][1], LoopedLawInfo), level_of(method, options, implicit)
-        built = law_tables(shape, info, parts, level)
-        functions = [f"{stem}.{name}" for stem, name in built.functions]
-        tables[f"{law}_implicit" if implicit else law] = {
+    found, counts = instances(mechanism), Counter[str]()
+    for choice in choices:
+        refuse_dense(choice.method, choice.options, choice.implicit)
+        needs = Needs(mechanism, choice, found)
+        modules |= needs.missing(modules.__contains__, generator)
+        _, built, _ = needs.laid_out({stem: modules[stem][1] for stem in needs.modules})
+        tables[f"{needs.law}_implicit" if choice.implicit else needs.law] = {
             "numbers": list(built.numbers),
-            "functions": functions,
+            "functions": [f"{stem}.{name}" for stem, name in built.functions],
             "sections": dict(built.sections),
         }
-    modules["mechanism"] = emit_mechanism(mechanism.name, {stem: stems.count(stem) for stem in elements}), tables
-    return modules
-
-
-def law_tables(shape: Shape, info: LoopedLawInfo, parts: Mapping[str, tuple[str, FormInfo]], level: str) -> Tables:
-    """Return the tables of a mechanism for a law, with the parts of its descriptor form by kernel."""
-    stages = [name for name in STAGES if name != "full" or info.positions]
-    forms = Forms(level, parts) if parts else None
-    return build_tables(shape, info.sections, info.vectors, info.augmented, stages, forms)
-
-
-def level_of(method: Method, options: Mapping[str, str], implicit: bool) -> str:
-    """Return the level of a method's descriptor form, empty where there is none."""
-    return record_form(method, options).form if implicit else ""
-
-
-def named(found: Sequence[Instance]) -> tuple[list[str], dict[str, Instance]]:
-    """Return the name of each instance's kernel, and an instance of each kernel by its name."""
-    names: dict[bytes, str] = {}
-    elements: dict[str, Instance] = {}
-    stems = []
-    for instance in found:
-        stem = names.get(instance.key)
-        if stem is None:
-            stem = names[instance.key] = kernel_stem(instance)
-            elements.setdefault(stem, instance)
-        stems.append(stem)
-    return stems, elements
+        counts = Counter(needs.stems)
+    return modules | {"mechanism": (emit_mechanism(mechanism.name, counts), tables)}

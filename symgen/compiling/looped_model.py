@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import ModuleType
-from typing import Any, final
+from typing import final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import Mechanism
@@ -38,27 +37,10 @@ class LoopedModel(CompiledModel):
         The generic code.
     """
 
+    shape, sparse = "looped", True
     tables: Tables = field(kw_only=True)
     kernels: Mapping[str, ModuleType] = field(kw_only=True)
     machine: ModuleType = field(kw_only=True)
-
-    @property
-    def shape(self) -> str:
-        """Return ``looped``."""
-        return "looped"
-
-    @property
-    def sparse(self) -> bool:
-        """Return True: nothing dense is made."""
-        return True
-
-    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
-        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
-        if not self.info.spins:
-            y[: self.info.nq] += change
-            return
-        self.section(w, "change")[:] = change
-        self.model.move(y, w)
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w`` with the tables in it."""

@@ -12,14 +12,16 @@ from __future__ import annotations
 import hashlib
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from symgen.compiling.straight_model import law_info, load_compiled, model_info
+import msgspec
+
+from symgen.compiling.straight_model import load_compiled, model_info
 from symgen.describe.digest import digest as mechanism_digest
 from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError, finite_numbers
@@ -28,7 +30,7 @@ from symgen.ir.program import FORMAT, SUFFIXES
 from symgen.methods import METHODS
 from symgen.methods._base import Method
 from symgen.runtime.compiled import CompiledModel
-from symgen.store.entries import Entries, FolderName
+from symgen.store.entries import Entries, FolderName, Modules
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ class Generated:
     """Emitted source with its metadata, by file stem: ``model``, one module a law, and those that laws share."""
 
     folder: str
-    modules: Mapping[str, tuple[str, Mapping[str, Any]]]
+    modules: Modules
     derive_seconds: float
     emit_seconds: float
 
@@ -156,7 +158,7 @@ def generate(
         from symgen.compiling.looped import generate_looped, shared_folder
 
         began = time.perf_counter()
-        found = generate_looped(mechanism, [(c.method, c.options, c.implicit) for c in choices], generator_digest())
+        found = generate_looped(mechanism, choices, generator_digest())
         return Generated(shared_folder(generator_digest()), found, 0.0, time.perf_counter() - began)
     # numbers that only meet where equations are solved; others have names
     with finite_numbers(f"mechanism '{mechanism.name}'"):
@@ -178,7 +180,7 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
     source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
-    modules[f"model{suffix}"] = (source, model_info(program, equations).to_dict())
+    modules[f"model{suffix}"] = source, model_info(program, equations).to_dict()
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         words = (choice.method.summary, choice.method.reference)
@@ -188,7 +190,8 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
             sources = emit_law(law, program, equations, *words, target)
         *shared, own = sources
         modules |= {stem: (sources[stem], {}) for stem in shared}
-        modules[own] = (sources[own], law_info(law, tuple(shared)).to_dict())
+        info = msgspec.structs.replace(law.info, modules=tuple(shared))
+        modules[own] = sources[own], info.to_dict()
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
 
 
@@ -223,23 +226,18 @@ def compile_model(mechanism: Mechanism, choice: MethodChoice, target: str = "cpu
     if choice.shape == "looped" and target == "cpu":
         from symgen.compiling.looped import compile_looped
 
-        found = compile_looped(mechanism, choice.method, choice.options, choice.implicit, generator_digest())
-        return replace(found, origin=(compile_again, arguments))
-    folder = folder_of(mechanism)
-    derive_seconds = emit_seconds = 0.0
+        return replace(compile_looped(mechanism, choice, generator_digest()), origin=(compile_again, arguments))
+    folder, took = folder_of(mechanism), [0.0, 0.0]
     model, stem = f"model{SUFFIXES[target]}", f"{choice.stem}{SUFFIXES[target]}"
-    known = _find(store, folder, model, stem)
-    if known is None:
-        with store.building(folder):
-            known = _find(store, folder, model, stem)  # another process may have built it while this one waited
-            if known is None:
-                generated = generate(mechanism, (choice,), choice.shape, target)
-                derive_seconds, emit_seconds = generated.derive_seconds, generated.emit_seconds
-                for name, (source, metadata) in generated.modules.items():
-                    store.put(folder, name, source, metadata)
-                known = generated.modules[model][1], generated.modules[stem][1]
+
+    def make(known: Callable[[str], bool]) -> Modules:
+        generated = generate(mechanism, (choice,), choice.shape, target)
+        took[:] = generated.derive_seconds, generated.emit_seconds
+        return generated.modules
+
+    known = store.built(folder, (model, stem), make)
     path = store.path(folder, stem).parent
-    loaded = load_compiled(path, stem, *known, derive_seconds, emit_seconds, model)
+    loaded = load_compiled(path, stem, known[model], known[stem], took[0], took[1], model)
     return replace(loaded, origin=(compile_again, arguments))
 
 
@@ -248,10 +246,3 @@ def compile_again(
 ) -> CompiledModel:
     """Return a compiled model that was pickled elsewhere: from the cache, or generated."""
     return compile_model(mechanism, replace(choose_method(method, options, implicit), shape=shape), target=target)
-
-
-def _find(store: Entries, folder: str, model: str, law: str) -> tuple[Mapping[str, Any], Mapping[str, Any]] | None:
-    shared, own = store.get(folder, model), store.get(folder, law)
-    if shared is None or own is None or any(store.get(folder, stem) is None for stem in own.get("modules", ())):
-        return None
-    return shared, own

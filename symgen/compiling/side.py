@@ -8,7 +8,7 @@ The function serves compiled models of both shapes. SymPy and Jinja2 are importe
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -91,6 +91,14 @@ def stem_of(name: str, *said: object) -> str:
     return f"{name}_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
 
 
+def made_beside(
+    mechanism: Mechanism, name: str, said: Sequence[object], make: Callable[[], tuple[str, dict[str, Any]]]
+) -> tuple[dict[str, Any], Path]:
+    """Return what is known of a module beside a model's, by all that shapes it, and its path; made where it is new."""
+    store, folder, stem = Entries(), folder_of(mechanism), stem_of(name, *said)
+    return store.made(folder, stem, make), store.path(folder, stem)
+
+
 def compile_side(
     mechanism: Mechanism,
     compiled: CompiledModel,
@@ -120,11 +128,8 @@ def compile_side(
     InputError
         If numbers that meet in a formula overflow.
     """
-    store = Entries()
     labels = ["rate of " * k + label for k in range(rates + 1) for label, _ in formulas]
-    folder, around = folder_of(mechanism), beside(mechanism, compiled)
-    texts = [to_text(e) for _, e in formulas]
-    stem = stem_of(name, purpose, rates, around, list(integrals(mechanism)), *labels, *texts)
+    around, texts = beside(mechanism, compiled), [to_text(e) for _, e in formulas]
 
     def make() -> tuple[str, dict[str, Any]]:
         from symgen.emit.side import emit_side
@@ -134,6 +139,6 @@ def compile_side(
             program = lower_side(mechanism, name, purpose, formulas, around, rates)
         return emit_side(program), {"reads": list(program.reads)}
 
-    metadata = store.made(folder, stem, make)
-    path = store.path(folder, stem)
+    said = purpose, rates, around, list(integrals(mechanism)), *labels, *texts
+    metadata, path = made_beside(mechanism, name, said, make)
     return Side(getattr(load_module(path), name), path, tuple(labels), frozenset(metadata["reads"]))

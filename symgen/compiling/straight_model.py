@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any, final
 
 import msgspec
 import numpy as np
-from numpy.typing import NDArray
 
-from symgen.runtime.compiled import Array, CompiledModel, LawInfo, ModelInfo, Row
-from symgen.store.modules import interpreted, load_module
+from symgen.runtime.compiled import Array, CompiledModel, ModelInfo, Row
+from symgen.store.modules import load_module
+from symgen.vocabulary.infos import LawInfo
 from symgen.vocabulary.quantities import Quantity
 
 if TYPE_CHECKING:
     from symgen.formulate.equations import Equations
-    from symgen.ir.program import LawProgram, ModelProgram
+    from symgen.ir.program import ModelProgram
 
 
 @final
@@ -25,27 +25,11 @@ if TYPE_CHECKING:
 class StraightModel(CompiledModel):
     """A compiled model in the straight shape: code for one mechanism alone."""
 
-    @property
-    def shape(self) -> str:
-        """Return ``straight``."""
-        return "straight"
-
-    @property
-    def sparse(self) -> bool:
-        """Return False: starts use dense algebra."""
-        return False
+    shape, sparse = "straight", False
 
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
         return self.with_scales(np.zeros(max(1, self.law.nw)))
-
-    def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
-        """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
-        if not self.info.spins:
-            y[: self.info.nq] += change
-            return
-        self.section(w, "change")[:] = change
-        interpreted(self.model.move)(y, w)
 
 
 def load_compiled(
@@ -87,9 +71,9 @@ def model_info(program: ModelProgram, equations: Equations) -> ModelInfo:
     return ModelInfo(
         name=program.name,
         digest=program.digest,
-        parameters=tuple(Quantity(p.name, p.unit) for p in equations.parameters),
-        coordinates=tuple(Quantity(q.name, q.unit) for q in equations.coordinates),
-        velocities=tuple(Quantity(v.name, v.unit) for v in equations.velocities),
+        parameters=equations.parameters,
+        coordinates=equations.coordinates,
+        velocities=equations.velocities,
         rows=tuple(Row(r.name, r.joint, r.unit, r.phi is not None) for r in equations.rows),
         joint_coordinates=tuple(Quantity(c.name, c.unit) for c in equations.joint_coordinates),
         sections=dict(program.layout.sections),
@@ -117,23 +101,3 @@ def _alone(program: ModelProgram, rows: int) -> tuple[int, ...]:
         if target.space == "pivot"
     }
     return tuple(i for i in range(rows) if i not in said)
-
-
-def law_info(program: LawProgram, modules: tuple[str, ...] = ()) -> LawInfo:
-    """Collect the metadata of a program."""
-    return LawInfo(
-        method=program.method,
-        key=program.key,
-        options=dict(program.options),
-        parameters=program.parameters,
-        parameter_offset=program.parameter_offset,
-        hoisted=program.hoisted,
-        position_correction=program.correction.position != "none",
-        velocity_correction=program.correction.velocity,
-        nw=program.layout.nw,
-        unknowns=program.unknowns,
-        level=program.level,
-        tangent=program.tangent,
-        operations={b.name: b.operations for b in program.blocks},
-        modules=modules,
-    )

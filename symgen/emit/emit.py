@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, module, render, templates_digest
+from symgen.emit.module import PLATFORMS, Code, function, module, render, templates_digest
 from symgen.emit.names import Names, of_hoisted, of_model, of_observed
-from symgen.emit.parts import absent, law_loops
+from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import ElementAccess, Printer
 from symgen.emit.text import table_name
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
 from symgen.ir.interpolation import Interpolation
 from symgen.ir.program import DERIVATIVES, FORMAT, SUFFIXES, Block, LawProgram, Layout, ModelProgram
+from symgen.vocabulary.infos import LawInfo
 
 if TYPE_CHECKING:
     from symgen.lower.side import SideProgram
@@ -67,26 +68,25 @@ def emit_law(
 
     The last one is the method's own, see `law_modules`.
     """
-    blocks = program.blocks
-    own = {("p", program.parameter_offset + i): name for i, (name, _) in enumerate(program.parameters)}
+    blocks, info, platform = program.blocks, program.info, PLATFORMS[target]
+    own = {("p", info.parameter_offset + i): name for i, (name, _) in enumerate(info.parameters)}
     printed = straight(blocks, program.layout, equations, target, of_model(equations, model.jacobian) | own)
-    layout = LiteralLayout(program, "y" if equations.spins else "", PLATFORMS[target].decorator)
-    names, flagged = {b.name for b in blocks}, any(b.flag is not None for b in blocks)
-    loops = law_loops(layout, program.correction, program.form, names, flagged, program.closed)
-    pieces = [*zip((b.role for b in blocks), printed, strict=True), *loops]
-    metric = program.correction.metric if program.correction.any else "measured"
+    layout = LiteralLayout(program, "y" if equations.spins else "", platform.decorator)
     model_stem = f"model{SUFFIXES[target]}"
+    defined = *(block.name for block in model.blocks), *table_names(model.tables)
     return law_modules(
-        pieces,
-        {"acceleration": program.form, "metric": metric, "correction": metric, "form": program.level},
-        f"for model `{model.name}`{PLATFORMS[target].words}",
+        program,
+        layout,
+        list(zip((b.role for b in blocks), printed, strict=True)),
+        any(b.flag is not None for b in blocks),
+        f"for model `{model.name}`{platform.words}",
         versions(model.digest),
-        {name: (model_stem, name) for name in model_names(model)} | {"geometry_of_model": (model_stem, "geometry")},
-        f"Method `{program.method}` for model `{model.name}`{PLATFORMS[target].words}.",
-        law_header(program, model, summary, reference),
-        program.key,
+        {name: (model_stem, name) for name in defined} | {"geometry_of_model": (model_stem, "geometry")},
+        f"Method `{info.method}` for model `{model.name}`{platform.words}.",
+        law_header(info, summary, reference, versions(model.digest)),
+        info.key,
         offsets={name: offset for name, (offset, _) in program.layout.sections.items()},
-        numba=PLATFORMS[target].numba,
+        numba=platform.numba,
         suffix=SUFFIXES[target],
     )
 
@@ -96,26 +96,22 @@ def versions(digest: str) -> str:
     return f"digest {digest}, format {FORMAT}, templates {templates_digest()}"
 
 
-def law_header(program: LawProgram, model: ModelProgram, summary: str, reference: str) -> list[str]:
-    """Return the lines of a law's docstring."""
-    parameters = enumerate(program.parameters, program.parameter_offset)
+def law_header(info: LawInfo, summary: str, reference: str, made: str, place: str = "p[{}]") -> list[str]:
+    """Return the lines of a law's docstring; `made` says what of, `place` is where parameters of the method stand."""
+    parameters = enumerate(info.parameters, info.parameter_offset)
     return [
-        *(summary, reference, versions(model.digest)),
-        *(f"option {option} = {value}" for option, value in sorted(program.options.items())),
-        *(f"p[{i}] {name} (default {default})" for i, (name, default) in parameters),
+        *(summary, reference, made),
+        *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
+        *(f"{place.format(i)} {name} (default {default})" for i, (name, default) in parameters),
     ]
 
 
-def model_names(model: ModelProgram) -> list[str]:
-    """Return what the module of a model defines."""
-    return [*(block.name for block in model.blocks), *table_names(model.tables)]
-
-
-class LiteralLayout:
-    """Sizes and places as numbers of one mechanism; sections are constants of the module; see `PartsLayout`."""
+class LiteralLayout(PartsLayout):
+    """Sizes and places as numbers of one mechanism; sections are constants of the module."""
 
     def __init__(self, program: LawProgram, turning: str, decorator: str = PLATFORMS["cpu"].decorator) -> None:
         self.program, self.turning, self.decorator = program, turning, decorator
+        self.parameters = [name for name, _ in program.info.parameters]
         self.sections: set[str] = set()
 
     def size(self, name: str) -> int:
@@ -131,12 +127,9 @@ class LiteralLayout:
         """Return an element of p."""
         return f"p[{index}]"
 
-    def parameter(self, name: str) -> str:
-        """Return a parameter of the method as an element of p, or what is taken where it has none."""
-        names = [parameter for parameter, _ in self.program.parameters]
-        if name in names:
-            return self.element(self.program.parameter_offset + names.index(name))
-        return absent(name)
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them as an element of p."""
+        return self.element(self.program.info.parameter_offset + place)
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return nothing before a function's own lines, and the sections that were asked for."""

@@ -45,14 +45,12 @@ def _module(
 def _function(block: Block, access: InstanceAccess, stride: int) -> Code:
     """Return a block as a loop over instances."""
     access.used.clear()
-    printer = Printer(block, access)
-    lines = printer.lines()
-    outputs = [f"{access.write(t)} {access.operator(t)} {printer.text[n][0]}" for t, n in block.outputs]
+    lines = Printer(block, access).lines()
     places = [(name, number) for name, number in access.places() if name in access.used]
     heads = [n for n in HEAD if n in access.used or (n == "records" and any(name[0] == "f" for name, _ in places))]
     sums = [name for name in _SUMS if any(t.space == name for t, _ in block.outputs)]
     changed = [] if lines.flag is None else ["changed"]
-    loop = [*(f"{name} = {number}" for name, number in places), *lines.inputs, *lines.terms, *outputs]
+    loop = [*(f"{name} = {number}" for name, number in places), *lines.inputs, *lines.terms, *lines.outputs]
     loop += [f"changed += {lines.flag}"] if changed else []
     body = [
         "here = np.uint32(at + 1)",

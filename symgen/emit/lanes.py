@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
-from symgen.emit.module import PLATFORMS, Code, function, module
-from symgen.emit.parts import Parts, accept_kind
+from symgen.emit.module import Code, function, module
+from symgen.emit.parts import Parts, PartsLayout, accept_kind
 from symgen.emit.printer import LaneAccess, Printer
 from symgen.errors import InputError
 from symgen.formulate.equations import Equations
@@ -42,21 +42,10 @@ class LaneLayout(LiteralLayout):
         return self.access.element("p", index)
 
 
-class Inlined:
+class Inlined(PartsLayout):
     """Functions that are no calls, and know no mechanism."""
 
-    turning = ""
-    decorator = PLATFORMS["cpu"].decorator.replace(")", ', inline="always")')
-
-    def size(self, name: str) -> str:
-        """Refuse: there is no mechanism."""
-        raise KeyError(name)
-
-    at = parameter = size
-
-    def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return nothing."""
-        return [], set(), set()
+    decorator = PartsLayout.decorator.replace(")", ', inline="always")')
 
 
 def emit_lanes_model(program: ModelProgram) -> str:
@@ -76,11 +65,11 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     InputError
         If the method is more than a formula with one correction.
     """
-    layout, correction = program.layout, program.correction
+    layout, correction, info, made = program.layout, program.correction, program.info, versions(model.digest)
     if program.form != "direct" or program.closed or correction.metric not in ("identity", "scaled", "mass"):
         expected = "a method that is a formula with at most one correction (--target lanes)"
-        raise InputError(f"method '{program.method}'", expected, "one that iterates, or chooses coordinates")
-    n_p = program.parameter_offset + len(program.parameters) + program.hoisted
+        raise InputError(f"method '{info.method}'", expected, "one that iterates, or chooses coordinates")
+    n_p = info.parameter_offset + len(info.parameters) + info.hoisted
     bases = bases_of(layout.ny, n_p, layout.nw)
     access = LaneAccess(layout, {}, bases, LANES)
     blocks = {b.name: b for b in (*model.blocks, *program.blocks)}  # a law's own take the place of the model's
@@ -93,8 +82,8 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     parts.add(f"lanes_{accept_kind(correction)}")
     codes = [*(_over_lanes(blocks[name], access) for name in wanted), *parts.codes]
     constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}
-    title = f"Method `{program.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
-    header = [*law_header(program, model, summary, reference), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
+    title = f"Method `{info.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
+    header = [*law_header(info, summary, reference, made), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
     shared = ("sine", "cosine", *table_names(model.tables, slopes=False))
     known = {name: (f"model{SUFFIXES['lanes']}", name) for name in shared}
     return module(title, header, codes, known, {"numbers": bases["numbers"], **constants}, note="places in z")

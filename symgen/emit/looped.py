@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symgen.emit.module import PLATFORMS, Code, function, law_modules, render
-from symgen.emit.parts import absent, law_loops
+from symgen.emit.emit import law_header
+from symgen.emit.module import Code, function, render
+from symgen.emit.parts import PartsLayout, law_modules
 from symgen.emit.printer import Access, Printer
 from symgen.emit.text import harmless
 from symgen.ir.graph import Graph
@@ -67,47 +68,62 @@ def emit_shared_model(generator: str) -> str:
 
 def emit_looped_law(law: LoopedLaw, generator: str, summary: str, reference: str) -> dict[str, str]:
     """Return the source of the modules of a law; the last one is its own, as for `symgen.emit.emit.emit_law`."""
-    info, names = law.info, {f.part.name for f in law.functions}
-    flagged = any(f.flagged for f in law.functions)
-    loops = law_loops(TableLayout([name for name, _ in info.parameters]), law.correction, law.form, names, flagged)
+    info = law.info
     nothing = function("prepare", "p", "Nothing depends on parameters of the method alone.", ["return 0"])
     made = f"format {FORMAT}, generator {generator}"
-    header = [
-        *(summary, reference, made),
-        *(f"option {option} = {value}" for option, value in sorted(info.options.items())),
-        *(f"parameter {i}: {name} (default {default})" for i, (name, default) in enumerate(info.parameters)),
-    ]
     known = {name: ("machine", name) for name in (*map(str.upper, HEAD), *_MACHINE)}
     places = {name: len(HEAD) + i for i, (name, _) in enumerate(info.sections)}
-    metric = law.correction.metric if law.correction.any else "measured"
     return law_modules(
-        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing), *loops],
-        {"acceleration": law.form, "metric": metric, "correction": metric},
+        law,
+        TableLayout([name for name, _ in info.parameters]),
+        [*((f.part.role, print_function(f)) for f in law.functions), ("preparation", nothing)],
+        any(f.flagged for f in law.functions),
         "for any mechanism, in the looped shape",
         made,
         known | {name: ("model", name) for name in _SHARED} | {"geometry_of_model": ("model", "geometry")},
         f"Method `{info.method}`, for any mechanism, in the looped shape.",
-        header,
+        law_header(info, summary, reference, made, "parameter {}:"),
         f"law_{info.key}",
         offsets={**_STATUS, **places},
         note="places in w and T",
     )
 
 
-class Bases:
+class _Size(str):
+    """The name of a size, which can be added to another one."""
+
+    def __add__(self, other: str) -> _Size:
+        return _Size(f"{self} + {other}")
+
+
+class TableLayout(PartsLayout):
     """Sizes, and places where sections and scratch vectors begin, read from the head of the tables into locals."""
 
-    def __init__(self) -> None:
-        self.names: set[str] = set()
+    turning = "y, w"
 
-    def base(self, name: str) -> str:
+    def __init__(self, parameters: Sequence[str] = ()) -> None:
+        self.parameters, self.names = parameters, set[str]()
+
+    def size(self, name: str) -> _Size:
+        """Return the local that holds a size."""
+        return _Size(self.at(name))
+
+    def at(self, name: str) -> str:
         """Return the name of a size or of where a section begins, noted where it is one."""
         if name.islower() and name not in ("t", "y", "p", "w", "ydot"):
             self.names.add(name)
         return name
 
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them."""
+        return f"p[{self.at('method_parameters')} + {place}]"
+
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return the lines that read what has been noted, what they call, and the law's own sections among it."""
+        return self.read() if self.names else ([], set(), set())
+
+    def read(self) -> tuple[list[str], set[str], set[str]]:
+        """Return the same where the tables are wanted in any case."""
         scratch = sorted((n for n in self.names if n[0] == "x" and n[1:].isdigit()), key=lambda name: int(name[1:]))
         named = sorted(self.names.difference(scratch), key=lambda n: (HEAD.index(n) if n in HEAD else len(HEAD), n))
         lines = [f"{name} = np.int64(T[{name.upper()}])" for name in named]
@@ -121,40 +137,6 @@ class Bases:
         return ["T = tables(w)", *lines], calls, own
 
 
-class _Size(str):
-    """The name of a size, which can be added to another one."""
-
-    def __add__(self, other: str) -> _Size:
-        return _Size(f"{self} + {other}")
-
-
-class TableLayout:
-    """Sizes and places are read from the tables; see `symgen.emit.parts.PartsLayout`."""
-
-    turning, decorator = "y, w", PLATFORMS["cpu"].decorator
-
-    def __init__(self, parameters: Sequence[str]) -> None:
-        self.parameters, self.bases = parameters, Bases()
-
-    def size(self, name: str) -> _Size:
-        """Return the local that holds a size."""
-        return _Size(self.bases.base(name))
-
-    def at(self, name: str) -> str:
-        """Return the local that says where a section begins."""
-        return self.bases.base(name)
-
-    def parameter(self, name: str) -> str:
-        """Return a parameter of the method, or what is taken where it has none."""
-        if name in self.parameters:
-            return f"p[{self.bases.base('method_parameters')} + {self.parameters.index(name)}]"
-        return absent(name)
-
-    def finished(self) -> tuple[list[str], set[str], set[str]]:
-        """Return the lines that read the tables, where anything is read."""
-        return self.bases.finished() if self.bases.names else ([], set(), set())
-
-
 def print_function(f: data.LoopedFunction) -> Code:
     """Print statements: loops over elements j, sums, numbers and calls."""
     access, lines = LoopAccess(), list[str]()
@@ -165,26 +147,12 @@ def print_function(f: data.LoopedFunction) -> Code:
             lines.append(f"{result}{statement.function}({', '.join(statement.arguments)})")
             called |= {statement.function, *(n for n in statement.arguments if n.isupper() and n != "T")}
             for name in statement.arguments:
-                access.bases.base(name)
-        elif isinstance(statement, data.Number):
-            (left,), (right,) = _printed(f.graph, ((*statement.place, statement.node),), access)
-            lines += [*right[:-1], f"{left} = {right[-1]}"]
-        elif isinstance(statement, data.Total):
-            (left,), (right,) = _printed(f.graph, ((data.LOCAL, statement.local, statement.node),), access)
-            loop = [f"for j in range({access.bases.base(statement.size)}):", *(f"    {line}" for line in right[:-1])]
-            loop.append(f"    {left} += {right[-1]}")
-            if statement.driven:
-                called.add("DRIVEN")
-                loop = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in loop)]
-            lines += [f"{left} = 0.0", *loop]
+                access.layout.at(name)
         else:
-            lines.append(f"for j in range({access.bases.base(statement.size)}):")
-            outputs = [(target, 0, node) for target, node in statement.outputs]
-            for left, right in zip(*_printed(f.graph, outputs, access), strict=True):
-                lines += [*(f"    {line}" for line in right[:-1]), f"    {left} = {right[-1]}"]
+            lines += _assigned(f.graph, statement, access)
     flagged = f.flagged and f.part.flag is not None
     lines.append("return int(suspicious)" if flagged else "return 0")
-    before, names, own = access.bases.finished()
+    before, names, own = access.layout.read()
     called |= names | access.functions
     purpose = f.part.purpose + ("; 1 where a pivot of S is suspicious." if flagged else ".")
     sections = own | access.status
@@ -192,24 +160,25 @@ def print_function(f: data.LoopedFunction) -> Code:
     return function(f.part.name, arguments, purpose, [*before, *lines], calls=called, sections=sections)
 
 
-def _printed(
-    graph: Graph, outputs: Sequence[tuple[str, int, int]], access: LoopAccess
-) -> tuple[list[str], list[list[str]]]:
-    """Return left-hand sides, and for each the lines of its terms with its expression as the last one."""
-    block = Block("", "", graph, tuple((Target(space, index), node) for space, index, node in outputs), ())
-    printer = Printer(block, access)
-    lines = printer.lines()
-    access.functions |= lines.functions
-    rights = [[printer.text[node][0]] for _, _, node in outputs]
-    rights[0] = [*lines.terms, *rights[0]]
-    return [access.write(target) for target, _ in block.outputs], rights
+def _assigned(graph: Graph, statement: data.Assignment, access: LoopAccess) -> list[str]:
+    """Print values that are assigned or added up, in a loop where they are general elements."""
+    outputs = tuple((Target(space, index), node) for space, index, node in statement.outputs)
+    found = Printer(Block("", "", graph, outputs, ()), access).lines()
+    lines = [*found.terms, *found.outputs]
+    access.functions |= found.functions
+    if statement.size:
+        lines = [f"for j in range({access.layout.at(statement.size)}):", *(f"    {line}" for line in lines)]
+    if statement.driven:
+        access.functions.add("DRIVEN")
+        lines = ["if T[DRIVEN] != 0:", *(f"    {line}" for line in lines)]
+    return [*(f"{access.write(target)} = 0.0" for target, _ in outputs if target.space == data.SUM), *lines]
 
 
 class LoopAccess(Access):
     """How the general element of a section, and numbers, are written; notes which names that takes."""
 
     def __init__(self) -> None:
-        self.bases = Bases()
+        self.layout = TableLayout()
         self.status: set[str] = set()
         self.functions: set[str] = set()  # what is called
 
@@ -218,21 +187,25 @@ class LoopAccess(Access):
         text = self.write(Target(space, index))
         return text, text
 
+    def operator(self, target: Target) -> str:
+        """Return what joins an output to its value."""
+        return "+=" if target.space == data.SUM else "="
+
     def write(self, target: Target) -> str:
         """Return an element or a number."""
         space, index = target.space, target.index
-        if space == data.LOCAL:
+        if space in (data.LOCAL, data.SUM):
             return f"a{index}"
         if space == data.PARAMETER:
-            return f"p[{self.bases.base('method_parameters')} + {index}]"
+            return self.layout.given(index)
         if space == data.STATE:
             self.status.add(STATUS[index])
             return f"w[{STATUS[index].upper()}]"
         if space == data.WORK:
-            return f"ydot[{self.bases.base('nq')} + {self.bases.base('nv')}]"
+            return f"ydot[{self.layout.at('nq')} + {self.layout.at('nv')}]"
         if space in (data.VELOCITIES, data.RATES):
-            return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.bases.base('nq')} + j]"
-        return f"w[{self.bases.base(space)} + j]"
+            return f"{'y' if space == data.VELOCITIES else 'ydot'}[{self.layout.at('nq')} + j]"
+        return f"w[{self.layout.at(space)} + j]"
 
 
 def emit_mechanism(name: str, counts: Mapping[str, int]) -> str:

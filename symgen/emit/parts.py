@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+import hashlib
+from collections.abc import Callable, Collection, Sequence
 from types import SimpleNamespace
-from typing import Any, Protocol
+from typing import Any
 
-from symgen.emit.module import Code, function, literal, render
+from symgen.emit.module import PLATFORMS, Code, Known, function, literal, module, render
 from symgen.ir.numerics import NUMBERS
-from symgen.ir.program import COUNTERS, STATUS, Correction
+from symgen.ir.program import COUNTERS, STATUS, Correction, LawCode
 
 
-class PartsLayout(Protocol):
-    """How a shape or target writes sizes, sections and parameters in functions with loops.
+class PartsLayout:
+    """How a shape or target writes sizes, sections and parameters in functions with loops; here, that it has none.
 
     Attributes
     ----------
@@ -20,22 +21,35 @@ class PartsLayout(Protocol):
         Arguments of ``normalise``, empty in the plane.
     decorator : str
         What precedes each function.
+    parameters : sequence of str
+        Parameters of the method.
     """
 
-    turning: str
-    decorator: str
+    turning: str = ""
+    decorator: str = PLATFORMS["cpu"].decorator
+    parameters: Sequence[str] = ()
 
     def size(self, name: str) -> Any:
         """Return ``nq``, ``nv``, ``m`` or ``degrees``: a number, or text that can be added."""
+        raise KeyError(name)
 
     def at(self, name: str) -> str:
         """Return where a section of ``w`` begins."""
+        raise KeyError(name)
+
+    def given(self, place: int) -> str:
+        """Return the method's parameter in a place among them."""
+        raise KeyError(place)
 
     def parameter(self, name: str) -> str:
         """Return a parameter of the method, or what is taken where it has none."""
+        if name in self.parameters:
+            return self.given(self.parameters.index(name))
+        return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
 
     def finished(self) -> tuple[list[str], set[str], set[str]]:
         """Return lines before a function's own, and the names and sections that were asked for since the last one."""
+        return [], set(), set()
 
 
 class _Names:
@@ -97,29 +111,89 @@ class Parts:
         return ""
 
 
-def absent(name: str) -> str:
-    """Return what is taken for a parameter that a method does not have."""
-    return literal(0.0 if name == "penalty" else NUMBERS["tolerance"])
-
-
 def accept_kind(correction: Correction) -> str:
     """Return how accepted states are treated: ``measured``, ``augmented`` or ``corrected``."""
     return "measured" if not correction.any else "augmented" if correction.metric == "augmented" else "corrected"
 
 
-def law_loops(
-    layout: PartsLayout, correction: Correction, form: str, names: Collection[str], flagged: bool, closed: bool = False
-) -> list[tuple[str, Code]]:
-    """Return the functions of a law that are no formulas, with their roles, in the order of their text.
+#: Parts of laws, each a module, in an order in which each needs earlier ones only: how its stem begins, and what it is.
+ROLES = {
+    "preparation": ("prepare", "Numbers that depend on parameters alone"),
+    "iteration": ("iterate", "One iteration, and its end"),
+    "acceleration": ("rhs", "Right-hand side"),
+    "metric": ("metric", "Corrections in another metric"),
+    "correction": ("accept", "Treatment of accepted states"),
+    "closed": ("rhs_closed", "Right-hand side behind the closure of dependent coordinates"),
+    "confirmation": ("confirm", "Second evaluation without rows that come out doubtful"),
+    "form": ("form", "Descriptor form"),
+}
+#: What a law's module hands on.
+_EXPORTS = ("prepare", "rhs", "confirm", "rates", "accept", "geometry", "spread", "residual", "tangent")
+
+
+def law_modules(
+    law: LawCode,
+    layout: PartsLayout,
+    printed: Sequence[tuple[str, Code]],
+    flagged: bool,
+    what: str,
+    made: str,
+    known: Known,
+    title: str,
+    header: Sequence[str],
+    stem: str,
+    suffix: str = "",
+    **keys: Any,
+) -> dict[str, str]:
+    """Return the modules of a law: one for each of its parts, and last the law's own, which gathers their functions.
+
+    A part is named by a digest of what it holds, so that equal parts are one module, whoever asks for them.
 
     Parameters
     ----------
-    form, names : str, collection of str
-        How v' is found, and the law's functions that are formulas.
-    flagged, closed : bool
-        Whether one of these says that a pivot is suspicious; whether dependent coordinates are closed at every stage.
+    law : LawCode
+        The law.
+    layout : PartsLayout
+        How its functions with loops are written.
+    printed : sequence of (str, Code)
+        Its functions that are formulas, each with its role, one of `ROLES`.
+    flagged : bool
+        Whether one of these says that a pivot is suspicious.
+    what, made : str
+        Whose parts they are, and what they were made of, for docstrings.
+    known : mapping of str to (str, str)
+        As for `module`: names of the modules that all laws share.
+    title, header, stem : str, sequence of str, str
+        Of the law's own module.
+    suffix : str
+        How all stems end.
+    **keys
+        As for `module`.
     """
-    parts = Parts(layout, correction)
+    pieces = [*printed, *_loops(law, layout, {code.name for _, code in printed}, flagged)]
+    metric = law.correction.metric if law.correction.any else "measured"
+    kinds = {"acceleration": law.form, "metric": metric, "correction": metric, "form": law.info.level}
+    modules: dict[str, str] = {}
+    found = dict(known)
+    exported: set[str] = set()
+    for role, (label, about) in ROLES.items():
+        codes = [code for each, code in pieces if each == role]
+        if not codes:
+            continue
+        digest = hashlib.sha256(module("", [], codes, found, **keys).encode()).hexdigest()[:16]
+        name = "_".join((label, *([kinds[role]] if role in kinds else ()), digest)) + suffix
+        modules[name] = module(f"{about}, {what}.", [made], codes, found, **keys)
+        if role == "acceleration":  # what closes dependent coordinates first is the law's `rhs`
+            found["accelerate"] = (name, "rhs")
+        found |= {each: (name, each) for code in codes for each in code.names}
+        exported |= {each for code in codes for each in code.names}
+    modules[stem + suffix] = module(title, header, [], found, {}, exports=exported.intersection(_EXPORTS))
+    return modules
+
+
+def _loops(law: LawCode, layout: PartsLayout, names: Collection[str], flagged: bool) -> list[tuple[str, Code]]:
+    """Return the functions of a law that are no formulas, with their roles, in the order of their text."""
+    form, parts = law.form, Parts(layout, law.correction)
     if "refactor" in names:
         parts.add("metric", "metric")
     if form in ("iterated", "dense"):
@@ -127,11 +201,11 @@ def law_loops(
     if form == "tangent":
         parts.add("choose", "acceleration")
         parts.add("tangent", "acceleration")
-    if closed:
+    if law.closed:
         parts.add("choose", "correction")
         parts.add("closed", "closed", close="correction")
     if flagged:
         parts.add("confirm", "confirmation")
-    by_metric = "partition" if correction.metric == "independent" else accept_kind(correction)
+    by_metric = "partition" if law.correction.metric == "independent" else accept_kind(law.correction)
     parts.add(f"accept_{'tangent' if form == 'tangent' else by_metric}", "correction")
     return parts.pieces

@@ -44,6 +44,10 @@ class Access(ABC):
     def write(self, target: Target) -> str:
         """Return the left-hand side of an output."""
 
+    def operator(self, target: Target) -> str:
+        """Return what joins an output to its value."""
+        return "="
+
     def note(self, space: str, index: int) -> str:
         """Return the name of an element in the model, empty where it has none."""
         return ""
@@ -141,7 +145,7 @@ class Printer:
                     text, level = name, 5
                 self.text[node] = (text, level)
         outputs = tuple(
-            f"{self.access.write(target)} = {self.text[n][0]}" + self.comment(target)
+            f"{self.access.write(target)} {self.access.operator(target)} {self.text[n][0]}" + self.comment(target)
             for target, n in self.block.outputs
         )
         flag = None if self.block.flag is None else self.text[self.block.flag][0]

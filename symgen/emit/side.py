@@ -5,20 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from symgen.emit.emit import straight, table_codes
-from symgen.emit.module import function, module, templates_digest
+from symgen.emit.module import Code, function, module, templates_digest
 from symgen.ir.program import FORMAT
 from symgen.lower.side import SideProgram
 
 
 def emit_side(program: SideProgram) -> str:
     """Return the source of a module with one function, straight code whatever the shape of the model's."""
-    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
-    header = [
-        f"format {FORMAT}, templates {templates_digest()}",
-        "",
-        *(f"out[{i}] {formula}" for i, formula in enumerate(program.formulas)),
-    ]
+    codes, header = _printed(program, "out[{}]")
     return module(f"{program.blocks[0].purpose}, for model `{program.mechanism}`.", header, codes, {}, {})
+
+
+def _printed(program: SideProgram, place: str, first: int = 0) -> tuple[list[Code], list[str]]:
+    """Return the functions, and lines that say what stands in each place, from the `first` on."""
+    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
+    formulas = [f"{place.format(i)} {formula}" for i, formula in enumerate(program.formulas, first)]
+    return codes, [f"format {FORMAT}, templates {templates_digest()}", "", *formulas]
 
 
 #: What a law with integrals has in place of its own: arguments, and what is called behind the law's own.
@@ -41,7 +43,7 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
     power : int
         Where in ``w`` a residual leaves the rate of the work.
     """
-    codes = [*table_codes(program.tables), *straight(program.blocks, program.layout, program)]
+    codes, header = _printed(program, "z[{}]' =", 1)
     exports = [name for name in law if name not in _FOLLOWED]
     known = {name: (law[name], name) for name in exports}
     for name, (arguments, more) in _FOLLOWED.items():
@@ -53,9 +55,4 @@ def emit_integrals(program: SideProgram, law: Mapping[str, str], power: int) -> 
             body.insert(1, f"w[{program.layout.offset('auxiliary')}] = w[{power}]")
         calls = f"law_{name}", more.partition("(")[0]
         codes.append(function(name, arguments, "As the law's, with integrals.", body, calls=calls))
-    header = [
-        f"format {FORMAT}, templates {templates_digest()}",
-        "",
-        *(f"z[{1 + i}]' = {formula}" for i, formula in enumerate(program.formulas)),
-    ]
     return module(f"A law of model `{program.mechanism}`, with integrals.", header, codes, known, {}, exports=exports)

@@ -20,8 +20,9 @@ from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import LawInfo, ModelInfo
+    from symgen.runtime.compiled import ModelInfo
     from symgen.runtime.run import RunSpec
+    from symgen.vocabulary.infos import LawInfo
 
 Array = NDArray[np.float64]
 

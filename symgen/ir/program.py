@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Generic, TypeVar
 
 from symgen.ir.graph import Graph
 from symgen.ir.interpolation import Interpolation
 from symgen.vocabulary.expressions import SMOOTH
+from symgen.vocabulary.infos import LawInfo
 
 Info = TypeVar("Info")
 
@@ -269,21 +270,31 @@ class Correction:
 
 
 @dataclass(frozen=True)
-class LawProgram:
-    """What one method adds: a module of the emitted folder beside ``model``."""
+class LawCode:
+    """What one method adds beside its functions.
 
-    method: str
-    key: str  # file stem: the method and its structural options
+    Parameters
+    ----------
+    info : LawInfo
+        What goes with the source.
+    form : {"direct", "iterated", "dense", "tangent"}
+        How v' is found.
+    closed : bool
+        Whether dependent coordinates are closed before every evaluation.
+    correction : Correction
+        What is done to accepted states.
+    """
+
+    info: LawInfo
+    form: str
+    closed: bool
+    correction: Correction
+
+
+@dataclass(frozen=True)
+class LawProgram(LawCode):
+    """What one method adds in straight code: modules of the emitted folder beside ``model``."""
+
     layout: Layout
     blocks: tuple[Block, ...]
-    parameters: tuple[tuple[str, float], ...]  # method parameters in p, with defaults
-    parameter_offset: int  # behind the numbers that the law itself hoists
-    hoisted: int  # numbers behind the parameters, for corrections and descriptor forms
-    form: str  # how v' is found: direct, iterated, dense or tangent
-    closed: bool  # whether dependent coordinates are closed before every evaluation
-    correction: Correction
-    options: Mapping[str, str] = field(default_factory=dict)
     degrees: int = 0  # room for columns of a tangent basis
-    unknowns: int = 0  # of a stage in the descriptor form; 0 where it was not asked for
-    level: str = ""  # of the constraints in the descriptor form
-    tangent: tuple[tuple[int, int], ...] = ()  # equation and unknown of each number that `tangent` writes

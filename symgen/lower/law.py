@@ -14,6 +14,7 @@ from symgen.lower.record import ARGUMENTS, EQUATIONS, Part, Record, record_form,
 from symgen.lower.scalar import Scalars
 from symgen.lower.scalar_values import Outputs, to_status
 from symgen.methods._base import Method
+from symgen.vocabulary.infos import LawInfo
 
 #: Room for columns of a tangent basis beyond nv - m: dependent rows add to the degrees of freedom.
 _SPARE_DEGREES = 6
@@ -56,23 +57,26 @@ def lower_law(
         unknowns, level = equations.nq + equations.nv + equations.m * (2 if form.form == "stabilised" else 1), form.form
         found, pattern = _form_blocks(hoister, scalars, form, unknowns)
         blocks += found
-    return LawProgram(
+    blocks.insert(0, replace(hoister.prepare(), role="preparation"))
+    layout = replace(model.layout, sections=_sections(model.layout, record, blocks, degrees))
+    correction = method.correction(options)
+    info = LawInfo(
         method=method.name,
         key=method.stem(options, implicit),
-        layout=replace(model.layout, sections=_sections(model.layout, record, blocks, degrees)),
-        blocks=(replace(hoister.prepare(), role="preparation"), *blocks),
+        options=dict(options),
         parameters=tuple((p.name, p.default) for p in method.parameters),
         parameter_offset=hoister.first_parameter,
         hoisted=len(hoister.slots) - hoister.reserved,
-        form=record.form,
-        closed=method.integrates == "independent",
-        correction=method.correction(options),
-        options=dict(options),
-        degrees=degrees,
+        position_correction=correction.position != "none",
+        velocity_correction=correction.velocity,
+        nw=layout.nw,
         unknowns=unknowns,
         level=level,
         tangent=pattern,
+        operations={b.name: b.operations for b in blocks},
     )
+    closed = method.integrates == "independent"
+    return LawProgram(info, record.form, closed, correction, layout, tuple(blocks), degrees)
 
 
 def law_block(hoister: Hoister, scalars: Scalars, part: Part) -> Block:

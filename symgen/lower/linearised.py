@@ -8,7 +8,6 @@ stiffness is there.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
@@ -20,6 +19,7 @@ from symgen.ir.graph import Graph
 from symgen.ir.program import Block, Target
 from symgen.lower.side import SideModel, SideProgram, moved, side_program
 from symgen.lower.windings import Beside, winding_order
+from symgen.vocabulary.infos import BY, LinearisedInfo
 from symgen.vocabulary.measures import Holonomic
 
 #: What is differentiated, in this order: ``motion``, q' = N v, ``balance``, M v' + D^T lambda - f, ``accelerations``,
@@ -31,48 +31,10 @@ TIMED = ("motion", "balance", "velocities", "positions")
 NAME = "linearised"
 
 
-@dataclass(frozen=True)
-class Function:
-    """A quantity of the state by name: its value, its rate and the rate of that.
-
-    `orders` counts which of the three there are: a quantity of positions has all of them, one of velocities two, as
-    the rate of v' is not known; one of accelerations or multipliers its value alone.
-    """
-
-    name: str
-    unit: str
-    orders: int
-
-
-@dataclass(frozen=True)
-class LinearisedProgram:
-    """A side program with what its outputs are.
-
-    Attributes
-    ----------
-    side : SideProgram
-        One function: all values, then all structural nonzeros of their derivatives.
-    sizes : mapping of str to int
-        Values of each group, in their order.
-    pattern : tuple of (int, str, int)
-        Value, space (``t``, ``q``, ``v``, ``a``, ``lam``, ``p``) and index of each derivative.
-    elements : tuple of (str, int)
-        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
-    functions : tuple of Function
-        Coordinates of joints and outputs of the file; their values stand behind the groups, order by order.
-    """
-
-    side: SideProgram
-    sizes: Mapping[str, int]
-    pattern: tuple[tuple[int, str, int], ...]
-    elements: tuple[tuple[str, int], ...]
-    functions: tuple[Function, ...]
-
-
 def lower_linearised(
     mechanism: Mechanism, by: Sequence[str], beside: Beside, groups: Sequence[str] = ()
-) -> LinearisedProgram:
-    """Lower the descriptor form with its derivatives.
+) -> tuple[SideProgram, LinearisedInfo]:
+    """Lower the descriptor form with its derivatives; return one function, and what its numbers are.
 
     Parameters
     ----------
@@ -98,11 +60,11 @@ def lower_linearised(
     elements, parts = ((), []) if groups else _elements(model)
     values |= {"elements": parts}
     sizes = {name: len(nodes) for name, nodes in values.items()}
-    functions, nodes = ((), []) if groups else _functions(model, equations)
+    functions, nodes = ([], []) if groups else _functions(model)
     count = sum(sizes.values())
     outputs = [node for group in sizes for node in values[group]] + nodes
     names = [p.name for p in mechanism.parameters]
-    spaces = {"t": "t", "q": "q", "v": "v", "ydot": "a", "multipliers": "lam", "p": "p"}
+    places = {"ydot": BY.index("a"), "multipliers": BY.index("lam")} | {name: k for k, name in enumerate(BY)}
     nq, nv = equations.nq, equations.nv
     keys: list[Key] = [("q", i) for i in range(nq)] + [("v", i) for i in range(nv)]
     keys += [("ydot", nq + i) for i in range(nv)] + [("multipliers", i) for i in range(equations.m)]
@@ -115,16 +77,16 @@ def lower_linearised(
         slopes = _followed(g, slopes, following, names, by)
         slopes = {**slopes, **(by_time.get(outputs[i], {}) if i < count else {})}
         for space, index in sorted(slopes):
-            pattern.append((i, spaces[space], index - nq if space == "ydot" else index))
+            pattern.append((i, places[space], index - nq if space == "ydot" else index))
             derivatives.append(slopes[space, index])
     graph, images = moved(g, [*outputs, *derivatives])
     targets = tuple((Target("out", i), image) for i, image in enumerate(images))
     purpose = "The descriptor form with its derivatives"
     block = Block(NAME, purpose, graph, targets, ("t", "y", "p", "w", "ydot", "out"))
     labels = [f"{group} {i}" for group, size in sizes.items() for i in range(size)]
-    labels += [name + "'" * order for f in functions for order, name in enumerate([f.name] * f.orders)]
-    side = side_program(mechanism, (block,), beside, labels)
-    return LinearisedProgram(side, sizes, tuple(pattern), elements, functions)
+    labels += [name + "'" * order for name, _, orders in functions for order in range(orders)]
+    info = LinearisedInfo(tuple(sizes.items()), tuple(functions), tuple(pattern), elements)
+    return side_program(mechanism, (block,), beside, labels), info
 
 
 def _following(model: SideModel, by: Sequence[str]) -> dict[str, dict[str, int]]:
@@ -216,9 +178,9 @@ def _elements(model: SideModel) -> tuple[tuple[tuple[str, int], ...], list[int]]
     return tuple(found), list(found.values())
 
 
-def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], list[int]]:
+def _functions(model: SideModel) -> tuple[list[tuple[str, str, int]], list[int]]:
     """Return coordinates of joints and outputs, and the nodes of their values and rates."""
-    found, nodes = list[Function](), list[int]()
+    found, nodes = list[tuple[str, str, int]](), list[int]()
     named = [
         (f"{joint.name}.{label}", joint.unit(label), model.measure(measure).value)
         for joint in model.mechanism.joints
@@ -242,9 +204,9 @@ def _functions(model: SideModel, e: Equations) -> tuple[tuple[Function, ...], li
                 break
         if len(chain) == 3 and _has_second_slopes(model, chain[2]):
             chain.pop()  # it has no derivative
-        found.append(Function(name, unit, len(chain)))
+        found.append((name, unit, len(chain)))
         nodes += chain
-    return tuple(found), nodes
+    return found, nodes
 
 
 def _has_second_slopes(model: SideModel, node: int) -> bool:

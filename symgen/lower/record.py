@@ -11,8 +11,7 @@ from typing import assert_never
 
 from symgen.errors import InputError
 from symgen.methods._base import Acceleration, Dense, Descriptor, Iteration, Law, Method, Tangent, multiplier_law
-from symgen.methods._formula import Factor, Operation, Scalar, Value, Vector
-from symgen.methods._recorder import Recorder
+from symgen.methods._formula import Factor, Operation, Scalar, System, Value, Vector
 
 #: Groups of equations of a descriptor form: kinematic, dynamic, then up to three rows for each constraint.
 EQUATIONS = ("q", "v", "first", "second", "third")
@@ -77,7 +76,7 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
 
     `driven` says that drivers prescribe coordinates of a tree: their power is work.
     """
-    found = _Law(method, driven)
+    found = _Law(driven)
     found.law(method.law(found.system, options))
     correction = method.correction(options)
     found.role = "metric"
@@ -87,9 +86,9 @@ def record_law(method: Method, options: Mapping[str, str], driven: bool = False)
 
 
 class _Law:
-    def __init__(self, method: Method | None, driven: bool = False) -> None:
+    def __init__(self, driven: bool = False) -> None:
         self.driven = driven
-        self.system = Recorder(() if method is None else [p.name for p in method.parameters])
+        self.system = System()
         self.parts: list[Part] = []
         self.sections: dict[str, tuple[str, ...]] = {}
         self.form, self.role = "", "acceleration"
@@ -278,7 +277,7 @@ class _Law:
         self.add("spread", "one iteration of the mass-orthogonal projection", *outputs)
 
 
-def _change(s: Recorder, factor: Factor) -> Vector:
+def _change(s: System, factor: Factor) -> Vector:
     """Return ``-D^T (D W D^T)^-1 r`` of the section ``residual``."""
     y = s.solve(factor, -s.variable("residual", "m"))
     return s.stored_constraints().transposed(y)
@@ -289,7 +288,7 @@ def record_model() -> Record:
 
     G makes rows of one unit: 1 for translations, 1 / l^2 for rotations, l being the length of the body.
     """
-    found = _Law(None)
+    found = _Law()
     s = found.system
     rank = s.rank_factor()
     purpose = "Phi, nu, D, and the factorisation of D G D^T that decides rank"
@@ -323,7 +322,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
     InputError
         If the method has no such form.
     """
-    s = Recorder([p.name for p in method.parameters])
+    s = System()
     form = method.descriptor(s, options)
     if form is None:
         what = f"'{method.name}', which has no form for implicit integrators"
@@ -357,7 +356,7 @@ def record_form(method: Method, options: Mapping[str, str], kind: str = "whole",
     return Record(tuple(s.tape.operations), (part,), form=form.level)
 
 
-def _constraints(s: Recorder, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
+def _constraints(s: System, form: Descriptor, accelerations: Vector, multipliers: Vector) -> list[Vector]:
     """Return the equations of constraints in groups of m, and rows behind the equations that projections need."""
     velocity = s.D @ s.v - s.nu
     if form.level == "position":

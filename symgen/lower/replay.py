@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from symgen.ir.graph import Graph
+from symgen.ir.program import STATUS
 from symgen.methods._formula import Operation
 
 Nodes = tuple[int, ...]
@@ -23,6 +24,8 @@ class Replay:
         Where nodes are made.
     operations : tuple of Operation
         The tape.
+    parameters : sequence of str
+        Names of the parameters of the method.
 
     Attributes
     ----------
@@ -34,8 +37,8 @@ class Replay:
 
     mask: Nodes
 
-    def __init__(self, graph: Graph, operations: tuple[Operation, ...]) -> None:
-        self.graph, self.operations = graph, operations
+    def __init__(self, graph: Graph, operations: tuple[Operation, ...], parameters: Sequence[str] = ()) -> None:
+        self.graph, self.operations, self.parameters = graph, operations, tuple(parameters)
         self.values: dict[int, Any] = {}
 
     def run(self, indices: Iterable[int]) -> None:
@@ -60,6 +63,12 @@ class Replay:
     def _on_constant(self, operation: Operation) -> int:
         (value,) = operation.payload
         return self.graph.constant(float(value))
+
+    def _on_parameter(self, operation: Operation) -> int:
+        return self.graph.input("parameter", self.parameters.index(str(operation.payload[0])))
+
+    def _on_status(self, operation: Operation) -> int:
+        return self.graph.input("status", STATUS.index(str(operation.payload[0])))
 
     def _on_sqrt(self, operation: Operation, x: int) -> int:
         return self.graph.call("sqrt", x)

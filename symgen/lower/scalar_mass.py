@@ -9,16 +9,14 @@ from functools import cached_property
 from typing import Self
 
 from symgen.formulate.equations import MassBlock
-from symgen.ir.derivative import jacobian
 from symgen.ir.graph import PARAMETER, Graph
 from symgen.lower.factor import Factor, factorise, minimum_degree
 from symgen.lower.replay import Nodes
-from symgen.lower.scalar_rows import OfRows
-from symgen.lower.scalar_values import Rows
+from symgen.lower.scalar_values import Rows, Values
 from symgen.methods._formula import Operation
 
 
-class OfMass(OfRows):
+class OfMass(Values):
     """Operations with M, its inverse and its root, and the diagonal matrix that rank is decided with."""
 
     @cached_property
@@ -174,15 +172,9 @@ class OfMass(OfRows):
         return tuple(result)
 
     def _on_mass_rate(self, operation: Operation, x: Nodes, v: Nodes) -> Nodes:
-        g, e = self.graph, self.equations
-        result = [g.zero] * e.nv
+        g, result = self.graph, [self.graph.zero] * self.equations.nv
         if self.mass_entries:
-            rates = self._on_at_velocity(operation, e.q_rates, v)
-            slopes = jacobian(g, self.mass_entries, [("t", 0), *(("q", i) for i in range(e.nq))])
-            changes = {
-                entry: g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(found.items()))
-                for entry, found in zip(self.mass_entries, slopes, strict=True)
-            }
+            changes = dict(zip(self.mass_entries, self.along(operation, self.mass_entries, v), strict=True))
             for (i, j), node in sorted(self.mass_matrix.items()):
                 if node in changes:
                     result[i] = g.add(result[i], g.mul(changes[node], x[j]))

@@ -1,13 +1,15 @@
-"""What formulas name, as nodes of the graph of one mechanism, and what one function keeps for others."""
+"""What formulas name, as nodes of the graph of one mechanism: vectors, D row by row, what functions keep for others."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from copy import copy
+from functools import cached_property
 from typing import Any, Self
 
 from symgen.formulate.equations import Equations
-from symgen.ir.program import STATUS, Target
+from symgen.ir.derivative import jacobian
+from symgen.ir.program import STATUS, Entry, Target
 from symgen.lower.factor import Factor
 from symgen.lower.replay import Nodes, Replay
 from symgen.methods._formula import Operation
@@ -24,8 +26,6 @@ class Values(Replay):
 
     Parameters
     ----------
-    parameters : sequence of str
-        Names of the parameters of the method.
     places : mapping of str to (str, int)
         Space and first index of sections that are parts of other arrays.
     """
@@ -37,14 +37,15 @@ class Values(Replay):
         parameters: Sequence[str] = (),
         places: Mapping[str, tuple[str, int]] | None = None,
     ) -> None:
-        super().__init__(equations.graph.copy(), operations)
+        super().__init__(equations.graph.copy(), operations, parameters)
         e, g = equations, self.graph
         k = e.nq + e.nv
         self.places = {"rates.q": ("ydot", 0), "rates.v": ("ydot", e.nq), "rates.work": ("ydot", k)} | {
             **{"k_q": ("k", 0), "k_v": ("k", e.nq), "k_first": ("k", k), "k_second": ("k", k + e.m)}
         }
         self.equations, self.places = equations, self.places if places is None else dict(places)
-        self.parameters = {name: g.input("parameter", i) for i, name in enumerate(parameters)}
+        for i in range(len(self.parameters)):
+            g.input("parameter", i)  # so that nodes are numbered alike, whatever a formula asks for first
         self.mask = tuple(g.input("mask", i) for i in range(e.m))
         self.rows: Rows = tuple(row.entries for row in e.rows)
         self.phi = tuple(g.zero if r.phi is None else r.phi for r in e.rows)
@@ -78,12 +79,6 @@ class Values(Replay):
     def _on_section(self, operation: Operation) -> Nodes:
         return self.section(str(operation.payload[0]), self.size(operation.size))
 
-    def _on_parameter(self, operation: Operation) -> int:
-        return self.parameters[str(operation.payload[0])]
-
-    def _on_status(self, operation: Operation) -> int:
-        return self.graph.input("status", STATUS.index(str(operation.payload[0])))
-
     def _on_power(self, operation: Operation) -> int:
         return self.equations.power
 
@@ -106,6 +101,117 @@ class Values(Replay):
         vector = isinstance(x, tuple)
         found = self.graph.replaced(x if isinstance(x, tuple) else (x,), {("v", i): n for i, n in enumerate(v)})
         return tuple(found) if vector else found[0]
+
+    # -- D -------------------------------------------------------------------------------------------------------------
+
+    def _on_constraints(self, operation: Operation) -> Rows:
+        return self.rows
+
+    def product(self, matrix: Rows, x: Nodes) -> Nodes:
+        """Return a matrix times a vector."""
+        g = self.graph
+        return tuple(g.total(g.mul(e, x[j]) for j, e in row) for row in matrix)
+
+    def _on_product(self, operation: Operation, matrix: Rows, x: Nodes) -> Nodes:
+        return self.product(matrix, x)
+
+    def _on_transposed(self, operation: Operation, matrix: Rows, y: Nodes) -> Nodes:
+        g = self.graph
+        result = [g.zero] * self.equations.nv
+        for row, factor in zip(matrix, y, strict=True):
+            for j, e in row:
+                result[j] = g.add(result[j], g.mul(e, factor))
+        return tuple(result)
+
+    def _on_times_transposed(self, operation: Operation, matrix: Rows, other: Rows) -> Rows:
+        g, rows = self.graph, []
+        for row in matrix:
+            own = dict(row)
+            entries = ((k, g.total(g.mul(own[j], e) for j, e in right if j in own)) for k, right in enumerate(other))
+            rows.append(tuple((k, node) for k, node in entries if node != g.zero))
+        return tuple(rows)
+
+    @cached_property
+    def jacobian(self) -> tuple[Entry, ...]:
+        """The structural entries of D; variable ones get a slot in the section ``jacobian``."""
+        entries: list[Entry] = []
+        slot = 0
+        for i, row in enumerate(self.rows):
+            for j, node in row:
+                constant = self.graph.value(node)
+                entries.append(Entry(i, j, constant, None if constant is not None else slot))
+                slot += constant is None
+        return tuple(entries)
+
+    def stored_constraints(self) -> Rows:
+        """Return D as ``geometry`` left it."""
+        g = self.graph
+        rows: list[list[tuple[int, int]]] = [[] for _ in range(self.equations.m)]
+        for e in self.jacobian:
+            node = g.constant(e.constant) if e.constant is not None else g.input("jacobian", e.slot or 0)
+            rows[e.row].append((e.column, node))
+        return tuple(map(tuple, rows))
+
+    def _on_stored_constraints(self, operation: Operation) -> Rows:
+        return self.stored_constraints()
+
+    def _on_constraint_rate_transposed(self, operation: Operation, y: Nodes, v: Nodes) -> Nodes:
+        g, rates = self.graph, self.along(operation, [n for row in self.rows for _, n in row], v)
+        result = [g.zero] * self.equations.nv
+        for row, factor in zip(self.rows, y, strict=True):
+            for j, _ in row:
+                result[j] = g.add(result[j], g.mul(next(rates), factor))
+        return tuple(result)
+
+    def along(self, operation: Operation, nodes: Sequence[int], v: Nodes) -> Iterator[int]:
+        """Yield the derivatives of nodes that depend on the position along the motion with velocities `v`."""
+        g, e = self.graph, self.equations
+        rates = self._on_at_velocity(operation, e.q_rates, v)
+        for slopes in jacobian(g, nodes, [("t", 0), *(("q", i) for i in range(e.nq))]):
+            yield g.total(n if space == "t" else g.mul(n, rates[i]) for (space, i), n in sorted(slopes.items()))
+
+    def neighbours(self, matrix: Rows, coupled: Sequence[Mapping[int, int]] | None = None) -> list[frozenset[int]]:
+        """Return, for each row of D, the other rows with which D W D^T has an entry; `coupled`: rows of W, or None."""
+        by_column: dict[int, set[int]] = {}
+        for i, row in enumerate(matrix):
+            for j, _ in row:
+                for k in (j,) if coupled is None else coupled[j]:
+                    by_column.setdefault(k, set()).add(i)
+        own = [sorted(j for j, _ in row) for row in matrix]
+        return [frozenset(n for j in own[i] for n in by_column.get(j, ()) if n != i) for i in range(len(matrix))]
+
+    def gram(self, matrix: Rows, weight: Weight | None = None) -> dict[tuple[int, int], int]:
+        """Return D W D^T as nodes; `weight` None is the identity, else rows of W."""
+        g = self.graph
+        left: list[dict[int, int]] = []
+        for row in matrix:
+            if weight is None:
+                left.append(dict(row))
+                continue
+            weighted: dict[int, int] = {}
+            for j, e in row:
+                for k, node in weight[j].items():
+                    weighted[k] = g.add(weighted.get(k, g.zero), g.mul(e, node))
+            left.append(weighted)
+
+        def entry(i: int, j: int) -> int:
+            return g.total(g.mul(left[i][k], e) for k, e in matrix[j] if k in left[i])
+
+        return self.symmetric(self.neighbours(matrix, weight), entry)
+
+    def symmetric(
+        self, neighbours: Sequence[frozenset[int]], entry: Callable[[int, int], int]
+    ) -> dict[tuple[int, int], int]:
+        """Return a symmetric matrix of a pattern as nodes, each worked out once; zeros beside its diagonal vanish."""
+        result: dict[tuple[int, int], int] = {}
+        for i, near in enumerate(neighbours):
+            for j in (i, *(n for n in sorted(near) if n > i)):
+                node = entry(i, j)
+                if node != self.graph.zero or i == j:
+                    result[i, j] = result[j, i] = node
+        return result
+
+    # -- what is kept --------------------------------------------------------------------------------------------------
 
     def _keep(self, section: str, x: Iterable[int]) -> Iterator[int]:
         """Note what one function writes into a section, and yield it as others read it, literals as they are."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import msgspec
 import numpy as np
@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from symgen.ir.numerics import SKIP
 from symgen.ir.program import SCALES, STATUS
+from symgen.store.modules import interpreted
+from symgen.vocabulary.infos import Info, LawInfo
 from symgen.vocabulary.quantities import Counted, Quantity
 
 if TYPE_CHECKING:
@@ -32,7 +34,7 @@ class Row(msgspec.Struct, frozen=True):
     holonomic: bool
 
 
-class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
+class ModelInfo(Counted, Info, frozen=True, omit_defaults=True):
     """Metadata of an emitted ``model`` module.
 
     `sections` maps each section of the scratch array ``w`` to (offset, size); `jacobian` lists (row, column, constant
@@ -64,11 +66,6 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
     def __repr__(self) -> str:
         return f"<ModelInfo of {self.name}: {self.nq} coordinates, {self.nv} velocities, {self.m} rows>"
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        result: dict[str, Any] = msgspec.to_builtins(self)
-        return result
-
     @property
     def work(self) -> int:
         """Index of the work in the state."""
@@ -89,40 +86,22 @@ class ModelInfo(Counted, msgspec.Struct, frozen=True, omit_defaults=True):
         return y[..., : self.nq], y[..., self.nq : self.work]
 
 
-class LawInfo(msgspec.Struct, frozen=True):
-    """Metadata of an emitted law module; `parameters` are (name, default) pairs.
-
-    `tangent` says for each number that the function of this name writes its equation and unknown in the descriptor
-    form; from `unknowns` on, unknowns are q and v. `modules` are those that hold the law's functions, beside its own.
-    """
-
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
-    parameter_offset: int
-    hoisted: int
-    position_correction: bool
-    velocity_correction: bool
-    nw: int
-    unknowns: int
-    level: str
-    tangent: tuple[tuple[int, int], ...]
-    operations: dict[str, int]
-    modules: tuple[str, ...] = ()
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return what JSON can express."""
-        result: dict[str, Any] = msgspec.to_builtins(self)
-        return result
-
-
 @dataclass(frozen=True, repr=False)
 class CompiledModel(ABC):
     """Emitted functions of one model and one method, ready for the loops, in one of the shapes of code.
 
     Nothing is compiled by loading: each function is compiled, or read from the cache, when a loop first takes it.
+
+    Class attributes
+    ----------------
+    shape : {"straight", "looped"}
+        Of the code.
+    sparse : bool
+        Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra.
     """
+
+    shape: ClassVar[str]
+    sparse: ClassVar[bool]
 
     info: ModelInfo
     law: LawInfo
@@ -146,23 +125,18 @@ class CompiledModel(ABC):
         told = f"{info.nq} coordinates, {info.nv} velocities, {info.m} rows"
         return f"<CompiledModel {info.name}, {self.law.key}, {self.shape}: {told}>"
 
-    @property
-    @abstractmethod
-    def shape(self) -> str:
-        """Return ``straight`` or ``looped``."""
-
-    @property
-    @abstractmethod
-    def sparse(self) -> bool:
-        """Whether starts of large mechanisms may rely on ``spread`` instead of dense algebra."""
-
     @abstractmethod
     def scratch(self) -> Array:
         """Return a new scratch array ``w``; scales are 1 until a start finds them."""
 
-    @abstractmethod
     def move(self, y: Array, change: NDArray[Any], w: Array) -> None:
         """Move the coordinates in `y` by a change of the velocities, shape (nv,), through the kinematic map."""
+        if not self.info.spins:
+            y[: self.info.nq] += change
+            return
+        self.section(w, "change")[:] = change
+        # looped code calls kernels by their addresses, which plain Python cannot
+        (self.model.move if self.shape == "looped" else interpreted(self.model.move))(y, w)
 
     def parameter_array(self, parameters: Mapping[str, float], method_parameters: Mapping[str, float]) -> Array:
         """Return ``p``: model parameters, method parameters, and room for what ``prepare`` computes."""

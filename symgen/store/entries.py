@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -54,6 +54,11 @@ class FolderName:
         """Return the parts of a folder name, or None if it is not one."""
         found = upkeep.MODEL_FOLDER.fullmatch(text)
         return cls(found["name"], found["digest"], int(found["format"])) if found else None
+
+
+#: Modules by their stems: source, and what describes it; and the latter alone.
+Modules = Mapping[str, tuple[str, Mapping[str, Any]]]
+Described = dict[str, dict[str, Any]]
 
 
 class Entries:
@@ -201,14 +206,37 @@ class Entries:
         make : callable
             Returns the module and what describes it, as `put` takes them.
         """
-        found = self.get(folder, stem)
-        if found is None:
+        return self.built(folder, (stem,), lambda _: {stem: make()})[stem]
+
+    def built(self, folder: str, stems: Iterable[str], make: Callable[[Callable[[str], bool]], Modules]) -> Described:
+        """Return what describes some modules; where one is not there they are made, by one process, and kept.
+
+        Parameters
+        ----------
+        folder : str
+            As for `path`.
+        stems : iterable of str
+            Modules that are wanted.
+        make : callable
+            Is told which of them there are, and returns the others, and modules that they need, as `put` takes them.
+        """
+        stems = tuple(stems)
+        found = self._found(folder, stems)
+        if len(found) < len(stems):
             with self.building(folder):
-                found = self.get(folder, stem)  # another process may have made it while this one waited
-                if found is None:
-                    source, found = make()
-                    self.put(folder, stem, source, found)
+                found = self._found(folder, stems)  # another process may have made them while this one waited
+                made = make(found.__contains__) if len(found) < len(stems) else {}
+                for stem, (source, metadata) in made.items():
+                    self.put(folder, stem, source, metadata)
+                    found[stem] = dict(metadata)
         return found
+
+    def _found(self, folder: str, stems: Iterable[str]) -> Described:
+        """Return what describes those modules that are there; one whose own modules are not is not there either."""
+        found = {stem: known for stem in stems if (known := self.get(folder, stem)) is not None}
+        needed = {stem: known.get("modules", ()) for stem, known in found.items()}
+        absent = [stem for stem, parts in needed.items() if any(self.get(folder, part) is None for part in parts)]
+        return {stem: known for stem, known in found.items() if stem not in absent}
 
     def info(self) -> upkeep.CacheInfo:
         """Return what the whole cache holds: emitted modules, compiled functions and bytes."""

@@ -6,6 +6,7 @@ import copy
 import re
 from typing import Any
 
+import msgspec
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -32,10 +33,10 @@ def infos(mechanism: Mechanism) -> list[dict[str, Any]]:
     """What results and reports learn of a mechanism from its straight and from its looped code."""
     equations = formulate(mechanism)
     method = choose_method("lagrange")
-    looped = compile_looped(mechanism, method.method, method.options, False, generator_digest())
+    looped = compile_looped(mechanism, method, generator_digest())
     straight, found = model_info(lower_model(equations, ""), equations), []
     for info in (straight, looped.info):
-        found.append({name: value for name, value in info.to_dict().items() if name not in OWN})
+        found.append({name: value for name, value in msgspec.to_builtins(info).items() if name not in OWN})
     straight, looped = ({(row, column) for row, column, _, _ in info.jacobian} for info in (straight, looped.info))
     assert straight <= looped, "kernels know fewer zeros of D than code for one mechanism, never more"
     return found

@@ -14,7 +14,7 @@ from support.checks import RANDOM
 from symgen import auto
 from symgen.api import load
 from symgen.compiling.choose_shape import choose_shape
-from symgen.compiling.looped import generate_looped, law_stem, shared_folder
+from symgen.compiling.looped import Needs, generate_looped, shared_folder
 from symgen.compiling.pipeline import MethodChoice, choose_method, compile_model, generator_digest
 from symgen.errors import InputError
 from symgen.lower.looped.forms import form_key
@@ -91,9 +91,9 @@ def test_panels_hold_a_factor(seed):
 
 
 def test_kernels_do_not_know_their_mechanism():
-    methods = [(METHODS.get("lagrange"), METHODS.get("lagrange").complete_options({}), True)]
+    choices = [choose_method("lagrange", implicit=True)]
     few, many = (
-        generate_looped(load(name).mechanism, methods, generator_digest()) for name in ("four-bar", "n-four-bar:7")
+        generate_looped(load(name).mechanism, choices, generator_digest()) for name in ("four-bar", "n-four-bar:7")
     )
     common = few.keys() & many.keys() - {"mechanism"}
     assert {"machine", "model", "law_lagrange"} <= common
@@ -154,7 +154,7 @@ def test_constraints_that_ask_for_more_than_their_joint_have_straight_code():
     with pytest.raises(InputError, match=r"'weighed', whose constraints ask for '(transposed|minv)'"):
         refuse_dense(method, options, True)
     choice = MethodChoice(method, options, True)
-    assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).shape == "straight"
+    assert choose_shape(load("four-bar").mechanism, choice, "auto", 1e4).name == "straight"
 
 
 @pytest.mark.parametrize(
@@ -180,10 +180,10 @@ def empty_cache(tmp_path, monkeypatch):
 def test_long_runs_of_small_mechanisms_are_straight_and_large_mechanisms_looped(empty_cache):
     choice = choose_method("direct-correction")
     small, large_one = load("four-bar").mechanism, load("n-four-bar:150").mechanism
-    assert choose_shape(small, choice, "auto", 1e9).shape == "straight"
-    assert choose_shape(large_one, choice, "auto", 1.0).shape == "looped"
+    assert choose_shape(small, choice, "auto", 1e9).name == "straight"
+    assert choose_shape(large_one, choice, "auto", 1.0).name == "looped"
     chosen = choose_shape(load("n-four-bar:60").mechanism, choice, "auto", 1e4)
-    assert chosen.shape == "looped"
+    assert chosen.name == "looped"
     assert "363 coordinates" in chosen.reason
 
 
@@ -192,7 +192,7 @@ def test_the_metric_of_bodies_is_the_identity_in_their_own_coordinates(weight, e
     """What is asked for as the one is judged, found and run as the other."""
     mechanism = load("pendulum").mechanism
     asked, identity = (choose_method("direct-correction", {"weight": name}) for name in (weight, "identity"))
-    assert choose_shape(mechanism, asked, "looped", 1e4).shape == "looped"
+    assert choose_shape(mechanism, asked, "looped", 1e4).name == "looped"
     assert choose_shape(mechanism, asked, "auto", 1.0).reason.startswith("faster runs outweigh")
     compile_model(mechanism, identity)
     assert "compiled already" in choose_shape(mechanism, asked, "auto", 1.0).reason
@@ -202,20 +202,18 @@ def test_short_runs_are_looped_once_the_shared_code_is_there(empty_cache):
     entries, choice = Entries(), choose_method("lagrange")
     mechanism = load("four-bar").mechanism
     folder = shared_folder(generator_digest())
-    assert choose_shape(mechanism, choice, "auto", 1e4).shape == "straight"
-    for stem, (source, data) in generate_looped(
-        mechanism, [(choice.method, choice.options, False)], generator_digest()
-    ).items():
+    assert choose_shape(mechanism, choice, "auto", 1e4).name == "straight"
+    for stem, (source, data) in generate_looped(mechanism, [choice], generator_digest()).items():
         entries.put(folder, stem, source, data)
-    assert entries.path(folder, law_stem(choice.method, choice.options)).exists()
-    assert choose_shape(mechanism, choice, "auto", 1e4).shape == "looped"
-    assert choose_shape(mechanism, choice, "auto", 1e12).shape == "straight"
+    assert entries.path(folder, Needs.of(mechanism, choice).law).exists()
+    assert choose_shape(mechanism, choice, "auto", 1e4).name == "looped"
+    assert choose_shape(mechanism, choice, "auto", 1e12).name == "straight"
 
 
 @pytest.mark.parametrize("method", ["null-space", "coordinate-partitioning", "augmented-hamiltonian"])
 def test_dense_methods_have_no_loops_and_a_largest_size(method, empty_cache):
     choice, small = choose_method(method), load("four-bar").mechanism
-    assert choose_shape(small, choice, "auto", 1e4).shape == "straight"
+    assert choose_shape(small, choice, "auto", 1e4).name == "straight"
     with pytest.raises(InputError, match=f"'{method}', .*; the straight shape is for it"):
         choose_shape(small, choice, "looped", 1e4)
     with pytest.raises(InputError, match="at most 400 coordinates"):

@@ -13,7 +13,7 @@ from symgen.formulate.equations import ConstraintRow, Equations, MassBlock, Quan
 from symgen.ir.graph import Graph
 from symgen.ir.numerics import SUSPICIOUS
 from symgen.lower.scalar import Scalars
-from symgen.methods._recorder import Recorder
+from symgen.methods._formula import System
 
 
 def equations_of(d: np.ndarray, masses: np.ndarray) -> tuple[Equations, dict]:
@@ -61,7 +61,7 @@ def random_rows(rng, m: int, n: int) -> np.ndarray:
 
 def laid_out(equations: Equations, formula):
     """What a formula over a system gives, element by element."""
-    system = Recorder(())
+    system = System()
     ends = formula(system)
     scalars = Scalars(equations, tuple(system.tape.operations))
     scalars.run(range(len(system.tape.operations)))

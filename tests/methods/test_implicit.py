@@ -17,8 +17,9 @@ from symgen.api import load
 from symgen.compiling.pipeline import choose_method, generate
 from symgen.errors import InputError
 from symgen.plan import make_plan
-from symgen.runtime.compiled import LawInfo, ModelInfo
+from symgen.runtime.compiled import ModelInfo
 from symgen.settings import Settings
+from symgen.vocabulary.infos import LawInfo
 
 #: Every joint kind, the weld among them, and every force kind.
 ALL_KINDS = listed(EVERYTHING) | {

@@ -22,7 +22,6 @@ from symgen.describe import load
 from symgen.describe.mechanism import Mechanism
 from symgen.lower.looped.law import is_loopable
 from symgen.methods import METHODS
-from symgen.methods._base import Method
 
 ROOT = Path(__file__).resolve().parents[2]
 GENERATED = ROOT / "generated"
@@ -87,7 +86,7 @@ def emitted(model: str) -> dict[str, str]:
     return {f"{stem}.py": source for stem, (source, _) in made.items()}
 
 
-def looped_choices(model: str) -> list[tuple[Method, dict[str, str], bool]]:
+def looped_choices(model: str) -> list[MethodChoice]:
     """Return what is emitted in the looped shape: every method, option and descriptor form for the first model."""
     chosen = CORE if model != LOOPED[0] else tuple(METHODS.names)
     found = []
@@ -98,9 +97,9 @@ def looped_choices(model: str) -> list[tuple[Method, dict[str, str], bool]]:
         if set(method.forms) - EXPLICIT and (model == LOOPED[0] or name == CORE[0]):
             forms.append(({}, True))
         for given, implicit in forms:
-            options = method.complete_options(given)
-            if is_loopable(method, options, implicit):
-                found.append((method, options, implicit))
+            choice = choose_method(name, given, implicit)
+            if is_loopable(method, choice.options, implicit):
+                found.append(choice)
     return found
 
 

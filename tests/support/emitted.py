@@ -14,7 +14,8 @@ from symgen.compiling.pipeline import choose_method, for_coordinates, generate
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
-from symgen.runtime.compiled import LawInfo, ModelInfo
+from symgen.runtime.compiled import ModelInfo
+from symgen.vocabulary.infos import LawInfo
 
 _counter = itertools.count()
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import msgspec
-
 from symgen.errors import InputError
-from symgen.ir.program import Correction
+from symgen.ir.program import LawCode
 from symgen.lower.looped.layout import HEAD
 from symgen.lower.looped.loops import KINDS, Loops
 from symgen.lower.looped.statements import LoopedFunction
@@ -16,22 +14,17 @@ from symgen.lower.record import Record, record_form, record_law
 from symgen.lower.replay import ARITHMETIC
 from symgen.methods._base import Method
 from symgen.methods._formula import needed
+from symgen.vocabulary.infos import LawInfo
 
 #: Methods that need dense matrices are refused above this number of coordinates.
 LARGEST_DENSE = 400
 
 
-class LoopedLawInfo(msgspec.Struct, frozen=True):
-    """What tables and the runtime need to know of a law, beside its source.
+class LoopedLawInfo(LawInfo, frozen=True, kw_only=True):
+    """What tables need to know of a law, beside what is known of every one.
 
     Parameters
     ----------
-    method, key : str
-        As in `symgen.ir.program.LawProgram`.
-    options : dict of str to str
-        Structural options, complete.
-    parameters : tuple of (name, default)
-        Of the method.
     sections : tuple of (name, size)
         Sections of ``w`` of its own.
     vectors : int
@@ -40,46 +33,27 @@ class LoopedLawInfo(msgspec.Struct, frozen=True):
         Whether M + a D^T D is factorised.
     positions : bool
         Whether an evaluation needs Phi.
-    position_correction, velocity_correction : bool
-        What is corrected after each accepted step.
-    modules : tuple of str
-        File stems of the modules that hold the law's functions, beside its own.
     """
 
-    method: str
-    key: str
-    options: dict[str, str]
-    parameters: tuple[tuple[str, float], ...]
     sections: tuple[tuple[str, str], ...]
     vectors: int
     augmented: bool
     positions: bool
-    position_correction: bool
-    velocity_correction: bool
-    modules: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
-class LoopedLaw:
+class LoopedLaw(LawCode):
     """What a method adds in the looped shape.
 
     Parameters
     ----------
-    info : LoopedLawInfo
-        What goes with the source.
     functions : tuple of LoopedFunction
         ``rhs``, or what it is put together from, and ``refactor`` and ``spread`` where the metric of the correction is
         not the identity.
-    form : str
-        How v' is found, as in `symgen.ir.program.LawProgram`.
-    correction : Correction
-        What is done to accepted states.
     """
 
     info: LoopedLawInfo
     functions: tuple[LoopedFunction, ...]
-    form: str
-    correction: Correction
 
 
 def refuse_dense(method: Method, options: Mapping[str, str], implicit: bool) -> None:
@@ -134,22 +108,14 @@ def is_loopable(method: Method, options: Mapping[str, str], implicit: bool) -> b
     return True
 
 
-def lower_looped(method: Method, options: Mapping[str, str], implicit: bool = False) -> LoopedLaw:
+def lower_looped(method: Method, options: Mapping[str, str]) -> LoopedLaw:
     """Lower one method to loops.
 
     Parameters
     ----------
     method, options : Method, mapping
-        The method with its structural options, complete.
-    implicit : bool
-        Whether an implicit integrator asks for it.
-
-    Raises
-    ------
-    InputError
-        If the method needs dense algebra.
+        A method that `refuse_dense` lets pass, with its structural options, complete.
     """
-    refuse_dense(method, options, implicit)
     record = record_law(method, options)
     names = tuple(p.name for p in method.parameters)
     found = [Loops(record, part, names) for part in record.parts]
@@ -171,4 +137,4 @@ def lower_looped(method: Method, options: Mapping[str, str], implicit: bool = Fa
         position_correction=correction.position != "none",
         velocity_correction=correction.velocity,
     )
-    return LoopedLaw(info, functions, record.form, correction)
+    return LoopedLaw(info, record.form, method.integrates == "independent", correction, functions)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partialmethod
 from typing import Any
 
 from symgen.ir.graph import Graph
@@ -14,14 +15,13 @@ from symgen.lower.looped.statements import (
     PARAMETER,
     RATES,
     STATE,
+    SUM,
     VELOCITIES,
     WORK,
+    Assignment,
     Call,
-    Loop,
     LoopedFunction,
-    Number,
     Statement,
-    Total,
 )
 from symgen.lower.record import Part, Record
 from symgen.lower.replay import ARITHMETIC, Nodes, Replay
@@ -48,17 +48,11 @@ class _Factor:
 
 
 class Loops(Replay):
-    """Lays out one function of a law.
-
-    Parameters
-    ----------
-    parameters : tuple of str
-        Names of the parameters of the method.
-    """
+    """Lays out one function of a law."""
 
     def __init__(self, record: Record, part: Part, parameters: tuple[str, ...]) -> None:
-        super().__init__(Graph(), record.operations)
-        self.part, self.parameters, self.vectors = part, parameters, _FIRST_VECTOR
+        super().__init__(Graph(), record.operations, parameters)
+        self.part, self.vectors = part, _FIRST_VECTOR
         self.sections: dict[str, str] = {}
         self.statements: list[Statement] = []
         self.flagged, self.locals = False, 0
@@ -69,7 +63,7 @@ class Loops(Replay):
         """Return the function; `positions` says whether an evaluation needs Phi."""
         part, ends = self.part, self.ends
         if part.name in _EVALUATE:
-            self.statements.append(Number((STATE, STATUS.index("power")), self.graph.zero))
+            self._number((STATE, STATUS.index("power")), self.graph.zero)
             for stage in ("FRAMES", "FULL" if positions else "MOTION"):
                 self._call("run", stage, "t", "y", "p", "w", "T", "w")
         indices = self.needed
@@ -144,10 +138,14 @@ class Loops(Replay):
     def _loop(self, size: str, target: str, node: int) -> None:
         """Add a loop, or an assignment to the loop before it."""
         last = self.statements[-1] if self.statements else None
-        if isinstance(last, Loop) and last.size == size:
-            self.statements[-1] = Loop(size, (*last.outputs, (target, node)))
-        else:
-            self.statements.append(Loop(size, ((target, node),)))
+        before: tuple[tuple[str, int, int], ...] = ()
+        if isinstance(last, Assignment) and last.size == size and last.outputs[0][0] != SUM:
+            before = last.outputs
+            self.statements.pop()
+        self.statements.append(Assignment((*before, (target, 0, node)), size))
+
+    def _number(self, place: tuple[str, int], node: int) -> None:
+        self.statements.append(Assignment(((*place, node),)))
 
     def _call(self, function: str, *arguments: str, result: str = "") -> None:
         self.statements.append(Call(function, arguments, result))
@@ -157,7 +155,7 @@ class Loops(Replay):
         op, _, payload = self.graph.nodes[node]
         if op == "const" or (isinstance(payload, tuple) and payload[0] == LOCAL):
             return node
-        self.statements.append(Number((LOCAL, self.locals), node))
+        self._number((LOCAL, self.locals), node)
         self.locals += 1
         return self.graph.input(LOCAL, self.locals - 1)
 
@@ -178,7 +176,7 @@ class Loops(Replay):
                 self._call("run", "RATES", "t", "y", "p", "w", "T", "ydot")
             elif place == WORK or place.startswith("status."):
                 status = (STATE, STATUS.index(place.partition(".")[2])) if place != WORK else (WORK, 0)
-                self.statements.append(Number(status, value))
+                self._number(status, value)
             elif isinstance(value, tuple) and value != self._leaf(place, size):
                 reads = {self.graph.nodes[n].payload for n in self.graph.needed(value)}
                 if reads & {(written, 0) for _, written, _ in vectors}:
@@ -199,12 +197,6 @@ class Loops(Replay):
     def _on_zeros(self, operation: Operation) -> Nodes:
         return (self.graph.zero,)
 
-    def _on_parameter(self, operation: Operation) -> int:
-        return self.graph.input(PARAMETER, self.parameters.index(str(operation.payload[0])))
-
-    def _on_status(self, operation: Operation) -> int:
-        return self.graph.input(STATE, STATUS.index(str(operation.payload[0])))
-
     def _on_power(self, operation: Operation) -> int:
         return self.graph.input(STATE, STATUS.index("power"))
 
@@ -224,13 +216,15 @@ class Loops(Replay):
         if node == self.graph.zero:
             return node
         driven = self.graph.input("nu", 0) in (a[0], b[0])  # nu is 0 where nothing is driven
-        self.statements.append(Total(self.locals, self.operations[operation.operands[0]].size, node, driven))
+        size = self.operations[operation.operands[0]].size
+        self.statements.append(Assignment(((SUM, self.locals, node),), size, driven))
         self.locals += 1
         return self.graph.input(LOCAL, self.locals - 1)
 
     # -- products ------------------------------------------------------------------------------------------------------
 
-    def _times(self, helper: str, operation: Operation, x: Nodes) -> Nodes:
+    def _times(self, operation: Operation, *operands: Any, helper: str) -> Nodes:
+        x: Nodes = operands[-1]
         if x[0] == self.graph.zero:
             return x
         source = self._place(x[0], self.operations[operation.operands[-1]].size)
@@ -241,35 +235,24 @@ class Loops(Replay):
     def _on_inverse_mass_root(self, operation: Operation) -> str:
         return "root"
 
-    def _on_product(self, operation: Operation, matrix: None, x: Nodes) -> Nodes:
-        return self._times("rows_times", operation, x)
-
     def _on_transposed(self, operation: Operation, matrix: str | None, y: Nodes) -> Nodes:
-        return self._times("columns_times" if matrix is None else "inverse_mass_times", operation, y)
+        return self._times(operation, y, helper="columns_times" if matrix is None else "inverse_mass_times")
 
-    def _on_mass(self, operation: Operation, x: Nodes) -> Nodes:
-        return self._times("mass_times", operation, x)
-
-    def _on_minv(self, operation: Operation, x: Nodes) -> Nodes:
-        return self._times("inverse_mass_times", operation, x)
-
-    _on_free_acceleration = _on_minv
+    _on_product = partialmethod(_times, helper="rows_times")
+    _on_mass = partialmethod(_times, helper="mass_times")
+    _on_minv = _on_free_acceleration = partialmethod(_times, helper="inverse_mass_times")
 
     def _on_gauged(self, operation: Operation, x: Nodes) -> Nodes:
         return (self.graph.mul(self._leaf("gauge", "nv")[0], x[0]),)
 
     # -- factorisations ------------------------------------------------------------------------------------------------
 
-    def _on_schur(self, operation: Operation, matrix: None = None) -> _Factor:
-        return _Factor("schur", "schur_lower")
+    def _gram(self, operation: Operation, _: None = None, *, matrix: str, section: str) -> _Factor:
+        return _Factor(matrix, section)
 
-    _on_pseudoinverse = _on_schur
-
-    def _on_weighted_mass(self, operation: Operation, rank: None) -> _Factor:
-        return _Factor("weighted", "law_lower")
-
-    def _on_weighted_identity(self, operation: Operation, rank: None) -> _Factor:
-        return _Factor("identity", "law_lower")
+    _on_schur = _on_pseudoinverse = partialmethod(_gram, matrix="schur", section="schur_lower")
+    _on_weighted_mass = partialmethod(_gram, matrix="weighted", section="law_lower")
+    _on_weighted_identity = partialmethod(_gram, matrix="identity", section="law_lower")
 
     def _on_augmented(self, operation: Operation, penalties: Nodes | None) -> _Factor:
         return _Factor("augmented", "augmented_lower", -1 if penalties is None else penalties[0])

@@ -10,32 +10,27 @@ from symgen.lower.record import Part
 #: Spaces of a graph's inputs that are no sections of ``w``: parts of the state and its rates, and numbers.
 VELOCITIES, RATES, WORK = "v", "rates.v", "rates.work"
 LOCAL, PARAMETER, STATE = "local", "parameter", "status"
+#: Local numbers that values are added up in.
+SUM = "sum"
 
 
 @dataclass(frozen=True)
-class Loop:
-    """``target[j] = node`` for all elements j of vectors of a size, and for one target after the other."""
+class Assignment:
+    """Values of numbers or, in a loop over all elements j of vectors of a size, of their general element.
 
-    size: str
-    outputs: tuple[tuple[str, int], ...]
+    Parameters
+    ----------
+    outputs : tuple of (str, int, int)
+        Space, index and node of each, one after the other; of what goes into `SUM` the sum over all elements is meant.
+    size : {"", "nq", "nv", "m"}
+        Of the loop; empty where there is none.
+    driven : bool
+        Whether the loop is passed over where no row is driven.
+    """
 
-
-@dataclass(frozen=True)
-class Total:
-    """``local = sum of node`` over all elements of vectors of a size; where `driven`, only if some row is driven."""
-
-    local: int
-    size: str
-    node: int
-    driven: bool
-
-
-@dataclass(frozen=True)
-class Number:
-    """``place = node``: a local number, one of the status, or the rate of the work."""
-
-    place: tuple[str, int]
-    node: int
+    outputs: tuple[tuple[str, int, int], ...]
+    size: str = ""
+    driven: bool = False
 
 
 @dataclass(frozen=True)
@@ -47,7 +42,7 @@ class Call:
     result: str = ""
 
 
-Statement = Loop | Total | Number | Call
+Statement = Assignment | Call
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from symgen.ir.program import STATUS
 from symgen.lower.looped.forms import FormInfo
+from symgen.lower.looped.law import LoopedLawInfo
 from symgen.lower.looped.layout import GENERIC, HEAD, SECTIONS, STAGES
 from symgen.lower.looped.shape import Group, RowBlock, Shape
 
@@ -46,56 +47,31 @@ class Tables:
     tangent: tuple[tuple[int, int], ...] = ()
 
 
-@dataclass(frozen=True)
-class Forms:
-    """The parts of a descriptor form: module and metadata by the module of an element's kernel."""
-
-    level: str
-    parts: Mapping[str, tuple[str, FormInfo]]
-
-
-def build_tables(
-    shape: Shape,
-    more: Sequence[tuple[str, str]],
-    vectors: int,
-    augmented: bool,
-    stages: Sequence[str] = tuple(STAGES),
-    forms: Forms | None = None,
-) -> Tables:
-    """Build the tables for a law.
+@dataclass
+class Builder:
+    """Builds the tables of a mechanism for a law.
 
     Parameters
     ----------
     shape : Shape
         The mechanism.
-    more : sequence of (section, size)
-        Sections that the law adds; their offsets stand behind the head.
-    vectors : int
-        Scratch vectors of the law.
-    augmented : bool
-        Whether the law factorises M + a D^T D.
-    stages : sequence of str
-        Stages that are called; the others are empty.
-    forms : Forms, optional
-        The descriptor form for implicit integrators.
+    law : LoopedLawInfo
+        Says which sections the law adds, whose offsets stand behind the head, and which stages it calls.
+    level : str
+        Of the descriptor form for implicit integrators; empty where there is none.
+    parts : mapping of str to (str, FormInfo)
+        The parts of that form: module and metadata by the module of an element's kernel.
     """
-    return _Builder(shape, more, vectors, augmented, stages, forms).tables()
 
-
-@dataclass
-class _Builder:
     shape: Shape
-    more: Sequence[tuple[str, str]]
-    vectors: int
-    augmented: bool
-    called: Sequence[str]
-    forms: Forms | None
+    law: LoopedLawInfo
+    level: str
+    parts: Mapping[str, tuple[str, FormInfo]]
 
     def __post_init__(self) -> None:
-        self.parts, self.level = ({}, "") if self.forms is None else (self.forms.parts, self.forms.level)
         self.tangent: list[tuple[int, int]] = []
         self.head: dict[str, int] = {}
-        self.stages = {name: stage if name in self.called else () for name, stage in STAGES.items()}
+        self.stages = STAGES if self.law.positions else STAGES | {"full": ()}
         self.functions = tuple(
             dict.fromkeys(
                 found
@@ -105,7 +81,7 @@ class _Builder:
                 if group.info.kind == kind and (found := self.function(group, function)) is not None
             )
         )
-        length = len(HEAD) + len(self.more)
+        length = len(HEAD) + len(self.law.sections)
         length += length % 2
         self.addresses = length // 2
         self.numbers = [0] * (length + 2 * (len(GENERIC) + len(self.functions)))
@@ -145,20 +121,20 @@ class _Builder:
         for name, stage in self.stages.items():
             self.stage(name, stage, places)
         self.matrices()
-        sizes = shape.sizes(self.augmented) | {"unknowns": self.unknowns}
+        sizes = shape.sizes(self.law.augmented) | {"unknowns": self.unknowns}
         sections: dict[str, tuple[int, int]] = {"status": (0, len(STATUS))}
         offset = len(STATUS) + shape.windings
         sections["winding"] = (len(STATUS), shape.windings)
-        for name, size in (*SECTIONS, *self.more):
+        for name, size in (*SECTIONS, *self.law.sections):
             sections[name] = (offset, sizes[size])
             offset += sizes[size]
-        sections["vectors"] = (offset, self.vectors * sizes["longest"])
+        sections["vectors"] = (offset, self.law.vectors * sizes["longest"])
         head["vectors"], head["vector_size"] = offset, sizes["longest"]
-        offset += self.vectors * sizes["longest"]
+        offset += self.law.vectors * sizes["longest"]
         head["tables"] = offset
         for i, name in enumerate(HEAD):
             self.numbers[i] = head[name] if name in head else sections[name][0]
-        for i, (name, _) in enumerate(self.more):
+        for i, (name, _) in enumerate(self.law.sections):
             self.numbers[len(HEAD) + i] = sections[name][0]
         self.numbers += [0] * (len(self.numbers) % 2)
         sections["tables"] = (offset, len(self.numbers) // 2 + 1)
@@ -250,7 +226,7 @@ class _Builder:
             self.numbers += [width, len(terms) // (3 if width else 8), *terms]
         self.begin("gram_factor")
         self.numbers += shape.gram.table()
-        if self.augmented:
+        if self.law.augmented:
             self.augmented_matrix()
         else:
             self.head |= {"augmented_terms": 0, "augmented_factor": 0, "augmented_size": 0}

@@ -1,0 +1,89 @@
+"""What is known of emitted code beside its source: filled where it is lowered, kept as JSON, read where it runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import msgspec
+
+#: What linearised functions are differentiated by: time, q, v, v', multipliers and parameters.
+BY = ("t", "q", "v", "a", "lam", "p")
+
+
+class Info(msgspec.Struct, frozen=True):
+    """What is known of a module or of a part of it."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return what JSON can express."""
+        result: dict[str, Any] = msgspec.to_builtins(self)
+        return result
+
+
+class LinearisedInfo(Info, frozen=True):
+    """What the numbers of a descriptor form with its derivatives are: all values, then their structural nonzeros.
+
+    Parameters
+    ----------
+    sizes : tuple of (str, int)
+        Groups of values in their order, and how many there are.
+    functions : tuple of (str, str, int)
+        Coordinates of joints and outputs of the file, whose values stand behind the groups, order by order: name, unit,
+        and how many there are of value, rate and second rate. A quantity of positions has all three, one of velocities
+        two, as the rate of v' is not known; one of accelerations or multipliers its value alone.
+    pattern : tuple of (int, int, int)
+        Value, which of `BY`, and index of each derivative.
+    elements : tuple of (str, int)
+        Force and velocity that each value of the group ``elements`` is a part of the balance of; none on a tree.
+    """
+
+    sizes: tuple[tuple[str, int], ...] = ()
+    functions: tuple[tuple[str, str, int], ...] = ()
+    pattern: tuple[tuple[int, int, int], ...] = ()
+    elements: tuple[tuple[str, int], ...] = ()
+
+
+class LawInfo(Info, frozen=True, kw_only=True):
+    """What is known of an emitted law beside its source; in looped code the sizes follow with a mechanism's tables.
+
+    Parameters
+    ----------
+    method, key : str
+        The method's name, and the file stem: it and its structural options.
+    options : dict of str to str
+        Structural options, complete.
+    parameters : tuple of (name, default)
+        Of the method.
+    parameter_offset : int
+        Where these stand in p: behind the numbers that the law itself hoists.
+    hoisted : int
+        Numbers behind the parameters, for corrections and descriptor forms.
+    position_correction, velocity_correction : bool
+        What is corrected after each accepted step.
+    nw : int
+        Length of ``w``.
+    unknowns : int
+        Of a stage in the descriptor form, before q and v; 0 where it was not asked for.
+    level : str
+        Of the constraints in the descriptor form.
+    tangent : tuple of (int, int)
+        Equation and unknown, in the descriptor form, of each number that the function of this name writes.
+    operations : dict of str to int
+        Of each function of straight code.
+    modules : tuple of str
+        File stems of the modules that hold the law's functions, beside its own.
+    """
+
+    method: str
+    key: str
+    options: dict[str, str]
+    parameters: tuple[tuple[str, float], ...]
+    parameter_offset: int = 0
+    hoisted: int = 0
+    position_correction: bool
+    velocity_correction: bool
+    nw: int = 0
+    unknowns: int = 0
+    level: str = ""
+    tangent: tuple[tuple[int, int], ...] = ()
+    operations: dict[str, int] = {}  # msgspec copies it
+    modules: tuple[str, ...] = ()
