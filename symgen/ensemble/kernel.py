@@ -19,7 +19,7 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
-from symgen.runtime.integrator import Integrator, Setup, law_functions
+from symgen.runtime.integrator import Integrator, Setup
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
 from symgen.runtime.run import RunSpec
@@ -254,7 +254,7 @@ class Kernel:
         sources = {*picked[::2].tolist()}
         observes = e.JOINT in sources
         observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
-        seen = *rates_of(law), observe if observes else observe_nothing
+        observers = *rates_of(law), law.accept, observe if observes else observe_nothing
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
@@ -266,13 +266,11 @@ class Kernel:
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            ends = *seen[:2], law.accept, seen[2]
-            if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):
+            if model.lanes.run(observers, sizes, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
-        loop = self.integrator.rows(recipe.spec.adaptive)
-        functions = law_functions(model.compiled)[:3]
-        done = loop(*functions, *seen, model.setup.scheme, sizes, span, chunk, state, kept)
+        loop, setup = self.integrator.rows(recipe.spec.adaptive), model.setup
+        done = loop(setup.functions, observers, setup.scheme, sizes, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
     def _kept(self, info: ModelInfo, width: int | None) -> Kept:

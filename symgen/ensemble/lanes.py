@@ -47,14 +47,12 @@ class LaneRuns:
     scheme: Tableau
     n_times: int
 
-    def run(self, functions: tuple[Any, ...], sizes: Sizes, span: Span, chunk: Chunk, state: State, kept: Kept) -> int:
+    def run(self, observers: tuple[Any, ...], sizes: Sizes, span: Span, chunk: Chunk, state: State, kept: Kept) -> int:
         """Run the selected rows; in the summary, those that single runs have to do get the code `LEFT`.
 
         Parameters
         ----------
-        functions : tuple
-            Those of single runs for what is observed: rates and their confirmation, ``accept``, ``observe``.
-        sizes, span, chunk, state, kept
+        observers, sizes, span, chunk, state, kept
             As for `symgen.runtime.rows.run_rows`.
 
         Returns
@@ -67,7 +65,8 @@ class LaneRuns:
         info, law = self.compiled.info, self.compiled.law_module
         lengths = len(state.p), len(state.w), info.windings, self.n_times
         lanes = state._replace(room=aligned(room_of_lanes(info.ny, self.scheme.stages, *lengths)))
-        return int(lane_runs(law.rhs, law.accept, *functions, self.scheme, sizes, span, chunk, lanes, kept))
+        functions = law.rhs, 0, law.accept, 0, 0, 0
+        return int(lane_runs(functions, observers, self.scheme, sizes, span, chunk, lanes, kept))
 
 
 def aligned(size: int) -> NDArray[np.float64]:

@@ -118,16 +118,6 @@ def opened(sizes: Any, state: Any) -> Any:
     return Run(*kept, s.share, s.metric, s.scales, room)
 
 
-def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
-    """Return the model as schemes see it."""
-    return System(sizes, rhs, confirm, accept, turn, residual, tangent)
-
-
-def scheme_of(scheme: Any) -> Any:
-    """Return the record of a scheme."""
-    return scheme
-
-
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
     """Set `rate` to the rate of the state `y`."""
     if system.rhs(t, y, run.p, run.w, run.iw, rate) != 0:
@@ -160,33 +150,22 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
-def integrate(
-    rhs: Any,
-    confirm: Any,
-    accept: Any,
-    turn: Any,
-    residual: Any,
-    tangent: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    state: Any,
-    outputs: Any,
-) -> int:
+def integrate(functions: Any, scheme: Any, sizes: Any, span: Any, state: Any, outputs: Any) -> int:
     """Integrate from where a run stands to the end of `span`.
 
     Parameters
     ----------
-    rhs, confirm, accept, turn, residual, tangent : emitted functions
-        Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
+    functions : tuple of emitted functions
+        Of the model, see `symgen.runtime.abi`, in the order of a `System`; 0 in place of those that a scheme does not
+        call.
     scheme : record
-        The scheme; a `HuntingScheme` where events are looked for.
+        The scheme.
     sizes : Sizes
         Of the model.
     span : Span
         How far, and by which steps.
     state : State
-        What the run keeps; changed.
+        What the run keeps, a `HuntingState` where events are looked for; changed.
     outputs : Outputs
         Written, from output ``control[OUTPUTS]`` on.
 
@@ -195,8 +174,8 @@ def integrate(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = joined(sizes, rhs, confirm, accept, turn, residual, tangent, scheme)
-    run, scheme, outputs = opened(sizes, state), bare(scheme_of(scheme)), bare(outputs)
+    system = System(sizes, *functions)
+    run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
     clock, control, times, until = run.clock, run.control, outputs.times, span.until
     asked, width = times.shape[0], sizes.width
     tiny = 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
@@ -351,7 +330,7 @@ def integrate(
     return abi.DONE
 
 
-#: Where functions of the model stand in a loop's arguments, with their types.
+#: The functions of a model that loops take, in the order of a `System`, with their types.
 FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
     **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
@@ -361,7 +340,7 @@ RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def kinds_of(functions: Iterable[str]) -> list[Any]:
-    """Return the types of a loop's first arguments, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
+    """Return the types of the functions that a loop takes, those beside ``rhs``, ``confirm`` and ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
     return [kind if name in called else types.int64 for name, kind in FUNCTIONS.items()]
 
@@ -380,7 +359,7 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     **meanings
         What the names of the frame mean.
     """
-    signature = types.int64(*kinds_of(functions), scheme, SIZES, SPAN, STATE, OUTPUTS)
+    signature = types.int64(types.Tuple(kinds_of(functions)), scheme, SIZES, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

@@ -27,7 +27,7 @@ from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
 from symgen.runtime.redundancy import never
-from symgen.runtime.rows import begin_run, end_run, take
+from symgen.runtime.rows import OBSERVERS, begin_run, end_run, take
 from symgen.runtime.scales import still
 from symgen.runtime.schemes import explicit
 from symgen.runtime.vectors import combine, copied
@@ -235,26 +235,15 @@ def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: An
 
 
 def run_lanes(
-    rhs: Any,
-    lanes_accept: Any,
-    rates: Any,
-    rates_confirm: Any,
-    accept: Any,
-    observe: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    chunk: Any,
-    state: Any,
-    kept: Any,
+    functions: Any, observers: Any, scheme: Any, sizes: Any, span: Any, chunk: Any, state: Any, kept: Any
 ) -> int:
     """Run the selected rows, `LANES` at a time; rows that are left to single runs get the code `LEFT`.
 
     Parameters
     ----------
-    rhs, lanes_accept : emitted functions
-        For lanes; the other ones are those of single runs.
-    rates, rates_confirm, accept, observe, scheme, sizes, span, chunk, kept
+    functions : tuple of emitted functions
+        For lanes, as `symgen.runtime.frame.integrate` takes them.
+    observers, scheme, sizes, span, chunk, kept
         As for `symgen.runtime.rows.run_rows`.
     state : State
         As for single runs; its working memory, `room_of_lanes` numbers, holds the lanes.
@@ -291,7 +280,7 @@ def run_lanes(
             return int(g)
         load(chunk, wide, state, g, z, gauges)
         copied(width, z, y)
-        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == abi.STOPPED:
+        if integrate(functions, scheme, wide, span, lanes, outputs) == abi.STOPPED:
             return int(g)
         steps, evaluations = control[abi.STEPS], control[abi.EVALUATIONS]
         for lane in range(min(_L, total - g)):
@@ -303,7 +292,7 @@ def run_lanes(
             take(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(abi.DONE, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
+            end_run(abi.DONE, r, observers, sizes, chunk, state, kept)
     return int(total)
 
 
@@ -314,8 +303,10 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
-_FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
+_I = types.int64
+_FUNCTIONS = types.Tuple((LANE_FUNCTION, _I, LANE_FUNCTION, _I, _I, _I))
 lane_runs = compiled_loop(
-    *(__name__, "lane_runs", run_lanes, types.int64(*_FUNCTIONS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
+    *(__name__, "lane_runs", run_lanes),
+    types.int64(_FUNCTIONS, OBSERVERS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN),
     integrate=Instances(_MEANINGS).of(integrate),
 )

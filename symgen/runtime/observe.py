@@ -25,26 +25,18 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@from_its_source(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+@from_its_source(
+    _I8(types.Tuple((abi.RHS, abi.RHS, abi.ACCEPT)), SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A)
+)
 def observe_rates(
-    rates: Any,
-    confirm: Any,
-    accept: Any,
-    sizes: Any,
-    outputs: Any,
-    count: int,
-    p: Any,
-    w: Any,
-    iw: Any,
-    observed: Any,
-    room: Any,
+    functions: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any
 ) -> int:
     """Evaluate v' and lambda at outputs.
 
     Parameters
     ----------
-    rates, confirm, accept : emitted functions
-        See `symgen.runtime.abi`.
+    functions : tuple of emitted functions
+        ``rates`` or ``rhs``, ``confirm`` and ``accept`` (`symgen.runtime.abi`).
     sizes : Sizes
         Of the model.
     outputs : Outputs
@@ -58,7 +50,7 @@ def observe_rates(
     room : Array
         Working memory for two states.
     """
-    y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
+    (rates, confirm, accept), y, rate = functions, part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
     for k in range(count):
         output(sizes, outputs, k, y, w)
         accept(outputs.times[k], y, p, w, iw)  # brings along what a method remembers: a partition, a basis

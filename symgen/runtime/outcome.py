@@ -103,9 +103,9 @@ class Motion:
             # the rows that stand for all follow the position
             for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
                 here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
-                observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                observe_rates(functions, sizes, here, count, p, w, iw, seen, room)
                 if choose is not None and choose(w):
-                    observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                    observe_rates(functions, sizes, here, count, p, w, iw, seen, room)
         return observed
 
     @property

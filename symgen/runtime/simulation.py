@@ -185,7 +185,7 @@ class Simulation:
         while True:
             if entry is None:
                 span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
-                arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
+                arguments = self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
                 code = int(self.setup.loop(*arguments))
             else:
                 if not entry.has(self.scheme, self.span):
@@ -329,8 +329,9 @@ class Simulation:
         from symgen.runtime.entry import entry_of
 
         setup = self.setup
-        records = self.scheme, self.sizes, self.span, self.state, self._nothing
-        entry = entry_of(setup.loop, (*setup.functions, *records))
+        entry = entry_of(
+            setup.loop, (setup.functions, self.scheme, self.sizes, self.span, self.state, self._nothing)
+        )
         if entry is not None and self._copied:
             entry.copy_before(self.snapshot.copy, self.snapshot.front)
         return entry
@@ -349,8 +350,8 @@ class Simulation:
 
         if len(self.spec.pieces) > 1:
             self.changes.prepare()
-        records = self.scheme, self.sizes, self.span, self.state, outputs
-        if (entry := entry_of(self.setup.loop, (*self.setup.functions, *records))) is not None:
+        arguments = self.setup.functions, self.scheme, self.sizes, self.span, self.state, outputs
+        if (entry := entry_of(self.setup.loop, arguments)) is not None:
             self._prepared = outputs, entry
             return
         kept = self.save()
