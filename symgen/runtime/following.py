@@ -131,6 +131,7 @@ class Followed(NamedTuple):
 COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
 STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
 FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
+_FUNCTIONS = types.Tuple((abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
 
 
 @jit()
@@ -190,10 +191,9 @@ def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) ->
 
 
 @jit()
-def attempt(
-    geometry: Any, measure: Any, move: Any, spread: Any, observe: Any, course: Any, h: float, p: Any, w: Any, stand: Any
-) -> int:
+def attempt(functions: Any, course: Any, h: float, p: Any, w: Any, stand: Any) -> int:
     """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
+    geometry, measure, move, spread, observe = functions
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
     t = stand.clock[TIME] + h
     for i in range(nq):
@@ -311,29 +311,14 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     return sign
 
 
-@from_its_source(
-    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K))
-)
-def follow(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    spread: Any,
-    observe: Any,
-    course: Any,
-    times: Any,
-    p: Any,
-    w: Any,
-    stand: Any,
-    followed: Any,
-    control: Any,
-) -> int:
+@from_its_source(_I8(_FUNCTIONS, COURSE, _A, _A, _A, STAND, FOLLOWED, _K))
+def follow(functions: Any, course: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
     """Follow a motion through times that all lie behind, or all before, the time at which the loop stands.
 
     Parameters
     ----------
-    geometry, measure, move, spread, observe : emitted functions
-        See `symgen.runtime.abi`.
+    functions : tuple of emitted functions
+        ``geometry``, ``measure``, ``move``, ``spread`` and ``observe`` (`symgen.runtime.abi`).
     course : Course
         Of the model.
     times : Array, shape (k,)
@@ -357,7 +342,7 @@ def follow(
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
     clock, counts = stand.clock, stand.counts
     if counts[SETTLED] == 0:
-        code = attempt(geometry, measure, move, spread, observe, course, 0.0, p, w, stand)
+        code = attempt(functions, course, 0.0, p, w, stand)
         if code != DONE:
             return int(code)
         take(course, 0.0, w, stand)
@@ -373,7 +358,7 @@ def follow(
             whole = abs(h) <= clock[REACH]
             h = h if whole else math.copysign(clock[REACH], h)
             clock[TRIED] = target if whole else clock[TIME] + h
-            code = attempt(geometry, measure, move, spread, observe, course, h, p, w, stand)
+            code = attempt(functions, course, h, p, w, stand)
             if code == SINGULAR:
                 return SINGULAR
             if code != DONE:

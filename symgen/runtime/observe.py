@@ -25,9 +25,7 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@from_its_source(
-    _I8(types.Tuple((abi.RHS, abi.RHS, abi.ACCEPT)), SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A)
-)
+@from_its_source(_I8(types.Tuple((abi.RHS, abi.RHS, abi.ACCEPT)), SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
 def observe_rates(
     functions: Any, sizes: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any
 ) -> int:

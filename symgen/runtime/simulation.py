@@ -329,9 +329,7 @@ class Simulation:
         from symgen.runtime.entry import entry_of
 
         setup = self.setup
-        entry = entry_of(
-            setup.loop, (setup.functions, self.scheme, self.sizes, self.span, self.state, self._nothing)
-        )
+        entry = entry_of(setup.loop, (setup.functions, self.scheme, self.sizes, self.span, self.state, self._nothing))
         if entry is not None and self._copied:
             entry.copy_before(self.snapshot.copy, self.snapshot.front)
         return entry
