@@ -254,23 +254,24 @@ class Kernel:
         sources = {*picked[::2].tolist()}
         observes = e.JOINT in sources
         observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
-        observers = *rates_of(law), law.accept, observe if observes else observe_nothing
+        rates, seen = rates_of(law), observe if observes else observe_nothing
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
-        redundant, layout = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0), model.assembly.layout
+        redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
         dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        places = layout.entries, layout.constants, layout.alone, dense
-        chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
+        chunk = ChunkRecord(
+            selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, model.compiled.layout, dense
+        )
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            if model.lanes.run(observers, sizes, span, chunk, state, kept) < len(selected):
+            if model.lanes.run((*rates, law.accept, seen), sizes, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
-        loop, setup = self.integrator.rows(recipe.spec.adaptive), model.setup
-        done = loop(setup.functions, observers, setup.scheme, sizes, span, chunk, state, kept)
+        loop, of_model = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions[:3], *rates, seen)
+        done = loop(of_model, model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
     def _kept(self, info: ModelInfo, width: int | None) -> Kept:

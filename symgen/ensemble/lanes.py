@@ -52,7 +52,11 @@ class LaneRuns:
 
         Parameters
         ----------
-        observers, sizes, span, chunk, state, kept
+        observers : tuple
+            What single runs call at outputs: rates and their confirmation, ``accept``, ``observe``.
+        sizes : Sizes
+            Of the model.
+        span, chunk, state, kept
             As for `symgen.runtime.rows.run_rows`.
 
         Returns
@@ -65,8 +69,7 @@ class LaneRuns:
         info, law = self.compiled.info, self.compiled.law_module
         lengths = len(state.p), len(state.w), info.windings, self.n_times
         lanes = state._replace(room=aligned(room_of_lanes(info.ny, self.scheme.stages, *lengths)))
-        functions = law.rhs, 0, law.accept, 0, 0, 0
-        return int(lane_runs(functions, observers, self.scheme, sizes, span, chunk, lanes, kept))
+        return int(lane_runs((sizes, law.rhs, law.accept, *observers), self.scheme, span, chunk, lanes, kept))
 
 
 def aligned(size: int) -> NDArray[np.float64]:

@@ -118,9 +118,10 @@ class Assembly:
         (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
         scratch = self.compiled.scratch()
         compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
-        functions, flat = tuple(compiled_form(f) for f in self._functions), Asked(*(array.ravel() for array in asked))
+        of_model = self.layout, *(compiled_form(f) for f in self._functions)
+        flat = Asked(*(array.ravel() for array in asked))
         work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
-        done = int(start(functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
+        done = int(start(of_model, Instant(ys, ps, ws), flat, work, selected, control))
         self._judge(now.w, asked.summary)
         return done
 
@@ -137,7 +138,7 @@ class Assembly:
                 form = plain_form
             work = new_work(self.layout, len(now.w))
             try:
-                form(close_row)(tuple(form(f) for f in functions), self.layout, now, asked, work)
+                form(close_row)((self.layout, *(form(f) for f in functions)), now, asked, work)
             except (ArithmeticError, ValueError):
                 asked.summary[e.START] = e.UNDEFINED
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis])

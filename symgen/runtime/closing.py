@@ -166,10 +166,7 @@ def mask_redundant(closing: Any, layout: Any, now: Any, work: Any) -> int:
 @exact()
 def _rank(layout: Any, w: Any, work: Any) -> int:
     """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
-    places, room = (layout.jacobian, layout.gauge, -1), work.numbers
-    return int(
-        farthest(layout.m, layout.nv, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room)
-    )
+    return int(farthest(layout, layout.nv, layout.m, SKIP, 0, w, work.numbers))
 
 
 @exact()
@@ -182,10 +179,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
     if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
-        places = layout.jacobian, layout.gauge, -1, mask
-        choose_rows(
-            m, layout.nv, m - count, layout.entries, layout.constants, layout.alone, *places, here, work.numbers
-        )
+        choose_rows(layout, m - count, 0, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]
         closing.geometry(layout.t, now.y, now.p, now.w)

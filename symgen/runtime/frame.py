@@ -150,18 +150,16 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
-def integrate(functions: Any, scheme: Any, sizes: Any, span: Any, state: Any, outputs: Any) -> int:
+def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
     """Integrate from where a run stands to the end of `span`.
 
     Parameters
     ----------
-    functions : tuple of emitted functions
-        Of the model, see `symgen.runtime.abi`, in the order of a `System`; 0 in place of those that a scheme does not
-        call.
+    model : tuple
+        What a `System` is made of: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 in place of
+        those that the scheme does not call.
     scheme : record
         The scheme.
-    sizes : Sizes
-        Of the model.
     span : Span
         How far, and by which steps.
     state : State
@@ -174,10 +172,10 @@ def integrate(functions: Any, scheme: Any, sizes: Any, span: Any, state: Any, ou
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = System(sizes, *functions)
-    run, scheme, outputs = opened(sizes, state), bare(scheme), bare(outputs)
-    clock, control, times, until = run.clock, run.control, outputs.times, span.until
-    asked, width = times.shape[0], sizes.width
+    system = System(*model)
+    sizes, scheme, outputs = system.sizes, bare(scheme), bare(outputs)
+    run, until, times, width = opened(sizes, state), span.until, outputs.times, sizes.width
+    clock, control, asked = run.clock, run.control, times.shape[0]
     tiny = 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
     if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
@@ -330,7 +328,7 @@ def integrate(functions: Any, scheme: Any, sizes: Any, span: Any, state: Any, ou
     return abi.DONE
 
 
-#: The functions of a model that loops take, in the order of a `System`, with their types.
+#: The functions of a `System` with their types.
 FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
     **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
@@ -340,9 +338,9 @@ RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def kinds_of(functions: Iterable[str]) -> list[Any]:
-    """Return the types of the functions that a loop takes, those beside ``rhs``, ``confirm`` and ``accept`` by name."""
+    """Return the types of what a `System` is made of, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
-    return [kind if name in called else types.int64 for name, kind in FUNCTIONS.items()]
+    return [SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())]
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
@@ -359,7 +357,7 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     **meanings
         What the names of the frame mean.
     """
-    signature = types.int64(types.Tuple(kinds_of(functions)), scheme, SIZES, SPAN, STATE, OUTPUTS)
+    signature = types.int64(types.Tuple(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

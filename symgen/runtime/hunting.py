@@ -20,7 +20,7 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, State, System, record
+from symgen.runtime.records import OUTPUTS, SPAN, STATE, Run, State, System, record
 from symgen.runtime.vectors import copied
 
 Array = NDArray[np.float64]
@@ -119,7 +119,7 @@ def with_events(loop: Any) -> Any:
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
         kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
-        signature = types.int64(types.Tuple(kinds), scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS)
+        signature = types.int64(types.Tuple(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
         _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]

@@ -96,16 +96,16 @@ class Motion:
         from symgen.runtime.observe import observe_rates
 
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
-        functions, iw = (*rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        model, iw = (sizes, *rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None
         for first, last, p in self.parameters:
             # the rows that stand for all follow the position
             for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
                 here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
-                observe_rates(functions, sizes, here, count, p, w, iw, seen, room)
+                observe_rates(model, here, count, p, w, iw, seen, room)
                 if choose is not None and choose(w):
-                    observe_rates(functions, sizes, here, count, p, w, iw, seen, room)
+                    observe_rates(model, here, count, p, w, iw, seen, room)
         return observed
 
     @property

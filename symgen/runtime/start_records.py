@@ -162,5 +162,6 @@ WORK = types.NamedTuple((*(_A,) * 8, _I, _I), Work)
 SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
 #: turns(geometry, measure, layout, now, work): see `symgen.runtime.turning`.
 TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
-#: What `symgen.runtime.starting.close_row` calls: the functions of a `Closing`, then the choice of turns and ``rhs``.
-FUNCTIONS = types.Tuple((abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))
+#: A model as `symgen.runtime.starting.close_row` takes it: its layout, what a `Closing` is made of, the choice of turns
+#: and ``rhs``.
+MODEL = types.Tuple((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))

@@ -17,13 +17,13 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.closing import close_positions, complete_velocities, find_undetermined, is_light, mask_redundant
 from symgen.runtime.exact import exact
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, speed_of, weigh_rows
-from symgen.runtime.start_records import ASKED, FUNCTIONS, INSTANT, LAYOUT, WORK, Asked, Closing, Instant
+from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
 
 _A, _I = types.float64[::1], types.int64[::1]
 
 
-@exact(types.int64(FUNCTIONS, LAYOUT, INSTANT, ASKED, WORK), once=True)
-def close_row(functions: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
+@exact(types.int64(MODEL, INSTANT, ASKED, WORK), once=True)
+def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
     Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
@@ -32,10 +32,10 @@ def close_row(functions: Any, layout: Any, now: Any, asked: Any, work: Any) -> i
 
     Parameters
     ----------
-    functions : tuple of functions
-        ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted ones
+    model : tuple
+        A `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted ones
         (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`.
-    layout, now, asked, work : Layout, Instant, Asked, Work
+    now, asked, work : Instant, Asked, Work
         See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
         and masses are prepared, the pivots are 1.
 
@@ -44,7 +44,7 @@ def close_row(functions: Any, layout: Any, now: Any, asked: Any, work: Any) -> i
     int
         `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
     """
-    geometry, measure, move, spread, solve, turns, rhs = functions
+    layout, geometry, measure, move, spread, solve, turns, rhs = model
     closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, asked.summary
     code = check_numbers(layout, now, summary)
     if code == e.ASSEMBLED:
@@ -130,15 +130,13 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
     return int(e.ASSEMBLED)
 
 
-@exact(types.int64(FUNCTIONS, LAYOUT, INSTANT, ASKED, WORK, _I, _I))
-def close_rows(
-    functions: Any, layout: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any
-) -> int:
+@exact(types.int64(MODEL, INSTANT, ASKED, WORK, _I, _I))
+def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 
     Parameters
     ----------
-    functions, layout, work
+    model, work
         As for `close_row`.
     all_of_now, all_asked : Instant, Asked
         Of all rows, one behind the other.
@@ -152,7 +150,9 @@ def close_rows(
     int
         Rows that were worked on: all of them, unless the run was stopped.
     """
+    layout, geometry, measure, move, spread, solve, turns, rhs = model
     layout, work, (ys, ps, ws), rest = bare(layout), bare(work), bare(all_of_now), bare(all_asked)
+    model = layout, geometry, measure, move, spread, solve, turns, rhs
     n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2
     runs = ys.shape[0] // ny
     n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs
@@ -163,7 +163,7 @@ def close_rows(
         now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
         asked = Asked(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
-        close_row(functions, layout, now, asked, work)
+        close_row(model, now, asked, work)
     return int(selected.shape[0])
 
 
