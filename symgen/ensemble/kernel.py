@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -16,7 +16,6 @@ from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
-from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
 from symgen.runtime.integrator import Integrator, Setup
@@ -217,20 +216,15 @@ class Kernel:
             now.w[r], summary[r] = self._closed(model, rows, r).close(now.y[r], rows.v[r], now.p[r])
         return True
 
-    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Closed:
+    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Assembly:
         """Return the start of a row that holds joint coordinates."""
         recipe, values = self.recipe, rows.joints[r]
         at = {
             rate: {k: float(x) for (k, r), x in zip(recipe.joints, values, strict=True) if r == rate} for rate in (0, 1)
         }
-        held = Held(
-            coordinates={i: float(x) for (i, _), x in zip(recipe.held, rows.targets[r], strict=True)},
-            velocities={j: float(rows.v[r, j]) for j in recipe.kept},
-            fixed=recipe.fixed,
-            joints=at[0],
-            rates=at[1],
-        )
-        return Closed(model.compiled, held, recipe.strict, recipe.spare is not None)
+        coordinates = {i: float(x) for i, x in zip(recipe.held, rows.targets[r], strict=True)}
+        velocities = {j: float(rows.v[r, j]) for j in recipe.kept}
+        return replace(model.assembly, held=Held(coordinates, velocities, recipe.fixed, at[0], at[1]))
 
     def _advance(
         self,
@@ -288,17 +282,11 @@ class Kernel:
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
+        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed)
         carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
         prepared = _Prepared(
             compiled=compiled,
-            assembly=Assembly.of(
-                compiled,
-                held=[coordinate for coordinate, _ in recipe.held],
-                kept=recipe.kept,
-                fixed=recipe.fixed,
-                strict=recipe.strict,
-                ask_light=recipe.spare is not None,
-            ),
+            assembly=Assembly(compiled, held, recipe.strict, recipe.spare is not None),
             p=p,
             setup=setup,
             device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
@@ -315,7 +303,7 @@ class Kernel:
             prepared.tree = TreeRows.of(recipe.singly.mechanism, carried[0], compiled, carried[1], values)
             prepared.on_tree = _Prepared(
                 compiled=carried[1],
-                assembly=prepared.tree.assembly,
+                assembly=Assembly(carried[1]),
                 p=values,
                 setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
                 picks=prepared.tree.picks(recipe.quantities),

@@ -33,7 +33,6 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
 from symgen.run_setup import give_inputs, stops
-from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -241,7 +240,7 @@ def make_ensemble(
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),
         quantities=kept,
-        held=tuple((index, velocity_of(index, compiled.info)) for index in held.coordinates.values()),
+        held=tuple(held.coordinates.values()),
         kept=held.kept,
         fixed=held.fixed,
         strict=chosen.strict,

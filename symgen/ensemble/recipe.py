@@ -149,8 +149,8 @@ class Recipe:
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
     measures, spare_measures : Measures or None
         How what no loop leaves is worked out, beside `module` and `spare`; None where nothing of it is kept.
-    held : tuple of (int, int)
-        Coordinate and velocity indices of the coordinates that rows hold.
+    held : tuple of int
+        Coordinates that rows hold.
     kept, fixed : tuple of int
         Velocities that are not projected, and velocities whose coordinates stay as they are described.
     strict : bool
@@ -169,7 +169,7 @@ class Recipe:
     spec: RunSpec
     method_parameters: Mapping[str, float]
     quantities: tuple[Quantity, ...]
-    held: tuple[tuple[int, int], ...]
+    held: tuple[int, ...]
     kept: tuple[int, ...]
     fixed: tuple[int, ...]
     strict: bool
