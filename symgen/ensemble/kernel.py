@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.ensemble.recipe import Module, Recipe
+from symgen.ensemble.lanes import run_in_lanes
+from symgen.ensemble.recipe import Code, Recipe
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
@@ -26,7 +27,7 @@ from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
-    from symgen.ensemble.lanes import LaneRuns
+    from symgen.ensemble.measures import Measures
     from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
     from symgen.ensemble.tree_rows import TreeRows
@@ -85,14 +86,15 @@ class Results:
 
 @dataclass
 class _Prepared:
-    """A compiled model with the arrays that describe it to the loops."""
+    """A compiled model with the arrays that describe it to the loops, and what else there is of its law."""
 
     compiled: CompiledModel
     assembly: Assembly
     p: Array
     setup: Setup
+    measures: Measures | None = None
     device: DeviceRuns | None = None
-    lanes: LaneRuns | None = None
+    lanes: CompiledModel | None = None
     single: SingleRuns | None = None
     tree: TreeRows | None = None
     on_tree: _Prepared | None = None
@@ -123,14 +125,13 @@ class Kernel:
     @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.module.load(), self.recipe.other, self.recipe.trees[0])
+        return self._prepare(self.recipe.first)
 
     def spare(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                given = self.recipe.spare_other, self.recipe.trees[1]
-                self._spare = self._prepare(self.recipe.spare.load(), *given)
+                self._spare = self._prepare(self.recipe.spare)
             return self._spare
 
     def warm(self) -> None:
@@ -197,10 +198,9 @@ class Kernel:
         redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
-        measures = recipe.measures if model is self.first else recipe.spare_measures
-        if measures is not None:
+        if model.measures is not None:
             given = recipe.behind, recipe.times, selected, out.values, ps, ws
-            out.behind[selected] = measures.work_out(model.compiled, *given)
+            out.behind[selected] = model.measures.work_out(model.compiled, *given)
         return True
 
     def _close(
@@ -261,7 +261,8 @@ class Kernel:
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            if model.lanes.run((*rates, law.accept, seen), sizes, span, chunk, state, kept) < len(selected):
+            observed = sizes, *rates, law.accept, seen
+            if run_in_lanes(model.lanes, observed, model.setup.scheme, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
         loop, of_model = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions[:3], *rates, seen)
@@ -277,20 +278,22 @@ class Kernel:
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
         return Kept(new_outputs(info, times), observed)
 
-    def _prepare(self, compiled: CompiledModel, other: Module | None, tree: Module | None) -> _Prepared:
-        info, recipe = compiled.info, self.recipe
+    def _prepare(self, code: Code) -> _Prepared:
+        compiled, recipe = code.module.load(), self.recipe
+        other, info = None if code.other is None else code.other.load(), compiled.info
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
         held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed)
-        carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
+        carried = None if recipe.tree is None or code.tree is None else (recipe.tree.mechanism, code.tree.load())
         prepared = _Prepared(
             compiled=compiled,
             assembly=Assembly(compiled, held, recipe.strict, recipe.spare is not None),
             p=p,
             setup=setup,
-            device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
-            lanes=self._lane_runs(other.load(), setup) if other is not None and recipe.target == "lanes" else None,
+            measures=code.measures,
+            device=self._device_runs(other, setup) if other is not None and recipe.target == "cuda" else None,
+            lanes=other if recipe.target == "lanes" else None,
         )
         if recipe.singly is not None:
             from symgen.ensemble.singly import SingleRuns
@@ -310,11 +313,6 @@ class Kernel:
                 width=prepared.tree.width,
             )
         return prepared
-
-    def _lane_runs(self, compiled: CompiledModel, setup: Setup) -> LaneRuns:
-        from symgen.ensemble.lanes import LaneRuns
-
-        return LaneRuns(compiled, setup.scheme, len(self.recipe.spec.times))
 
     def _device_runs(self, compiled: CompiledModel, setup: Setup) -> DeviceRuns:
         from symgen.ensemble.device import DeviceRuns, need_of

@@ -235,7 +235,7 @@ def make_ensemble(
     singly = Singly(mechanism, events, ends, knots) if parts or joint else None
     made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
     recipe = Recipe(
-        **made.modules(target, joint, not parts and are_plain(kept, compiled.info)),
+        **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),
