@@ -176,22 +176,21 @@ class Measures:
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
-        from symgen.runtime.measured_rows import Left, gradient_rows, measure_rows
+        from symgen.runtime.measured_rows import Left, measure_rows
+        from symgen.runtime.rows import observe_nothing
 
         info, runs, n_times = compiled.info, len(ps), len(times)
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = seen.shape[1] - len(self.reads)
         left = Left(times, selected, seen, first, places, ps, ws, y, rates)
-        numbers = np.zeros((runs, n_times, self.length))
-        if self.length:
-            measure_rows(self.function, left, numbers)
+        numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
+        entries = np.zeros((runs if self.joints else 0, n_times, size))
+        function = self.function if self.length else observe_nothing
+        measure_rows((left, function, compiled.model.geometry), numbers, at, entries)
         sides = [q for q in asked if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}
         tables: dict[int, Array] = {}
         if self.joints:
-            at, size = info.sections["jacobian"]
-            entries = np.zeros((runs, n_times, size))
-            gradient_rows(compiled.model.geometry, left, at, entries)
             tables = self._reactions(info, selected, seen[:, first:], numbers, entries)
         found = np.empty((len(selected), len(asked), n_times))
         for i, q in enumerate(asked):
