@@ -10,7 +10,7 @@ so does what runs it: a processor, vector lanes, a CUDA device.
 | `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
-| `look`, `remember`, `recall` | system, run; run; run | what events need (`symgen.runtime.hunting`) |
+| `attend` | system, run, doing | what events need beside (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 
 `attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
 the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
@@ -62,6 +62,9 @@ DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
 #: next attempt being one to take; that the state ends in an event; and that there is little room for more notes.
 NOTHING, SEEK, TAKE, MEET, CROWD = range(5)
+#: What else is done for events: look on which side of each of them a run begins; keep what emitted functions remember
+#: at the beginning of a step; have that again.
+LOOK, REMEMBER, RECALL = range(CROWD + 1, CROWD + 4)
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -94,16 +97,8 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return NOTHING
 
 
-def look(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, see on which side of each of them a run begins."""
-
-
-def remember(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, keep what emitted functions remember at the beginning of a step."""
-
-
-def recall(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, have that again."""
+def attend(system: Any, run: Any, doing: int) -> None:
+    """Do nothing: where events are looked for, see on which side of each a run begins, or what `REMEMBER` is for."""
 
 
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
@@ -198,7 +193,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
         prepare(system, scheme, span, run)
-        look(system, run)
+        attend(system, run, LOOK)
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
     hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
@@ -211,7 +206,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             crossing = False
         # -- the step to try
         if EVENTS and hunting != NOTHING:
-            recall(system, run)
+            attend(system, run, RECALL)
             h = run.hunt[TRY]
             following = whole_following if h == whole else t + h
         elif ADAPTIVE:
@@ -235,7 +230,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             h, following = times[out] - t, times[out]
         elif hunting == NOTHING:
             whole, whole_following = h, following
-            remember(system, run)
+            attend(system, run, REMEMBER)
         probing = between or hunting == SEEK
         note_step(run, h)
         error = attempt(system, scheme, span, run, t, following, h, probing)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, frame, searching
 from symgen.runtime.bare import bare, part
+from symgen.runtime.frame import LOOK
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
@@ -78,20 +79,14 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return decided(system, run, following, h, hunting, run.trial)
 
 
-def look(system: Any, run: Any) -> None:
-    """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
-    evaluate_events(system, run, run.clock[abi.TIME], run.y)
-    decided(system, run, run.clock[abi.TIME], 0.0, searching.LOOK, run.y)
+def attend(system: Any, run: Any, doing: int) -> None:
+    """Look on which side of each event a run begins, or goes on after its velocities or parameters were changed.
 
-
-def remember(system: Any, run: Any) -> None:
-    """Keep what emitted functions remember at the beginning of a step."""
-    decided(system, run, 0.0, 0.0, searching.REMEMBER, run.y)
-
-
-def recall(system: Any, run: Any) -> None:
-    """Have again what `remember` kept."""
-    decided(system, run, 0.0, 0.0, searching.RECALL, run.y)
+    Or keep what emitted functions remember at the beginning of a step (`REMEMBER`), or have that again (`RECALL`).
+    """
+    if doing == LOOK:
+        evaluate_events(system, run, run.clock[abi.TIME], run.y)
+    decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
 def notes_at(n: int, width: int, nw: int) -> int:
@@ -101,7 +96,7 @@ def notes_at(n: int, width: int, nw: int) -> int:
 
 _MEANINGS: dict[str, Any] = {
     **{"EVENTS": True, "opened": opened, "System": HuntingSystem},
-    **{"happened": happened, "look": look, "remember": remember, "recall": recall},
+    **{"happened": happened, "attend": attend},
 }
 _loops: dict[Any, Any] = {}
 
