@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,7 +107,8 @@ class _Item:
         if self.turns:
             at = dict(info.spins)[self.index]
             return replace(held, fixed=(*held.fixed, at, at + 1, at + 2))
-        return replace(held, **{self.field: {**getattr(held, self.field), self.index: value}})
+        changed: dict[str, Any] = {self.field: {**getattr(held, self.field), self.index: value}}
+        return replace(held, **changed)
 
     def read(self, attempt: Attempt, q: Array, info: ModelInfo) -> float:
         """Return its value in a start that was tried; `q` are the described coordinates."""
