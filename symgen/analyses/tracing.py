@@ -168,7 +168,8 @@ class Tracer:
     def follow(self, times: Array, seen: Any) -> int:
         """Enter the compiled loop."""
         here = np.ascontiguousarray(times)
-        return int(f.follow(*self.functions, self.course, here, self.p, self.w, self.stand, seen, self.control))
+        model = self.course, *self.functions
+        return int(f.follow(model, here, self.p, self.w, self.stand, seen, self.control))
 
     def _shortened(self, code: int) -> bool:
         """Take shorter steps from here on; return whether they are long enough to be taken."""

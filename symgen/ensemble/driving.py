@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -91,10 +91,6 @@ class Driving:
                 pieces = () if driven is None else pieces_of(driven, values, self.until)
                 pieces = merged(pieces, pieces_at(kinks_between(self.kinks, values, self.until)))
             found.append(pieces)
-            _set(row, parameters, found[-1][0].values if found[-1] else {})
+            for name, value in (pieces[0].values if pieces else {}).items():
+                row[parameters.index(name)] = value
         return replace(rows, pieces=tuple(found))
-
-
-def _set(row: Any, parameters: Sequence[str], values: Mapping[str, float]) -> None:
-    for name, value in values.items():
-        row[parameters.index(name)] = value

@@ -3,23 +3,23 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.ensemble.recipe import Module, Recipe
+from symgen.ensemble.lanes import run_in_lanes
+from symgen.ensemble.recipe import Code, Recipe
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.assembler import Assembly
-from symgen.runtime.assembly import Closed
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
-from symgen.runtime.integrator import Integrator, Setup, law_functions
+from symgen.runtime.integrator import Integrator, Setup
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
 from symgen.runtime.run import RunSpec
@@ -27,7 +27,7 @@ from symgen.runtime.start_records import Asked, Instant
 
 if TYPE_CHECKING:
     from symgen.ensemble.device import DeviceRuns
-    from symgen.ensemble.lanes import LaneRuns
+    from symgen.ensemble.measures import Measures
     from symgen.ensemble.singly import SingleRuns
     from symgen.ensemble.starts import Rows
     from symgen.ensemble.tree_rows import TreeRows
@@ -86,14 +86,15 @@ class Results:
 
 @dataclass
 class _Prepared:
-    """A compiled model with the arrays that describe it to the loops."""
+    """A compiled model with the arrays that describe it to the loops, and what else there is of its law."""
 
     compiled: CompiledModel
     assembly: Assembly
     p: Array
     setup: Setup
+    measures: Measures | None = None
     device: DeviceRuns | None = None
-    lanes: LaneRuns | None = None
+    lanes: CompiledModel | None = None
     single: SingleRuns | None = None
     tree: TreeRows | None = None
     on_tree: _Prepared | None = None
@@ -124,14 +125,13 @@ class Kernel:
     @cached_property
     def first(self) -> _Prepared:
         """The model as it is run first."""
-        return self._prepare(self.recipe.module.load(), self.recipe.other, self.recipe.trees[0])
+        return self._prepare(self.recipe.first)
 
     def spare(self) -> _Prepared | None:
         """Return the model with the solver for light bodies, loaded when the first such run is met."""
         with self._lock:
             if self._spare is None and self.recipe.spare is not None:
-                given = self.recipe.spare_other, self.recipe.trees[1]
-                self._spare = self._prepare(self.recipe.spare.load(), *given)
+                self._spare = self._prepare(self.recipe.spare)
             return self._spare
 
     def warm(self) -> None:
@@ -198,10 +198,9 @@ class Kernel:
         redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
-        measures = recipe.measures if model is self.first else recipe.spare_measures
-        if measures is not None:
+        if model.measures is not None:
             given = recipe.behind, recipe.times, selected, out.values, ps, ws
-            out.behind[selected] = measures.work_out(model.compiled, *given)
+            out.behind[selected] = model.measures.work_out(model.compiled, *given)
         return True
 
     def _close(
@@ -217,20 +216,15 @@ class Kernel:
             now.w[r], summary[r] = self._closed(model, rows, r).close(now.y[r], rows.v[r], now.p[r])
         return True
 
-    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Closed:
+    def _closed(self, model: _Prepared, rows: Rows, r: int) -> Assembly:
         """Return the start of a row that holds joint coordinates."""
         recipe, values = self.recipe, rows.joints[r]
         at = {
             rate: {k: float(x) for (k, r), x in zip(recipe.joints, values, strict=True) if r == rate} for rate in (0, 1)
         }
-        held = Held(
-            coordinates={i: float(x) for (i, _), x in zip(recipe.held, rows.targets[r], strict=True)},
-            velocities={j: float(rows.v[r, j]) for j in recipe.kept},
-            fixed=recipe.fixed,
-            joints=at[0],
-            rates=at[1],
-        )
-        return Closed(model.compiled, held, recipe.strict, recipe.spare is not None)
+        coordinates = {i: float(x) for i, x in zip(recipe.held, rows.targets[r], strict=True)}
+        velocities = {j: float(rows.v[r, j]) for j in recipe.kept}
+        return replace(model.assembly, held=Held(coordinates, velocities, recipe.fixed, at[0], at[1]))
 
     def _advance(
         self,
@@ -254,25 +248,25 @@ class Kernel:
         sources = {*picked[::2].tolist()}
         observes = e.JOINT in sources
         observe = model.compiled.model.observe if model.width is None else model.compiled.model.bodies
-        seen = *rates_of(law), observe if observes else observe_nothing
+        rates, seen = rates_of(law), observe if observes else observe_nothing
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
         picks = picked, values.reshape(-1), summary.reshape(-1)
-        redundant, layout = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0), model.assembly.layout
+        redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
         dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        places = layout.entries, layout.constants, layout.alone, dense
-        chunk = ChunkRecord(selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, *places)
+        chunk = ChunkRecord(
+            selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, model.compiled.layout, dense
+        )
         room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
-            ends = *seen[:2], law.accept, seen[2]
-            if model.lanes.run(ends, sizes, span, chunk, state, kept) < len(selected):
+            observed = sizes, *rates, law.accept, seen
+            if run_in_lanes(model.lanes, observed, model.setup.scheme, span, chunk, state, kept) < len(selected):
                 return False
             chunk = chunk._replace(selected=selected[summary[selected, e.CODE] == abi.LEFT])
-        loop = self.integrator.rows(recipe.spec.adaptive)
-        functions = law_functions(model.compiled)[:3]
-        done = loop(*functions, *seen, model.setup.scheme, sizes, span, chunk, state, kept)
+        loop, of_model = self.integrator.rows(recipe.spec.adaptive), (sizes, *model.setup.functions[:3], *rates, seen)
+        done = loop(of_model, model.setup.scheme, span, chunk, state, kept)
         return bool(done == len(chunk.selected))
 
     def _kept(self, info: ModelInfo, width: int | None) -> Kept:
@@ -284,26 +278,22 @@ class Kernel:
         observed = Observed(np.zeros((k, info.nv)), np.zeros((k, info.m)), np.zeros((k, rows)))
         return Kept(new_outputs(info, times), observed)
 
-    def _prepare(self, compiled: CompiledModel, other: Module | None, tree: Module | None) -> _Prepared:
-        info, recipe = compiled.info, self.recipe
+    def _prepare(self, code: Code) -> _Prepared:
+        compiled, recipe = code.module.load(), self.recipe
+        other, info = None if code.other is None else code.other.load(), compiled.info
         defaults = {q.name: 0.0 for q in info.parameters}
         p = compiled.parameter_array(defaults, recipe.method_parameters)
         setup = self.integrator.setup(compiled, recipe.spec, compiled.scratch())
-        carried = None if recipe.tree is None or tree is None else (recipe.tree.mechanism, tree.load())
+        held = Held(dict.fromkeys(recipe.held, 0.0), dict.fromkeys(recipe.kept, 0.0), recipe.fixed)
+        carried = None if recipe.tree is None or code.tree is None else (recipe.tree.mechanism, code.tree.load())
         prepared = _Prepared(
             compiled=compiled,
-            assembly=Assembly.of(
-                compiled,
-                held=[coordinate for coordinate, _ in recipe.held],
-                kept=recipe.kept,
-                fixed=recipe.fixed,
-                strict=recipe.strict,
-                ask_light=recipe.spare is not None,
-            ),
+            assembly=Assembly(compiled, held, recipe.strict, recipe.spare is not None),
             p=p,
             setup=setup,
-            device=self._device_runs(other.load(), setup) if other is not None and recipe.target == "cuda" else None,
-            lanes=self._lane_runs(other.load(), setup) if other is not None and recipe.target == "lanes" else None,
+            measures=code.measures,
+            device=self._device_runs(other, setup) if other is not None and recipe.target == "cuda" else None,
+            lanes=other if recipe.target == "lanes" else None,
         )
         if recipe.singly is not None:
             from symgen.ensemble.singly import SingleRuns
@@ -316,18 +306,13 @@ class Kernel:
             prepared.tree = TreeRows.of(recipe.singly.mechanism, carried[0], compiled, carried[1], values)
             prepared.on_tree = _Prepared(
                 compiled=carried[1],
-                assembly=prepared.tree.assembly,
+                assembly=Assembly(carried[1]),
                 p=values,
                 setup=self.integrator.setup(carried[1], recipe.spec, carried[1].scratch()),
                 picks=prepared.tree.picks(recipe.quantities),
                 width=prepared.tree.width,
             )
         return prepared
-
-    def _lane_runs(self, compiled: CompiledModel, setup: Setup) -> LaneRuns:
-        from symgen.ensemble.lanes import LaneRuns
-
-        return LaneRuns(compiled, setup.scheme, len(self.recipe.spec.times))
 
     def _device_runs(self, compiled: CompiledModel, setup: Setup) -> DeviceRuns:
         from symgen.ensemble.device import DeviceRuns, need_of

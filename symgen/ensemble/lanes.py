@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from symgen.errors import InputError
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.records import Chunk, Kept, Sizes, Span, State, Tableau
+    from symgen.runtime.records import Chunk, Kept, Span, State, Tableau
     from symgen.runtime.run import RunSpec
 
 
@@ -29,45 +28,38 @@ def check_lanes(integrator: str, spec: RunSpec) -> None:
         raise InputError("target 'lanes'", "a constant step", f"'{integrator}' with adaptive steps", hint)
 
 
-@dataclass(frozen=True)
-class LaneRuns:
-    """Runs rows of one law, several at once.
+def run_in_lanes(
+    compiled: CompiledModel,
+    observed: tuple[Any, ...],
+    scheme: Tableau,
+    span: Span,
+    chunk: Chunk,
+    state: State,
+    kept: Kept,
+) -> int:
+    """Run the selected rows, several at once; in the summary, those that single runs have to do get the code `LEFT`.
 
     Parameters
     ----------
     compiled : CompiledModel
         Modules emitted for lanes.
-    scheme : Tableau
-        The record of the scheme.
-    n_times : int
-        Output times.
+    observed : tuple
+        The sizes of the model, and what single runs call at outputs: rates and their confirmation, ``accept``,
+        ``observe``.
+    scheme, span, chunk, state, kept
+        As for `symgen.runtime.rows.run_rows`.
+
+    Returns
+    -------
+    int
+        How many of the selected rows were worked on.
     """
+    from symgen.runtime.lanes import lane_runs, room_of_lanes
 
-    compiled: CompiledModel
-    scheme: Tableau
-    n_times: int
-
-    def run(self, functions: tuple[Any, ...], sizes: Sizes, span: Span, chunk: Chunk, state: State, kept: Kept) -> int:
-        """Run the selected rows; in the summary, those that single runs have to do get the code `LEFT`.
-
-        Parameters
-        ----------
-        functions : tuple
-            Those of single runs for what is observed: rates and their confirmation, ``accept``, ``observe``.
-        sizes, span, chunk, state, kept
-            As for `symgen.runtime.rows.run_rows`.
-
-        Returns
-        -------
-        int
-            How many of the selected rows were worked on.
-        """
-        from symgen.runtime.lanes import lane_runs, room_of_lanes
-
-        info, law = self.compiled.info, self.compiled.law_module
-        lengths = len(state.p), len(state.w), info.windings, self.n_times
-        lanes = state._replace(room=aligned(room_of_lanes(info.ny, self.scheme.stages, *lengths)))
-        return int(lane_runs(law.rhs, law.accept, *functions, self.scheme, sizes, span, chunk, lanes, kept))
+    info, law, (sizes, *observers) = compiled.info, compiled.law_module, observed
+    lengths = len(state.p), len(state.w), info.windings, len(kept.outputs.times)
+    lanes = state._replace(room=aligned(room_of_lanes(info.ny, scheme.stages, *lengths)))
+    return int(lane_runs((sizes, law.rhs, law.accept, *observers), scheme, span, chunk, lanes, kept))
 
 
 def aligned(size: int) -> NDArray[np.float64]:

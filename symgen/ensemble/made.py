@@ -7,10 +7,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from symgen.compiling.choose_tree import on_tree
 from symgen.compiling.integrals import with_integrals
 from symgen.compiling.pipeline import compile_model
 from symgen.ensemble.measures import make_measures
-from symgen.ensemble.recipe import Module, Tree
+from symgen.ensemble.recipe import Code, Module, Tree
 from symgen.tree_run import tree_code
 
 if TYPE_CHECKING:
@@ -54,8 +55,8 @@ class Made:
         """The law that is run first."""
         return self._made(self.plan.choice)
 
-    def modules(self, target: str, joint: bool, plain: bool) -> dict[str, Any]:
-        """Return what a `Recipe` has of modules.
+    def codes(self, target: str, joint: bool, plain: bool) -> dict[str, Any]:
+        """Return what a `Recipe` has of code.
 
         Parameters
         ----------
@@ -66,21 +67,17 @@ class Made:
         plain : bool
             Whether a loop over its rows leaves all that is kept.
         """
-        mechanism, plan, compiled = self.mechanism, self.plan, self.first
-        found: dict[str, Any] = {"module": Module.of(compiled), "spare": None}
-        found["measures"] = make_measures(mechanism, compiled, self.kept)
-        carried = tree_code(mechanism, plan.choice, compiled) if joint else None
-        spare_tree = None
-        if target != "cpu":
-            found["other"] = Module.of(compile_model(mechanism, plan.choice, target=target))
-        if plan.solver_is_free:
-            choice = plan.choice.given(solver="augmented")
-            light = self._made(choice)
-            found |= {"spare": Module.of(light), "spare_measures": make_measures(mechanism, light, self.kept)}
-            if joint:
-                spare_tree = Module.of(tree_code(mechanism, choice, light)[1])
-            if target == "cuda":  # the few runs with light bodies are not worth lanes of their own
-                found["spare_other"] = Module.of(compile_model(mechanism, choice, target=target))
-        if carried is not None:
-            found["tree"] = Tree(carried[0], Module.of(carried[1]), spare_tree, plain)
-        return found
+        plan, spare = self.plan, None
+        first = self._code(plan.choice, target, joint)
+        if plan.solver_is_free:  # the few runs with light bodies are not worth lanes of their own
+            spare = self._code(plan.choice.given(solver="augmented"), "cpu" if target == "lanes" else target, joint)
+        return {"first": first, "spare": spare, "tree": Tree(on_tree(self.mechanism), plain) if joint else None}
+
+    def _code(self, choice: MethodChoice, target: str, joint: bool) -> Code:
+        compiled = self.first if choice is self.plan.choice else self._made(choice)
+        return Code(
+            Module.of(compiled),
+            Module.of(compile_model(self.mechanism, choice, target=target)) if target != "cpu" else None,
+            Module.of(tree_code(self.mechanism, choice, compiled)[1]) if joint else None,
+            make_measures(self.mechanism, compiled, self.kept),
+        )

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -74,6 +75,27 @@ def _tables(acting: Acting, entries: Array, multipliers: Array) -> dict[str, Any
     return {"reactions": found, "body_reactions": acting.in_body_axes(found), "magnitudes": acting.magnitudes(found)}
 
 
+def stored(folder: str, modules: Mapping[str, tuple[str, Mapping[str, Any]]]) -> Path:
+    """Put modules that have travelled into the cache of this machine, where that has others or none; return the folder.
+
+    Parameters
+    ----------
+    folder : str
+        Its name there.
+    modules : mapping of str to (str, mapping)
+        Source and metadata of each module by its stem.
+    """
+    from symgen.store.entries import Entries
+
+    entries = Entries()
+    with entries.building(folder):
+        for stem, (source, metadata) in modules.items():
+            path = entries.path(folder, stem)
+            if entries.get(folder, stem) is None or path.read_text(encoding="utf-8") != source:
+                entries.put(folder, stem, source, metadata)
+    return path.parent
+
+
 @dataclass(frozen=True)
 class Place:
     """Where a joint acts: its first body, and which formulas are its point there and that body's centre of mass."""
@@ -119,15 +141,10 @@ class Measures:
     @cached_property
     def function(self) -> Any:
         """The compiled function of the formulas, its module put into the cache of this machine where it has none."""
-        from symgen.store.entries import Entries
         from symgen.store.modules import load_module
 
-        entries = Entries()
-        with entries.building(self.folder):
-            path = entries.path(self.folder, self.stem)
-            if entries.get(self.folder, self.stem) is None or path.read_text(encoding="utf-8") != self.source:
-                entries.put(self.folder, self.stem, self.source, self.metadata)
-        return getattr(load_module(path), NAME)
+        folder = stored(self.folder, {self.stem: (self.source, self.metadata)})
+        return getattr(load_module(folder / f"{self.stem}.py"), NAME)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: value for name, value in self.__dict__.items() if name != "function"}
@@ -159,22 +176,21 @@ class Measures:
         ps, ws : Array, shapes (runs, np), (runs, nw)
             Parameters, and scratch, which is overwritten.
         """
-        from symgen.runtime.measured_rows import Left, gradient_rows, measure_rows
+        from symgen.runtime.measured_rows import Left, measure_rows
+        from symgen.runtime.rows import observe_nothing
 
         info, runs, n_times = compiled.info, len(ps), len(times)
         y, rates, places = np.zeros(info.ny), np.zeros(info.ny), np.array(self.places, dtype=np.int64)
         first = seen.shape[1] - len(self.reads)
         left = Left(times, selected, seen, first, places, ps, ws, y, rates)
-        numbers = np.zeros((runs, n_times, self.length))
-        if self.length:
-            measure_rows(self.function, left, numbers)
+        numbers, (at, size) = np.zeros((runs, n_times, self.length)), info.sections["jacobian"]
+        entries = np.zeros((runs if self.joints else 0, n_times, size))
+        function = self.function if self.length else observe_nothing
+        measure_rows((left, function, compiled.model.geometry), numbers, at, entries)
         sides = [q for q in asked if q.source == e.SIDE]
         column = {q.name: i for i, q in enumerate(sides)}
         tables: dict[int, Array] = {}
         if self.joints:
-            at, size = info.sections["jacobian"]
-            entries = np.zeros((runs, n_times, size))
-            gradient_rows(compiled.model.geometry, left, at, entries)
             tables = self._reactions(info, selected, seen[:, first:], numbers, entries)
         found = np.empty((len(selected), len(asked), n_times))
         for i, q in enumerate(asked):

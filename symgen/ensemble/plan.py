@@ -33,7 +33,6 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
 from symgen.run_setup import give_inputs, stops
-from symgen.runtime.model_arrays import velocity_of
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -236,12 +235,12 @@ def make_ensemble(
     singly = Singly(mechanism, events, ends, knots) if parts or joint else None
     made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
     recipe = Recipe(
-        **made.modules(target, joint, not parts and are_plain(kept, compiled.info)),
+        **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),
         integrator=plan.tableau.name,
         spec=plan.spec,
         method_parameters=dict(plan.method_parameters),
         quantities=kept,
-        held=tuple((index, velocity_of(index, compiled.info)) for index in held.coordinates.values()),
+        held=tuple(held.coordinates.values()),
         kept=held.kept,
         fixed=held.fixed,
         strict=chosen.strict,

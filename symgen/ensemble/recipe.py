@@ -20,7 +20,7 @@ from symgen import __version__
 from symgen.compiling.straight_model import load_compiled
 from symgen.describe.digest import identity
 from symgen.describe.mechanism import Mechanism
-from symgen.ensemble.measures import Measures
+from symgen.ensemble.measures import Measures, stored
 from symgen.ensemble.quantities import Quantity
 from symgen.ensemble.singly import Singly
 from symgen.ir.numerics import WARN
@@ -80,17 +80,35 @@ class Module:
 
     def load(self) -> CompiledModel:
         """Return the compiled model, its modules put into the cache of this machine where that has others or none."""
-        from symgen.store.entries import Entries
-
-        entries = Entries()
-        with entries.building(self.folder):
-            shared = self.shared, (self.model[0], self.stored)
-            for stem, (source, metadata) in (*self.parts.items(), shared, (self.stem, self.law)):
-                path = entries.path(self.folder, stem)
-                if entries.get(self.folder, stem) is None or path.read_text(encoding="utf-8") != source:
-                    entries.put(self.folder, stem, source, metadata)
-        folder = entries.path(self.folder, self.shared).parent
+        folder = stored(self.folder, {**self.parts, self.shared: (self.model[0], self.stored), self.stem: self.law})
         return load_compiled(folder, self.stem, self.model[1], self.law[1], shared=self.shared)
+
+
+@dataclass(frozen=True)
+class Code:
+    """What runs take of code, for one solver of their law.
+
+    Attributes
+    ----------
+    module : Module
+        What closes starts, and is run where nothing else is.
+    other : Module or None
+        The same law for the target of the recipe, where that is not ``cpu``.
+    tree : Module or None
+        What is run in joint coordinates.
+    measures : Measures or None
+        How what no loop leaves is worked out; None where nothing of it is kept.
+    """
+
+    module: Module
+    other: Module | None = None
+    tree: Module | None = None
+    measures: Measures | None = None
+
+    @property
+    def described(self) -> list[Any]:
+        """What it computes, as JSON can express it."""
+        return [x if x is None else x.described for x in (self.module, self.other, self.tree, self.measures)]
 
 
 @dataclass(frozen=True)
@@ -101,25 +119,17 @@ class Tree:
     ----------
     mechanism : Mechanism
         With its tree.
-    module, spare : Module, Module or None
-        Beside those of the recipe, which close starts.
     plain : bool
         Whether a loop over rows leaves all that is kept.
     """
 
     mechanism: Mechanism
-    module: Module
-    spare: Module | None
     plain: bool
 
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [
-            identity(self.mechanism),
-            self.plain,
-            *(m if m is None else m.described for m in (self.module, self.spare)),
-        ]
+        return [identity(self.mechanism), self.plain]
 
 
 @dataclass(frozen=True)
@@ -128,9 +138,9 @@ class Recipe:
 
     Attributes
     ----------
-    module : Module
+    first : Code
         What is run.
-    spare : Module or None
+    spare : Code or None
         The law with another solver, for runs whose bodies turn out too light for the first; None where the solver was
         asked for.
     integrator : str
@@ -147,10 +157,8 @@ class Recipe:
         What runs need that are done one by one.
     joints : tuple of (int, int)
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
-    measures, spare_measures : Measures or None
-        How what no loop leaves is worked out, beside `module` and `spare`; None where nothing of it is kept.
-    held : tuple of (int, int)
-        Coordinate and velocity indices of the coordinates that rows hold.
+    held : tuple of int
+        Coordinates that rows hold.
     kept, fixed : tuple of int
         Velocities that are not projected, and velocities whose coordinates stay as they are described.
     strict : bool
@@ -159,29 +167,23 @@ class Recipe:
         From `code_identity`: what computes it.
     target : {"cpu", "lanes", "cuda"}
         What runs it.
-    other, spare_other : Module or None
-        The same laws for that target, where it is not ``cpu``; starts are closed by the first ones.
     """
 
-    module: Module
-    spare: Module | None
+    first: Code
+    spare: Code | None
     integrator: str
     spec: RunSpec
     method_parameters: Mapping[str, float]
     quantities: tuple[Quantity, ...]
-    held: tuple[tuple[int, int], ...]
+    held: tuple[int, ...]
     kept: tuple[int, ...]
     fixed: tuple[int, ...]
     strict: bool
     code: str
     target: str = "cpu"
-    other: Module | None = None
-    spare_other: Module | None = None
     tree: Tree | None = None
     singly: Singly | None = None
     joints: tuple[tuple[int, int], ...] = ()
-    measures: Measures | None = None
-    spare_measures: Measures | None = None
 
     @property
     def times(self) -> Array:
@@ -199,9 +201,9 @@ class Recipe:
         return np.array([(q.source, q.column) for q in self.columns], dtype=np.int64).ravel()
 
     @property
-    def trees(self) -> tuple[Module | None, Module | None]:
-        """The modules in joint coordinates: the first one, and that for light bodies."""
-        return (None, None) if self.tree is None else (self.tree.module, self.tree.spare)
+    def measures(self) -> Measures | None:
+        """How what no loop leaves is worked out in first runs."""
+        return self.first.measures
 
     @property
     def further(self) -> int:
@@ -237,14 +239,12 @@ class Recipe:
     def digest(self) -> str:
         """Digest of all this, the same in every process."""
         spec = {f.name: getattr(self.spec, f.name) for f in fields(self.spec) if f.name != "times"}
-        modules = [m if m is None else m.described for m in (self.module, self.spare, self.other, self.spare_other)]
-        measures = [m if m is None else m.described for m in (self.measures, self.spare_measures)]
         text = json.dumps(
             [
-                *(modules, self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
+                *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
-                *(self.strict, self.code, measures, self.joints),
-                *(x if x is None else x.described for x in (self.tree, self.singly)),
+                *(self.strict, self.code, self.joints),
+                *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.singly)),
             ],
             sort_keys=True,
         )

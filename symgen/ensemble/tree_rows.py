@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.runtime import ensemble_abi as e
-from symgen.runtime.assembler import Assembly
 from symgen.runtime.exact import compiled_form
 from symgen.runtime.start_records import Instant
 from symgen.runtime.starting import prepare_rows
@@ -60,15 +59,12 @@ class TreeRows:
         Parameters of the second, those of a row left out.
     carrying : Carrying
         Where what stands.
-    assembly : Assembly
-        Of the second.
     """
 
     bodies: CompiledModel
     compiled: CompiledModel
     p: Array
     carrying: Carrying
-    assembly: Assembly
 
     @classmethod
     def of(
@@ -83,7 +79,7 @@ class TreeRows:
         bodies, compiled, p
             See the class.
         """
-        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled), Assembly.of(compiled))
+        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled))
 
     @property
     def width(self) -> int:
@@ -126,7 +122,7 @@ class TreeRows:
         places = self.carrying._replace(runs=runs, dependent=np.zeros(runs, dtype=np.int64))
         room = np.zeros(info.ny + info.observed + starts[2].shape[1])
         functions = self.bodies.model.observe, model.geometry
-        compiled_form(settle_rows)(*functions, self.assembly.layout, of_bodies, flat, places, room, selected, control)
+        compiled_form(settle_rows)(*functions, self.compiled.layout, of_bodies, flat, places, room, selected, control)
         return (ys, ps, ws), places.dependent[selected] == 0
 
     def turn(self, quantities: Sequence[Quantity], selected: Integers, starts: Array, values: Array) -> None:

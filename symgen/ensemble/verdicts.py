@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +14,7 @@ from symgen.result.result import FAILED, OK
 from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.events import gathered
-from symgen.runtime.outcome import RankEvent
+from symgen.runtime.outcome import Ended, RankEvent
 from symgen.runtime.run import end_reason
 from symgen.runtime.start_words import refusal
 
@@ -28,34 +27,6 @@ Array = NDArray[np.float64]
 
 #: Status of a run that has not been done.
 NOT_RUN = "not run"
-
-
-@dataclass(frozen=True)
-class Row:
-    """What the loop of one run of an ensemble saw, for `symgen.result.judge.judge_alone`.
-
-    Attributes
-    ----------
-    code, reason : int, str
-        How it ended, see `symgen.runtime.abi`, and why in words.
-    smallest_pivot : float
-        Of D D^T with scaled rows, over the run.
-    rank_events, rank_event_count : tuple of RankEvent, int
-        Passages near singular positions that were noted, and how many there were.
-    energy_jump, energy_scale : float
-        Largest jump of the energy, and what it is compared with [J].
-    counters : mapping
-        As a result has them.
-    """
-
-    code: int
-    reason: str
-    smallest_pivot: float
-    rank_events: tuple[RankEvent, ...]
-    rank_event_count: int
-    energy_jump: float
-    energy_scale: float
-    counters: Mapping[str, int]
 
 
 def column(summary: Array, name: str) -> Array:
@@ -128,7 +99,7 @@ def _jumped(summary: Array) -> NDArray[np.bool_]:
     return np.asarray(column(summary, "energy_jump") > 0.5 * JUMP_FAILURE * column(summary, "energy_scale"))
 
 
-def _seen(row: Array, spec: RunSpec) -> Row:
+def _seen(row: Array, spec: RunSpec) -> Ended:
     numbers = {name: float(row[k]) for k, name in enumerate(e.SUMMARY)}
     code, scale = int(numbers["code"]), numbers["energy_scale"]
     names = ("position_violation", "velocity_violation", "length_scale", "speed_scale")
@@ -136,7 +107,7 @@ def _seen(row: Array, spec: RunSpec) -> Row:
     events: tuple[RankEvent, ...] = ()
     if numbers["rank_event_count"] > 0.0:
         events = (RankEvent(numbers["narrowest_time"], np.nan, 0, numbers["narrowest_pivot"]),)
-    return Row(
+    return Ended(
         code=code,
         reason=end_reason(code, numbers["end"], tuple(numbers[name] for name in names), scale, attempts, spec),
         smallest_pivot=numbers["smallest_pivot"],

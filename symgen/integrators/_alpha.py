@@ -71,6 +71,5 @@ class AlphaFamily:
         slopes[-1] = 1.0
         scheme = Alpha(*self.coefficients(values), slopes, numbers, plan)
         functions = law_functions(compiled, "turn", "residual", "tangent")
-        width, nv, n = padded(compiled.info.ny), compiled.info.nv, compiled.law.unknowns
-        memory, room = alpha.memory(width, nv, n), alpha.room(width, nv, n)
+        memory, room = alpha.memory(padded(compiled.info.ny), compiled.info.nv, compiled.law.unknowns)
         return Setup(alpha.constant, functions, scheme, spec.step, memory, room)

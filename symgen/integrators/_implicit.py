@@ -106,6 +106,6 @@ class ImplicitTableau:
         )
         functions = law_functions(compiled, "residual", "tangent")
         width, n, more = padded(info.ny), compiled.law.unknowns, info.ny - info.nq - info.nv
-        memory, room = implicit.memory(n, more), implicit.room(width, n, more, s, self.together)
+        memory, room = implicit.memory(width, n, more, s, self.together)
         step = spec.step if spec.step is not None else 1e-4 * spec.until
         return Setup(ImplicitTableau.loop(self, spec.adaptive), functions, scheme, step, memory, room)

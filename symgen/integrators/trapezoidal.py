@@ -42,8 +42,8 @@ class Trapezoidal(ImplicitTableau):
         forces = np.stack(constraint_forces(pattern), axis=1).ravel()
         place = law.parameter_offset + [name for name, _ in law.parameters].index("penalty")
         scheme = Projection(place, np.zeros(sources), numbers, plan, forces, mass_diagonal(pattern))
-        functions, width = law_functions(compiled, "turn", "residual", "tangent"), padded(info.ny)
-        memory, room = projected.memory(width, info.m), projected.room(width, info.nv, info.m, law.unknowns)
+        functions = law_functions(compiled, "turn", "residual", "tangent")
+        memory, room = projected.memory(padded(info.ny), info.nv, info.m, law.unknowns)
         return Setup(projected.constant, functions, scheme, spec.step, memory, room)
 
 

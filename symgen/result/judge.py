@@ -8,19 +8,17 @@ not ok unless a second run with finer steps agrees.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from symgen.ir.numerics import WARN
 from symgen.result.result import FAILED, INTERRUPTED, OK, UNVERIFIED
 from symgen.runtime import abi
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
-
     from symgen.plan import Plan
     from symgen.result.agreement import Settled
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.outcome import Outcome, RankEvent
+    from symgen.runtime.outcome import Ended, Outcome
 
 #: Energy jump over a passage, as a fraction of the energy in motion: from the first on a warning, the second failure.
 JUMP_WARNING, JUMP_FAILURE = 1e-6, 1e-3
@@ -34,42 +32,6 @@ class Verdict:
     reason: str | None
     warnings: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-
-
-class Seen(Protocol):
-    """What the loop of a run saw: an `Outcome`, or a row of an ensemble."""
-
-    @property
-    def code(self) -> int:
-        """How it ended; see `symgen.runtime.abi`."""
-
-    @property
-    def reason(self) -> str:
-        """Why, in words; empty at its end."""
-
-    @property
-    def smallest_pivot(self) -> float:
-        """Of D D^T with scaled rows."""
-
-    @property
-    def rank_events(self) -> Sequence[RankEvent]:
-        """Passages near singular positions."""
-
-    @property
-    def rank_event_count(self) -> int:
-        """How many there were, listed or not."""
-
-    @property
-    def energy_jump(self) -> float:
-        """Largest change of the energy error over a passage [J]."""
-
-    @property
-    def energy_scale(self) -> float:
-        """Energy in motion [J]."""
-
-    @property
-    def counters(self) -> Mapping[str, int]:
-        """Counts of the emitted code by name."""
 
 
 def judge(plan: Plan, compiled: CompiledModel, outcome: Outcome, second: Settled | None, asked: bool) -> Verdict:
@@ -94,12 +56,12 @@ def judge(plan: Plan, compiled: CompiledModel, outcome: Outcome, second: Settled
     return replace(verdict, status=OK, reason=None) if asked else verdict
 
 
-def judge_alone(outcome: Seen, position_correction: bool) -> Verdict:
+def judge_alone(outcome: Ended, position_correction: bool) -> Verdict:
     """Judge a run by what its loop saw, without a second opinion.
 
     Parameters
     ----------
-    outcome : Seen
+    outcome : Ended
         What the loop gave.
     position_correction : bool
         Whether the method corrects positions.
@@ -126,16 +88,16 @@ def judge_alone(outcome: Seen, position_correction: bool) -> Verdict:
     return verdict
 
 
-def _passed(outcome: Seen) -> bool:
+def _passed(outcome: Ended) -> bool:
     return outcome.rank_event_count > 0 or outcome.smallest_pivot < WARN
 
 
-def relative_jump(outcome: Seen) -> float:
+def relative_jump(outcome: Ended) -> float:
     """Return the largest change of the energy error over a passage, as a fraction of the energy in motion."""
     return outcome.energy_jump / outcome.energy_scale if outcome.energy_jump > 0.0 else 0.0
 
 
-def _warnings(outcome: Seen, passed: bool) -> list[str]:
+def _warnings(outcome: Ended, passed: bool) -> list[str]:
     warnings = []
     if passed:
         count = outcome.rank_event_count
@@ -164,12 +126,12 @@ def _velocity_warning(plan: Plan, outcome: Outcome) -> list[str]:
     ]
 
 
-def _jumped(outcome: Seen) -> str:
+def _jumped(outcome: Ended) -> str:
     share = relative_jump(outcome)
     return f"energy jumped by {outcome.energy_jump:.3g} J, {share:.2g} of the energy in motion, over a singular passage"
 
 
-def _when(outcome: Seen) -> str:
+def _when(outcome: Ended) -> str:
     """Return time and pivot of the narrowest passage."""
     if not outcome.rank_events:
         return f": smallest pivot {outcome.smallest_pivot:.2g}"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from symgen.runtime import abi, decisions
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.exact import compiled_form, plain_form
+from symgen.runtime.held import Held
 from symgen.runtime.joint_starts import reach
 from symgen.runtime.least_norm import dense_change, sparse_change
 from symgen.runtime.manifold import stay
@@ -24,7 +26,6 @@ from symgen.runtime.turning import choose_no_turns, choose_turns
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
-    from symgen.runtime.held import Held
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -58,47 +59,73 @@ def _marked(those: Sequence[int], count: int) -> Integers:
 
 @dataclass(frozen=True)
 class Assembly:
-    """The one start of a compiled model; where it is `strict`, one that has to be changed is refused."""
+    """The one start of a compiled model.
+
+    Attributes
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    held : Held
+        What starts keep; of many starts the values stand in what is asked of each.
+    strict : bool
+        Whether a start that has to be changed is refused.
+    ask_light : bool
+        Whether it shall be said if bodies are too light for the law's solver.
+    t : float
+        Time of the start [s].
+    branches : sequence of float
+        The angles that count turns, empty where their turns are chosen.
+    """
 
     compiled: CompiledModel
-    layout: Layout
-    strict: bool
+    held: Held = field(default_factory=Held)
+    strict: bool = False
+    ask_light: bool = False
+    t: float = 0.0
+    branches: Sequence[float] = ()
 
-    @classmethod
-    def of(
-        cls,
-        compiled: CompiledModel,
-        held: Sequence[int] = (),
-        kept: Sequence[int] = (),
-        fixed: Sequence[int] = (),
-        strict: bool = False,
-        ask_light: bool = False,
-        instant: tuple[float, Sequence[float]] = (0.0, ()),
-    ) -> Assembly:
-        """Return the start of a model.
+    @cached_property
+    def layout(self) -> Layout:
+        """The model's layout with all this."""
+        info, held, layout = self.compiled.info, self.held, self.compiled.layout
+        return layout._replace(
+            t=self.t,
+            ask_light=int(self.ask_light and hasattr(self.compiled.law_module, "confirm")),
+            kept=_marked(tuple(held.velocities), info.nv),
+            fixed=_marked(held.fixed, info.nv),
+            held=np.array([(i, velocity_of(i, info)) for i in held.coordinates], dtype=np.int64).ravel(),
+            branches=np.array(self.branches, dtype=np.float64) if len(self.branches) else layout.branches,
+        )
+
+    def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
+        """Make a state consistent, in place, with all that is held at its values; return scratch and what is told.
 
         Parameters
         ----------
-        compiled : CompiledModel
-            Model and method.
-        held, kept, fixed : sequence of int
-            Coordinates and velocities that are held, and velocities whose coordinates stay as described.
-        strict, ask_light : bool
-            Whether a start that has to be changed is refused; whether it shall be said if bodies are too light for the
-            law's solver.
-        instant : tuple of float and sequence of float
-            Time of the start [s], and the angles that count turns where their branches are known.
+        y : Array, shape (ny,)
+            Described coordinates.
+        v : Array, shape (nv,)
+            Given velocities, nan where there is none.
+        p : Array
+            Parameters.
         """
-        info, (t, branches), layout = compiled.info, instant, compiled.layout
-        layout = layout._replace(
-            t=t,
-            ask_light=int(ask_light and hasattr(compiled.law_module, "confirm")),
-            kept=_marked(kept, info.nv),
-            fixed=_marked(fixed, info.nv),
-            held=np.array([(i, velocity_of(i, info)) for i in held], dtype=np.int64).ravel(),
-            branches=np.array(branches, dtype=np.float64) if len(branches) else layout.branches,
-        )
-        return cls(compiled, layout, strict)
+        info, held = self.compiled.info, self.held
+        given, targets = v.copy(), np.array(list(held.coordinates.values()), dtype=np.float64)
+        given[list(held.velocities)] = list(held.velocities.values())
+        now, asked = Instant(y, p, self.compiled.scratch()), Asked(given, targets, np.zeros(e.N_SUMMARY))
+        if not (held.joints or held.rates):
+            self.close_one(now, asked)
+            return now.w, asked.summary
+        if self.close_joints(now, asked) != e.ASSEMBLED:
+            return now.w, asked.summary
+        found, branches = asked.summary, now.w[abi.WINDING : abi.WINDING + info.windings].tolist()
+        # from here on it is the start of a run that describes just this
+        still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
+        just_this = Held(velocities=dict.fromkeys(range(info.nv), 0.0), fixed=tuple(still))
+        now, asked = Instant(y, p, self.compiled.scratch()), Asked(given, targets[:0], np.zeros(e.N_SUMMARY))
+        replace(self, held=just_this, strict=False, branches=branches).close_one(now, asked)
+        asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]
+        return now.w, asked.summary
 
     def close_all(self, now: Instant, asked: Asked, selected: Integers, control: Integers) -> int:
         """Make the selected rows consistent, in compiled code.
@@ -118,11 +145,10 @@ class Assembly:
         (ys, ps, ws), model, law = (array.ravel() for array in now), self.compiled.model, self.compiled.law_module
         scratch = self.compiled.scratch()
         compiled_form(prepare_rows)(model.prepare, law.prepare, model.masses, scratch, ps, ws, len(now.y), selected)
-        geometry, measure, move, _, *others = self._functions
+        of_model = self.layout, *(compiled_form(f) for f in self._functions)
         flat = Asked(*(array.ravel() for array in asked))
         work, start = new_work(self.layout, now.w.shape[1]), compiled_form(close_rows)
-        functions = (compiled_form(f) for f in (geometry, measure, move, *others))
-        done = int(start(*functions, self.layout, Instant(ys, ps, ws), flat, work, selected, control))
+        done = int(start(of_model, Instant(ys, ps, ws), flat, work, selected, control))
         self._judge(now.w, asked.summary)
         return done
 
@@ -139,13 +165,13 @@ class Assembly:
                 form = plain_form
             work = new_work(self.layout, len(now.w))
             try:
-                form(close_row)(*(form(f) for f in functions), self.layout, now, asked, work)
+                form(close_row)((self.layout, *(form(f) for f in functions)), now, asked, work)
             except (ArithmeticError, ValueError):
                 asked.summary[e.START] = e.UNDEFINED
         self._judge(now.w[np.newaxis], asked.summary[np.newaxis])
         return int(asked.summary[e.START])
 
-    def close_joints(self, now: Instant, asked: Asked, held: Held) -> int:
+    def close_joints(self, now: Instant, asked: Asked) -> int:
         """Find a start in which joint coordinates are held, for `close_one` to make the start of; return how it ended.
 
         What is found stands in `now`, its velocities in `asked` as given ones.
@@ -157,7 +183,7 @@ class Assembly:
             try:
                 code = plain_form(check_numbers)(self.layout, now, asked.summary)
                 if code == e.ASSEMBLED:
-                    code = reach(self.compiled, self.layout, functions, held, now, asked)
+                    code = reach(self.compiled, self.layout, functions, self.held, now, asked)
             except (ArithmeticError, ValueError):
                 code = e.UNDEFINED
         asked.given[:] = now.y[self.layout.nq : self.layout.nq + self.layout.nv]

@@ -21,11 +21,10 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.held import Attempt, Held, contradiction
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.model_arrays import lengths_of, velocity_of
-from symgen.runtime.start_records import Asked, Instant
 from symgen.runtime.start_words import Change, changes_of, notes_of, refusal, warnings_of, without_derivative
 
 if TYPE_CHECKING:
-    from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
 
@@ -146,13 +145,13 @@ def assemble(
         determines the accelerations of a massless body.
     """
     fixed = held or Held()
-    info, y, start = compiled.info, np.zeros(compiled.info.ny), Closed(compiled, fixed, strict, ask_light, *instant)
-    y[: info.nq] = q
+    info, start = compiled.info, Assembly(compiled, fixed, strict, ask_light, *instant)
+    y = _described(info, q)
     given = np.array([np.nan if x is None else x for x in v], dtype=np.float64)
     w, summary = start.close(y, given, p)
     if summary[e.START] != e.ASSEMBLED:
         error = (
-            without_derivative(compiled, q, p) or start.contradiction(q, given, p, summary) or refusal(summary, info)
+            without_derivative(compiled, q, p) or _contradiction(start, q, given, p, summary) or refusal(summary, info)
         )
         reached = y[: info.nq] if np.all(np.isfinite(y[: info.nq])) else q
         raise error.stopped_at(reached.tolist()) if isinstance(error, AssemblyError) else error
@@ -164,95 +163,54 @@ def assemble(
         changes=changes,
         light=bool(summary[e.LIGHT]),
         warnings=()
-        if start.asked_far(q, p, w)
+        if _asked_far(start, q, p, w)
         else warnings_of(changes, info, float(w[abi.LENGTH]), moved(q, y[: info.nq]) if moved and changes else ()),
         t=instant[0],
     )
 
 
-@dataclass(frozen=True)
-class Closed:
-    """The start of a single run with what it holds, and attempts with less."""
+def _contradiction(start: Assembly, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:
+    """Return which of the things held cannot be, None where that is not why there is no start."""
+    code, info, held = int(summary[e.START]), start.compiled.info, start.held
+    if code not in (e.OPEN, e.CONTRADICTION):
+        return None
 
-    compiled: CompiledModel
-    held: Held
-    strict: bool = False
-    ask_light: bool = False
-    t: float = 0.0
-    windings: Sequence[float] = ()
+    def tried(less: Held, y: Array, given: Array) -> tuple[Array, Array]:
+        return replace(start, held=less, strict=False, ask_light=False).close(y, given, p.copy())
 
-    def close(self, y: Array, v: Array, p: Array) -> tuple[Array, Array]:
-        """Make a state consistent, in place; return scratch and what is said of the start.
+    def attempt(less: Held) -> Attempt:
+        y, given = _described(info, q), v.copy()
+        if code == e.OPEN:
+            given[:] = np.nan
+        given[list(held.velocities)] = np.nan
+        w, found = tried(less, y, given)
+        with np.errstate(all="ignore"):
+            return Attempt(int(found[e.START]), y, joint_values(start.compiled, start.t, y, p, w.copy()))
 
-        Parameters
-        ----------
-        y : Array, shape (ny,)
-            Described coordinates.
-        v : Array, shape (nv,)
-            Given velocities, nan where there is none.
-        p : Array
-            Parameters.
-        """
-        compiled, held, info = self.compiled, self.held, self.compiled.info
-        given, w = v.copy(), compiled.scratch()
-        given[list(held.velocities)] = list(held.velocities.values())
-        targets = np.array(list(held.coordinates.values()), dtype=np.float64)
-        asked = Asked(given, targets, np.zeros(e.N_SUMMARY))
-        places = tuple(held.coordinates), tuple(held.velocities), held.fixed
-        now, instant = Instant(y, p, w), (self.t, self.windings)
-        assembly = Assembly.of(compiled, *places, self.strict, self.ask_light, instant)
-        if held.joints or held.rates:
-            if assembly.close_joints(now, asked, held) != e.ASSEMBLED:
-                return now.w, asked.summary
-            found, branches = asked.summary.copy(), w[abi.WINDING : abi.WINDING + info.windings].copy()
-            # from here on it is the start of a run that describes just this
-            still = {*held.fixed, *(velocity_of(i, info) for i in held.coordinates)}
-            there = self.t, branches.tolist()
-            assembly = Assembly.of(compiled, (), range(info.nv), tuple(still), False, self.ask_light, there)
-            asked, now = Asked(given, targets[:0], np.zeros(e.N_SUMMARY)), Instant(y, p, compiled.scratch())
-            assembly.close_one(now, asked)
-            asked.summary[[e.START_MOVED, e.START_VELOCITIES]] = found[[e.START_MOVED, e.START_VELOCITIES]]
-        else:
-            assembly.close_one(now, asked)
-        return now.w, asked.summary
+    def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
+        if all_of_it.joints:
+            return []
+        y = _described(info, q)
+        y[list(all_of_it.coordinates)] = list(all_of_it.coordinates.values())
+        still = (*all_of_it.fixed, *(velocity_of(i, info) for i in all_of_it.coordinates))
+        w, _ = tried(Held(fixed=still), y, np.full(info.nv, np.nan))
+        residual = np.abs(start.compiled.section(w, "residual"))
+        order = [i for i in np.argsort(-residual) if residual[i] > decisions.MOVED * float(w[abi.LENGTH])]
+        return [(info.rows[i].name, info.rows[i].unit, float(residual[i])) for i in order]
 
-    def contradiction(self, q: Array, v: Array, p: Array, summary: Array) -> AssemblyError | None:
-        """Return which of the things held cannot be, None where that is not why there is no start."""
-        code, info, held = int(summary[e.START]), self.compiled.info, self.held
-        if code not in (e.OPEN, e.CONTRADICTION):
-            return None
+    return contradiction(info, held, q, attempt, open_rows, code)
 
-        def attempt(less: Held) -> Attempt:
-            y, given = np.zeros(info.ny), v.copy()
-            y[: info.nq] = q
-            if code == e.OPEN:
-                given[:] = np.nan
-            given[list(held.velocities)] = np.nan
-            w, found = replace(self, held=less, strict=False, ask_light=False).close(y, given, p.copy())
-            with np.errstate(all="ignore"):
-                return Attempt(int(found[e.START]), y, joint_values(self.compiled, self.t, y, p, w.copy()))
 
-        def open_rows(all_of_it: Held) -> list[tuple[str, str, float]]:
-            if all_of_it.joints:
-                return []
-            y, given = np.zeros(info.ny), np.full(info.nv, np.nan)
-            y[: info.nq] = q
-            y[list(all_of_it.coordinates)] = list(all_of_it.coordinates.values())
-            still = (*all_of_it.fixed, *(velocity_of(i, info) for i in all_of_it.coordinates))
-            w, _ = replace(self, held=Held(fixed=still), strict=False, ask_light=False).close(y, given, p.copy())
-            residual = np.abs(self.compiled.section(w, "residual"))
-            order = [i for i in np.argsort(-residual) if residual[i] > decisions.MOVED * float(w[abi.LENGTH])]
-            return [(info.rows[i].name, info.rows[i].unit, float(residual[i])) for i in order]
+def _asked_far(start: Assembly, q: Array, p: Array, w: Array) -> bool:
+    """Whether positions were asked for that are far from the described ones, so that others have to follow."""
+    info, held, y = start.compiled.info, start.held, _described(start.compiled.info, q)
+    values = joint_values(start.compiled, start.t, y, p, w.copy()) if held.joints else y
+    asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
+    asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
+    limits = {"m": decisions.FAR * float(w[abi.LENGTH]), "rad": decisions.FAR_TURNED}
+    return any(not abs(change) <= limits[unit] for unit, change in asked)
 
-        return contradiction(info, held, q, attempt, open_rows, code)
 
-    def asked_far(self, q: Array, p: Array, w: Array) -> bool:
-        """Whether positions were asked for that are far from the described ones, so that others have to follow."""
-        info, held, length = self.compiled.info, self.held, float(w[abi.LENGTH])
-        y = np.zeros(info.ny)
-        y[: info.nq] = q
-        values = joint_values(self.compiled, self.t, y, p, w.copy()) if held.joints else y
-        asked = [(info.coordinates[i].unit, x - q[i]) for i, x in held.coordinates.items()]
-        asked += [(info.joint_coordinates[k].unit, x - values[2 * k]) for k, x in held.joints.items()]
-        limits = {"m": decisions.FAR * length, "rad": decisions.FAR_TURNED}
-        return any(not abs(change) <= limits[unit] for unit, change in asked)
+def _described(info: ModelInfo, q: Array) -> Array:
+    """Return a state at rest with some coordinates."""
+    return np.concatenate([q, np.zeros(info.ny - info.nq)])

@@ -1,8 +1,6 @@
 """Pieces of a start, for one run: positions closed, velocities completed, what is redundant or undetermined found.
 
-What all of them take: ``geometry``, ``measure``, ``move``, ``spread``, ``rhs`` are emitted functions
-(`symgen.runtime.abi`), where ``geometry`` comes before ``measure`` and ``spread`` at the same state; `solve` is one of
-`symgen.runtime.least_norm`; `layout`, `now`, `work` are records of `symgen.runtime.start_records`.
+What they take are records of `symgen.runtime.start_records`: `closing`, `layout`, `now` and `work`.
 """
 
 from __future__ import annotations
@@ -23,9 +21,7 @@ from symgen.runtime.start_records import Instant
 
 
 @exact()
-def close_positions(
-    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, work: Any
-) -> bool:
+def close_positions(closing: Any, layout: Any, now: Any, work: Any) -> bool:
     """Close positions by the shortest changes, of coordinates with a scale of 0 none; return whether they are closed.
 
     D, nu and the angles that count turns are then those of the closed positions; if not, Phi is that of the last ones.
@@ -33,7 +29,7 @@ def close_positions(
     y, p, w, right, x = now.y, now.p, now.w, work.right, work.x
     best, stalled = math.inf, 0
     for _ in range(decisions.POSITION_STEPS):
-        geometry(layout.t, y, p, w)
+        closing.geometry(layout.t, y, p, w)
         square = 0.0
         for i in range(layout.m):
             right[i] = -w[layout.residual + i]
@@ -44,20 +40,20 @@ def close_positions(
         if not math.isfinite(size) or stalled >= decisions.POSITION_STALLS:
             return False
         if layout.windings > 0:  # may leave something else in the section of Phi
-            measure(layout.t, y, p, w)
+            closing.measure(layout.t, y, p, w)
         rounding = decisions.ROUNDING * length * (layout.m if layout.m > 1 else 1)
         if size <= rounding or (stalled >= decisions.CLOSED_STALLS and size < decisions.CLOSED * length):
             return True
-        solve(spread, layout, now, work)
+        closing.solve(closing.spread, layout, now, work)
         longest = size_of_change(layout, w, x)
         # far from closed, a full Newton step can turn bodies by several radians
-        _shift(move, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
-    geometry(layout.t, y, p, w)
+        _shift(closing, layout, y, w, x, decisions.LONGEST_STEP / larger(longest, decisions.LONGEST_STEP))
+    closing.geometry(layout.t, y, p, w)
     return False
 
 
 @exact()
-def _shift(move: Any, layout: Any, y: Any, w: Any, change: Any, factor: float) -> None:
+def _shift(closing: Any, layout: Any, y: Any, w: Any, change: Any, factor: float) -> None:
     """Move the coordinates by a multiple of a change of the velocities."""
     if layout.nq == layout.nv:
         for j in range(layout.nv):
@@ -65,11 +61,11 @@ def _shift(move: Any, layout: Any, y: Any, w: Any, change: Any, factor: float) -
     else:
         for j in range(layout.nv):
             w[layout.change + j] = factor * change[j]
-        move(y, w)
+        closing.move(y, w)
 
 
 @exact()
-def complete_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: Any, given: Any) -> int:
+def complete_velocities(closing: Any, layout: Any, now: Any, work: Any, given: Any) -> int:
     """Set the velocities: those that are given are kept, the others are the smallest that satisfy D v = nu.
 
     Where the given ones contradict the constraints, all but those to be kept are projected in the metric of the mass
@@ -85,12 +81,12 @@ def complete_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: An
     for i in range(layout.m):  # of drivers
         speed = larger(speed, row_weight(layout, w, i) * abs(w[layout.nu + i]))
     _velocity_violation(layout, now, work)
-    size = _correct_velocities(spread, solve, layout, now, work)
+    size = _correct_velocities(closing, layout, now, work)
     if size <= decisions.VELOCITIES_FIT * speed:
         # what is left is rounding: take it out without touching the given values noticeably, and those kept not at all
         for j in range(n):
             scale[j] = 0.0 if layout.kept[j] != 0 else free_scale(layout, w, j)
-        _correct_velocities(spread, solve, layout, now, work)
+        _correct_velocities(closing, layout, now, work)
         return int(e.ASSEMBLED)
     heaviest = 0.0
     for j in range(n):
@@ -100,7 +96,7 @@ def complete_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: An
         weight = w[mass + j] if w[mass + j] > least else least
         scale[j] = 0.0 if layout.kept[j] != 0 else 1.0 / math.sqrt(weight)
     for _ in range(2):
-        size = _correct_velocities(spread, solve, layout, now, work)
+        size = _correct_velocities(closing, layout, now, work)
     return int(e.PROJECTED if size <= decisions.VELOCITIES_CONTRADICT * speed else e.CONTRADICTION)
 
 
@@ -116,9 +112,9 @@ def _velocity_violation(layout: Any, now: Any, work: Any) -> float:
 
 
 @exact()
-def _correct_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: Any) -> float:
+def _correct_velocities(closing: Any, layout: Any, now: Any, work: Any) -> float:
     """Add the shortest change for nu - D v in `work.right`; return the length of what is left, which stands there."""
-    solve(spread, layout, now, work)
+    closing.solve(closing.spread, layout, now, work)
     y, x = now.y, work.x
     for j in range(layout.nv):
         y[layout.nq + j] += x[j]
@@ -126,9 +122,7 @@ def _correct_velocities(spread: Any, solve: Any, layout: Any, now: Any, work: An
 
 
 @exact()
-def mask_redundant(
-    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, work: Any
-) -> int:
+def mask_redundant(closing: Any, layout: Any, now: Any, work: Any) -> int:
     """Mask as many rows as depend on others at the start and at closed positions near it; return how many these are.
 
     Rows that depend on others at the start alone do so at a singular position, and are kept. Which rows depend on
@@ -149,15 +143,15 @@ def mask_redundant(
         if count == 0:
             break
         # a direction along the constraints, another one each time
-        _unseen(spread, solve, layout, now, work, k + 1.0)
+        _unseen(closing, layout, now, work, k + 1.0)
         size = size_of_change(layout, now.w, work.direction)
         if size < decisions.STANDSTILL:
             break
         _copy(layout, now, other)
         for i in range(m):
             other.w[layout.mask + i] = 0.0
-        _shift(move, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
-        if close_positions(geometry, measure, move, spread, solve, layout, other, work):
+        _shift(closing, layout, other.y, other.w, work.direction, decisions.PROBE_DISTANCE / size)
+        if close_positions(closing, layout, other, work):
             near = 0
             for i in range(m):
                 dependent = is_dependent(other.w[layout.pivot + i])
@@ -166,20 +160,17 @@ def mask_redundant(
             if layout.sparse == 0 and is_poor(_kept_pivot(layout, other.w)):
                 near, same = m - _rank(layout, other.w, work), False
             count = near if near < count else count
-    return int(_masked(geometry, layout, now, other, work, count, alone, same))
+    return int(_masked(closing, layout, now, other, work, count, alone, same))
 
 
 @exact()
 def _rank(layout: Any, w: Any, work: Any) -> int:
     """Return how many rows do not depend on others, where small pivots have made large what is rounding."""
-    places, room = (layout.jacobian, layout.gauge, -1), work.numbers
-    return int(
-        farthest(layout.m, layout.nv, layout.nv, layout.m, SKIP, layout.entries, layout.constants, *places, w, room)
-    )
+    return int(farthest(layout, layout.nv, layout.m, SKIP, 0, w, work.numbers))
 
 
 @exact()
-def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
+def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: int, alone: int, same: bool) -> int:
     """Mask `count` rows: of those that depend on others at the start alone, or of all; return their number."""
     m, mask = layout.m, layout.mask
     if count == 0:
@@ -188,13 +179,10 @@ def _masked(geometry: Any, layout: Any, now: Any, other: Any, work: Any, count: 
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
     if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
-        places = layout.jacobian, layout.gauge, -1, mask
-        choose_rows(
-            m, layout.nv, m - count, layout.entries, layout.constants, layout.alone, *places, here, work.numbers
-        )
+        choose_rows(layout, m - count, 0, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]
-        geometry(layout.t, now.y, now.p, now.w)
+        closing.geometry(layout.t, now.y, now.p, now.w)
         for i in range(m):  # what is left out may come first, where its pivot says nothing of the rows behind it
             if now.w[mask + i] != 0.0:
                 now.w[layout.pivot + i] = 0.0
@@ -220,7 +208,7 @@ def _kept_pivot(layout: Any, w: Any) -> float:
 
 
 @exact()
-def _unseen(spread: Any, solve: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
+def _unseen(closing: Any, layout: Any, now: Any, work: Any, seed: float) -> int:
     """Set `work.direction` to a change that D does not see, of the velocities whose scale is not 0.
 
     Returns the index of its component that is largest beside its scale.
@@ -231,7 +219,7 @@ def _unseen(spread: Any, solve: Any, layout: Any, now: Any, work: Any, seed: flo
         work.x[j] = 0.0
     if layout.m > 0:
         multiply(layout, now.w, direction, work.right)
-        solve(spread, layout, now, work)
+        closing.solve(closing.spread, layout, now, work)
     for j in range(layout.nv):
         direction[j] -= work.x[j]
         size = abs(direction[j]) / free_scale(layout, now.w, j)
@@ -240,7 +228,7 @@ def _unseen(spread: Any, solve: Any, layout: Any, now: Any, work: Any, seed: flo
 
 
 @exact()
-def find_undetermined(spread: Any, solve: Any, layout: Any, now: Any, work: Any) -> int:
+def find_undetermined(closing: Any, layout: Any, now: Any, work: Any) -> int:
     """Return a velocity that has neither mass nor a row of D to determine its rate, -1 if there is none.
 
     Accelerations are determined where M + D^T D is regular: D sees every change of the velocities without mass.
@@ -251,13 +239,13 @@ def find_undetermined(spread: Any, solve: Any, layout: Any, now: Any, work: Any)
         work.scale[j] = free_scale(layout, now.w, j) if layout.massless[j] != 0 else 0.0
     if massless == 0:
         return -1
-    largest = _unseen(spread, solve, layout, now, work, 1.0)
+    largest = _unseen(closing, layout, now, work, 1.0)
     left = abs(work.direction[largest]) / free_scale(layout, now.w, largest)
     return largest if left > decisions.UNHELD else -1
 
 
 @exact()
-def is_light(rhs: Any, geometry: Any, layout: Any, now: Any, work: Any) -> bool:
+def is_light(rhs: Any, closing: Any, layout: Any, now: Any, work: Any) -> bool:
     """Whether a pivot of S is suspiciously small although D D^T finds no row dependent; `now` is not changed."""
     other = Instant(work.y, now.p, work.w)
     _copy(layout, now, other)
@@ -265,7 +253,7 @@ def is_light(rhs: Any, geometry: Any, layout: Any, now: Any, work: Any) -> bool:
         work.counters[i] = 0
     if rhs(layout.t, other.y, other.p, other.w, work.counters, work.direction) == 0:
         return False
-    geometry(layout.t, other.y, other.p, other.w)
+    closing.geometry(layout.t, other.y, other.p, other.w)
     for i in range(layout.m):
         if other.w[layout.mask + i] == 0.0 and is_dependent(other.w[layout.pivot + i]):
             return False

@@ -253,7 +253,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         begin_run(state, starts.limits)
         k = starts.times.shape[0]
         outputs = Outputs(starts.times, results.states[:k, :, i], results.status[:k, :, i])
-        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, outputs)
+        code = integrate((sizes, rhs, confirm, accept, 0, 0, 0), scheme, span, state, outputs)
         if code == abi.DONE:  # a grid of steps meets the end up to rounding
             clock[abi.TIME] = span.until
         narrowest = events[_N_EVENT:]
@@ -265,7 +265,7 @@ def make_kernel(law: Any, model: Any, need: Need) -> Any:
         if wants_rates:
             for j in range(n_counters):
                 iw[j] = 0
-            observe_rates(rates, confirm, accept, sizes, outputs, count, p, kept, iw, observed, room)
+            observe_rates((sizes, rates, confirm, accept), outputs, count, p, kept, iw, observed, room)
         if wants_joints:
             observe_rows(observed_by, sizes, outputs, count, p, w, observed, room)
         pick(sizes, starts.picks, Kept(outputs, observed), count, gauges[abi.ENERGY_START], results.values[:, i])

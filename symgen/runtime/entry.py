@@ -17,8 +17,8 @@ from symgen.store.objects import made
 Array = NDArray[np.float64]
 #: A trampoline.
 Call = Callable[[int], int]
-#: Two of a loop's arguments, counted from the end, as before them stand functions: scheme, sizes, span, state, outputs.
-_SCHEME, _SPAN = -5, -3
+#: Two of a loop's arguments, of the model, scheme, span, state and outputs.
+_SCHEME, _SPAN = -4, -3
 
 
 class Block:
@@ -127,7 +127,7 @@ def entry_of(loop: Any, arguments: tuple[Any, ...]) -> Entry | None:
     loop : compiled function
         With a single signature.
     arguments : tuple
-        Functions of the model, scheme, sizes, span, state, outputs.
+        Model, scheme, span, state, outputs.
     """
     if hasattr(loop, "open"):
         loop.open()

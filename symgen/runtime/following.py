@@ -131,6 +131,7 @@ class Followed(NamedTuple):
 COURSE = types.NamedTuple((*(_I8,) * 11, _F, _F, _K, _A, _A), Course)
 STAND = types.NamedTuple((*(_A,) * 4, _K, *(_A,) * 5), Stand)
 FOLLOWED = types.NamedUniTuple(_M, 3, Followed)
+_MODEL = types.Tuple((COURSE, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE))
 
 
 @jit()
@@ -190,10 +191,9 @@ def refine(course: Any, spread: Any, p: Any, w: Any, values: Any, first: int) ->
 
 
 @jit()
-def attempt(
-    geometry: Any, measure: Any, move: Any, spread: Any, observe: Any, course: Any, h: float, p: Any, w: Any, stand: Any
-) -> int:
+def attempt(model: Any, h: float, p: Any, w: Any, stand: Any) -> int:
     """Try the state that lies `h` behind the present one; it is accepted where `DONE` is returned."""
+    course, geometry, measure, move, spread, observe = model
     nq, nv, y, a, z, rates, jerk = course.nq, course.nv, stand.y, stand.a, stand.trial, stand.rates, stand.jerk
     t = stand.clock[TIME] + h
     for i in range(nq):
@@ -311,31 +311,14 @@ def sign_of(course: Any, w: Any, dense: Any) -> float:
     return sign
 
 
-@from_its_source(
-    _I8(*(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, abi.OBSERVE), *(COURSE, _A, _A, _A, STAND, FOLLOWED, _K))
-)
-def follow(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    spread: Any,
-    observe: Any,
-    course: Any,
-    times: Any,
-    p: Any,
-    w: Any,
-    stand: Any,
-    followed: Any,
-    control: Any,
-) -> int:
+@from_its_source(_I8(_MODEL, _A, _A, _A, STAND, FOLLOWED, _K))
+def follow(model: Any, times: Any, p: Any, w: Any, stand: Any, followed: Any, control: Any) -> int:
     """Follow a motion through times that all lie behind, or all before, the time at which the loop stands.
 
     Parameters
     ----------
-    geometry, measure, move, spread, observe : emitted functions
-        See `symgen.runtime.abi`.
-    course : Course
-        Of the model.
+    model : tuple
+        A `Course`, then ``geometry``, ``measure``, ``move``, ``spread`` and ``observe`` (`symgen.runtime.abi`).
     times : Array, shape (k,)
         In the order in which they are met [s].
     p, w : Array
@@ -354,10 +337,12 @@ def follow(
         not finite) however short it is, `SINGULAR` (at a singular position) or `PASSING` (one lies between);
         `CHOOSE` where other rows may have to stand for all.
     """
+    course, geometry, measure, move, spread, observe = model
     course, p, w, stand, seen = bare(course), bare(p), bare(w), bare(stand), bare(followed)
+    model = course, geometry, measure, move, spread, observe
     clock, counts = stand.clock, stand.counts
     if counts[SETTLED] == 0:
-        code = attempt(geometry, measure, move, spread, observe, course, 0.0, p, w, stand)
+        code = attempt(model, 0.0, p, w, stand)
         if code != DONE:
             return int(code)
         take(course, 0.0, w, stand)
@@ -373,7 +358,7 @@ def follow(
             whole = abs(h) <= clock[REACH]
             h = h if whole else math.copysign(clock[REACH], h)
             clock[TRIED] = target if whole else clock[TIME] + h
-            code = attempt(geometry, measure, move, spread, observe, course, h, p, w, stand)
+            code = attempt(model, h, p, w, stand)
             if code == SINGULAR:
                 return SINGULAR
             if code != DONE:

@@ -10,7 +10,7 @@ so does what runs it: a processor, vector lanes, a CUDA device.
 | `renew` | system, scheme, span, run, t, changed | what the scheme keeps, after the state at `t` was accepted |
 | `interpolate` | system, scheme, span, run, outputs, t, following, h | outputs inside a step, from its ends |
 | `happened` | system, run, t, following, h, hunting | whether an event lies inside a step that is good enough |
-| `look`, `remember`, `recall` | system, run; run; run | what events need (`symgen.runtime.hunting`) |
+| `attend` | system, run, doing | what events need beside (`symgen.runtime.hunting`): `LOOK`, `REMEMBER`, `RECALL` |
 
 `attempt` returns its error estimate over the tolerance, 0 where there is none, and changes nothing that a run keeps:
 the same attempt may be made again, shorter. Whatever has to be known at the next step stands in the arrays of
@@ -62,6 +62,9 @@ DIVERGED, TOO_LARGE = -1.0, -2.0
 #: What `happened` finds: nothing; something, so that the step is tried again, shorter, to find out where; the same, the
 #: next attempt being one to take; that the state ends in an event; and that there is little room for more notes.
 NOTHING, SEEK, TAKE, MEET, CROWD = range(5)
+#: What else is done for events: look on which side of each of them a run begins; keep what emitted functions remember
+#: at the beginning of a step; have that again.
+LOOK, REMEMBER, RECALL = range(CROWD + 1, CROWD + 4)
 
 
 def prepare(system: Any, scheme: Any, span: Any, run: Any) -> None:
@@ -94,16 +97,8 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return NOTHING
 
 
-def look(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, see on which side of each of them a run begins."""
-
-
-def remember(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, keep what emitted functions remember at the beginning of a step."""
-
-
-def recall(system: Any, run: Any) -> None:
-    """Do nothing: where events are looked for, have that again."""
+def attend(system: Any, run: Any, doing: int) -> None:
+    """Do nothing: where events are looked for, see on which side of each a run begins, or what `REMEMBER` is for."""
 
 
 # -- what depends on where a loop runs ---------------------------------------------------------------------------------
@@ -116,16 +111,6 @@ def opened(sizes: Any, state: Any) -> Any:
     trial, room = part(s.room, 0, width), part(s.room, width, s.room.shape[0] - width)
     kept = s.y, trial, s.p, s.w, s.iw, s.clock, s.gauges, s.control, s.events, s.memory
     return Run(*kept, s.share, s.metric, s.scales, room)
-
-
-def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
-    """Return the model as schemes see it."""
-    return System(sizes, rhs, confirm, accept, turn, residual, tangent)
-
-
-def scheme_of(scheme: Any) -> Any:
-    """Return the record of a scheme."""
-    return scheme
 
 
 def evaluate(system: Any, run: Any, t: float, y: Any, rate: Any) -> None:
@@ -160,33 +145,20 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
-def integrate(
-    rhs: Any,
-    confirm: Any,
-    accept: Any,
-    turn: Any,
-    residual: Any,
-    tangent: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    state: Any,
-    outputs: Any,
-) -> int:
+def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> int:
     """Integrate from where a run stands to the end of `span`.
 
     Parameters
     ----------
-    rhs, confirm, accept, turn, residual, tangent : emitted functions
-        Of the model, see `symgen.runtime.abi`; 0 in place of those that a scheme does not call.
+    model : tuple
+        What a `System` is made of: the sizes of the model, then its functions (`symgen.runtime.abi`), 0 in place of
+        those that the scheme does not call.
     scheme : record
-        The scheme; a `HuntingScheme` where events are looked for.
-    sizes : Sizes
-        Of the model.
+        The scheme.
     span : Span
         How far, and by which steps.
     state : State
-        What the run keeps; changed.
+        What the run keeps, a `HuntingState` where events are looked for; changed.
     outputs : Outputs
         Written, from output ``control[OUTPUTS]`` on.
 
@@ -195,10 +167,10 @@ def integrate(
     int
         How it ended, see `symgen.runtime.abi`.
     """
-    system = joined(sizes, rhs, confirm, accept, turn, residual, tangent, scheme)
-    run, scheme, outputs = opened(sizes, state), bare(scheme_of(scheme)), bare(outputs)
-    clock, control, times, until = run.clock, run.control, outputs.times, span.until
-    asked, width = times.shape[0], sizes.width
+    system = System(*model)
+    sizes, scheme, outputs = system.sizes, bare(scheme), bare(outputs)
+    run, until, times, width = opened(sizes, state), span.until, outputs.times, sizes.width
+    clock, control, asked = run.clock, run.control, times.shape[0]
     tiny = 0.0 if ADAPTIVE else abi.SAME_TIME * span.step
     if control[abi.BEGUN] == 0:
         remember_rank(sizes, run)
@@ -221,7 +193,7 @@ def integrate(
         if ADAPTIVE:
             clock[abi.NEXT] = span.step
         prepare(system, scheme, span, run)
-        look(system, run)
+        attend(system, run, LOOK)
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
     hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
@@ -234,7 +206,7 @@ def integrate(
             crossing = False
         # -- the step to try
         if EVENTS and hunting != NOTHING:
-            recall(system, run)
+            attend(system, run, RECALL)
             h = run.hunt[TRY]
             following = whole_following if h == whole else t + h
         elif ADAPTIVE:
@@ -258,7 +230,7 @@ def integrate(
             h, following = times[out] - t, times[out]
         elif hunting == NOTHING:
             whole, whole_following = h, following
-            remember(system, run)
+            attend(system, run, REMEMBER)
         probing = between or hunting == SEEK
         note_step(run, h)
         error = attempt(system, scheme, span, run, t, following, h, probing)
@@ -351,7 +323,7 @@ def integrate(
     return abi.DONE
 
 
-#: Where functions of the model stand in a loop's arguments, with their types.
+#: The functions of a `System` with their types.
 FUNCTIONS = {
     **{"rhs": abi.RHS, "confirm": abi.RHS, "accept": abi.ACCEPT},
     **{"turn": abi.MOVE, "residual": abi.STAGE, "tangent": abi.STAGE},
@@ -361,9 +333,9 @@ RECIPES: dict[Any, tuple[tuple[Any, ...], dict[str, Any]]] = {}
 
 
 def kinds_of(functions: Iterable[str]) -> list[Any]:
-    """Return the types of a loop's first arguments, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
+    """Return the types of what a `System` is made of, functions beside ``rhs``, ``confirm`` and ``accept`` by name."""
     called = {"rhs", "confirm", "accept", *functions}
-    return [kind if name in called else types.int64 for name, kind in FUNCTIONS.items()]
+    return [SIZES, *(kind if name in called else types.int64 for name, kind in FUNCTIONS.items())]
 
 
 def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) -> Any:
@@ -380,7 +352,7 @@ def loop(module: str, name: str, scheme: Any, *functions: str, **meanings: Any) 
     **meanings
         What the names of the frame mean.
     """
-    signature = types.int64(*kinds_of(functions), scheme, SIZES, SPAN, STATE, OUTPUTS)
+    signature = types.int64(types.Tuple(kinds_of(functions)), scheme, SPAN, STATE, OUTPUTS)
     made = compiled_loop(module, name, integrate, signature, **meanings)
     RECIPES[made] = (module, name, scheme, *functions), meanings
     return made

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,69 +80,69 @@ class Attempt:
 
 @dataclass(frozen=True)
 class _Item:
-    """One thing that is held: what it is called, how it is asked of a start, and its value in a state."""
+    """One thing that is held: what it is called, its value, the field of `Held` it stands in and by what index.
+
+    An orientation has the first of its Euler parameters for an index, and its value is the angle of the turn from the
+    described one: 0.
+    """
 
     name: str
     unit: str
     value: float
-    add: Callable[[Held, float], Held]
-    read: Callable[[Attempt], float]
+    field: str
+    index: int
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is an orientation."""
+        return self.name.endswith(".orientation")
+
+    @property
+    def told(self) -> str:
+        """What is held, in words."""
+        return self.name if self.turns else f"{self.name} = {self.value:.6g} {self.unit}"
+
+    def beside(self, held: Held, value: float, info: ModelInfo) -> Held:
+        """Return what is held, and this at a value."""
+        if self.turns:
+            at = dict(info.spins)[self.index]
+            return replace(held, fixed=(*held.fixed, at, at + 1, at + 2))
+        changed: dict[str, Any] = {self.field: {**getattr(held, self.field), self.index: value}}
+        return replace(held, **changed)
+
+    def read(self, attempt: Attempt, q: Array, info: ModelInfo) -> float:
+        """Return its value in a start that was tried; `q` are the described coordinates."""
+        if self.turns:
+            described, here = (x[self.index : self.index + 4] for x in (q, attempt.y))
+            cosine = abs(float((described / np.linalg.norm(described)) @ (here / np.linalg.norm(here))))
+            return 2.0 * math.acos(min(1.0, cosine))
+        if self.field in ("joints", "rates"):
+            return float(attempt.joints[2 * self.index + (self.field == "rates")])
+        return float(attempt.y[self.index + (info.nq if self.field == "velocities" else 0)])
+
+
+def _items(held: Held, info: ModelInfo, field: str, suffix: str = "", rate: str = "") -> list[_Item]:
+    """Return what is held at values of its own in a field of `Held`."""
+    names = {"coordinates": info.coordinates, "velocities": info.velocities}.get(field, info.joint_coordinates)
+    values: Mapping[int, float] = getattr(held, field)
+    return [_Item(names[i].name + suffix, names[i].unit + rate, x, field, i) for i, x in values.items()]
 
 
 def _position_items(held: Held, info: ModelInfo, q: Array) -> list[_Item]:
-    def coordinate(i: int, value: float) -> _Item:
-        def add(h: Held, x: float) -> Held:
-            return replace(h, coordinates={**h.coordinates, i: x})
-
-        return _Item(info.coordinates[i].name, info.coordinates[i].unit, value, add, lambda a: float(a.y[i]))
-
-    def joint(k: int, value: float) -> _Item:
-        def add(h: Held, x: float) -> Held:
-            return replace(h, joints={**h.joints, k: x})
-
-        quantity = info.joint_coordinates[k]
-        return _Item(quantity.name, quantity.unit, value, add, lambda a: float(a.joints[2 * k]))
-
-    def orientation(first: int, columns: tuple[int, ...]) -> _Item:
-        described = q[first : first + 4] / np.linalg.norm(q[first : first + 4])
-
-        def angle(a: Attempt) -> float:  # of the turn from the described one
-            here = a.y[first : first + 4] / np.linalg.norm(a.y[first : first + 4])
-            return 2.0 * math.acos(min(1.0, abs(float(described @ here))))
-
-        name = info.coordinates[first].name.partition(".")[0]
-        return _Item(f"{name}.orientation", "rad", 0.0, lambda h, _: replace(h, fixed=(*h.fixed, *columns)), angle)
-
-    turned = {j: first for first, at in info.spins for j in range(at, at + 3)}
-    found = [coordinate(i, float(q[i])) for i in range(info.nq) if _is_fixed(i, held, info)]
-    for first, at in info.spins:
-        columns = tuple(j for j in held.fixed if turned.get(j) == first)
-        if columns:
-            found.append(orientation(first, tuple(range(at, at + 3))))
-    found += [coordinate(i, x) for i, x in held.coordinates.items()]
-    return found + [joint(k, x) for k, x in held.joints.items()]
+    still = Held({i: float(q[i]) for i in range(info.nq) if _is_fixed(i, held, info)})
+    turned = [first for first, at in info.spins if {at, at + 1, at + 2} & {*held.fixed}]
+    names = ((first, info.coordinates[first].name.partition(".")[0]) for first in turned)
+    return [
+        *_items(still, info, "coordinates"),
+        *(_Item(f"{name}.orientation", "rad", 0.0, "fixed", first) for first, name in names),
+        *_items(held, info, "coordinates"),
+        *_items(held, info, "joints"),
+    ]
 
 
 def _is_fixed(i: int, held: Held, info: ModelInfo) -> bool:
     euler = any(first <= i < first + 4 for first, _ in info.spins)
     return not euler and i not in held.coordinates and velocity_of(i, info) in held.fixed
-
-
-def _velocity_items(held: Held, info: ModelInfo) -> list[_Item]:
-    def velocity(j: int, value: float) -> _Item:
-        def add(h: Held, x: float) -> Held:
-            return replace(h, velocities={**h.velocities, j: x})
-
-        return _Item(info.velocities[j].name, info.velocities[j].unit, value, add, lambda a: float(a.y[info.nq + j]))
-
-    def rate(k: int, value: float) -> _Item:
-        def add(h: Held, x: float) -> Held:
-            return replace(h, rates={**h.rates, k: x})
-
-        quantity = info.joint_coordinates[k]
-        return _Item(f"{quantity.name}.rate", f"{quantity.unit}/s", value, add, lambda a: float(a.joints[2 * k + 1]))
-
-    return [velocity(j, x) for j, x in held.velocities.items()] + [rate(k, x) for k, x in held.rates.items()]
 
 
 def contradiction(
@@ -173,44 +173,40 @@ def contradiction(
     # things are added one by one; the first that does not fit is told
     positions = code == e.OPEN
     base = Held() if positions else replace(held, velocities={}, rates={})
-    items = _position_items(held, info, q) if positions else _velocity_items(held, info)
+    rates = [*_items(held, info, "velocities"), *_items(held, info, "rates", ".rate", "/s")]
+    items = _position_items(held, info, q) if positions else rates
     before = attempt(base)
     if before.code != e.ASSEMBLED:
         return None  # without anything held it is no better
     for n, item in enumerate(items):
-        here = attempt(item.add(base, item.value))
+        with_it = item.beside(base, item.value, info)
+        here = attempt(with_it)
         if here.code == e.ASSEMBLED:
-            base, before = item.add(base, item.value), here
+            base, before = with_it, here
             continue
-        reached = _nearest(item, base, before, attempt) if positions else item.read(before)
-        beside = ", ".join(_said(other) for other in items[:n])
+        reached = item.read(before, q, info)
+        reached = _nearest(item, base, reached, attempt, info) if positions else reached
+        beside = ", ".join(other.told for other in items[:n])
         short = abs(item.value - reached)
-        if item.name.endswith(".orientation"):
+        if item.turns:
             found = f"it is turned by {short:.6g} rad there"
         else:
             verb = "it can be brought to" if positions else "it is"
             found = f"{verb} {reached:.6g} {item.unit}, {short:.3g} {item.unit} away"
-        left = open_rows(item.add(base, item.value)) if positions else ()
+        left = open_rows(with_it) if positions else ()
         rows = ", ".join(f"{name} by {size:.3g} {unit}" for name, unit, size in left[:_TOLD])
         open_by = f"; held all the same, it leaves open {rows}" if rows else ""
         return AssemblyError(
-            f"{info.name}: {_said(item)} cannot be held{f' beside {beside}' if beside else ''}: {found}{open_by}"
+            f"{info.name}: {item.told} cannot be held{f' beside {beside}' if beside else ''}: {found}{open_by}"
         )
     return None
 
 
-def _said(item: _Item) -> str:
-    return item.name if item.name.endswith(".orientation") else f"{item.name} = {item.value:.6g} {item.unit}"
-
-
-def _nearest(item: _Item, base: Held, before: Attempt, attempt: Callable[[Held], Attempt]) -> float:
-    """Return the value nearest to the one asked for that a position can be held at, on the way from where it is."""
-    first = item.read(before)
-    if item.name.endswith(".orientation"):
-        return first
+def _nearest(item: _Item, base: Held, first: float, attempt: Callable[[Held], Attempt], info: ModelInfo) -> float:
+    """Return the value nearest to the one asked for that a position can be held at, on the way from a first one."""
     good, bad = 0.0, 1.0
-    for _ in range(_HALVINGS):
+    for _ in range(_HALVINGS if not item.turns else 0):
         middle = 0.5 * (good + bad)
-        here = attempt(item.add(base, first + middle * (item.value - first)))
+        here = attempt(item.beside(base, first + middle * (item.value - first), info))
         good, bad = (middle, bad) if here.code == e.ASSEMBLED else (good, middle)
     return first + good * (item.value - first)

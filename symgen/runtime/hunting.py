@@ -9,7 +9,7 @@ as if nothing had been.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numba import types
@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi, frame, searching
 from symgen.runtime.bare import bare, part
-from symgen.runtime.frame import integrate
+from symgen.runtime.frame import LOOK
 from symgen.runtime.frame import opened as plain_opened
 from symgen.runtime.instances import called
 from symgen.runtime.instances import loop as compiled_loop
-from symgen.runtime.records import OUTPUTS, SIZES, SPAN, STATE, Run, State, System, record
+from symgen.runtime.records import OUTPUTS, SPAN, STATE, Run, State, System, record
 from symgen.runtime.vectors import copied
 
 Array = NDArray[np.float64]
@@ -31,17 +31,9 @@ Array = NDArray[np.float64]
 HuntingState = record("HuntingState", *State._fields, "hunt", module=__name__)
 #: A `Run` with what is kept of events.
 HuntingRun = record("HuntingRun", *Run._fields, "hunt", module=__name__)
-#: A `System` with the functions of events.
+#: A `System` with the functions of events: switching functions with their rates, `symgen.runtime.searching.decide`, and
+#: what gives q' and v', ``rhs`` or that of a law which integrates something else than v.
 HuntingSystem = record("HuntingSystem", *System._fields, "happens", "decide", "rates", module=__name__)
-
-
-class HuntingScheme(NamedTuple):
-    """A scheme's record with the functions of events: switching functions with their rates, what decides, q' and v'."""
-
-    scheme: Any
-    happens: Any
-    decide: Any
-    rates: Any
 
 
 #: How compiled loops see what a run keeps.
@@ -54,17 +46,6 @@ HUNTING_STATE = types.NamedTuple((*STATE.types, STATE.types[0]), HuntingState)
 def opened(sizes: Any, state: Any) -> Any:
     """Return what a run keeps, its working memory in parts, and what it keeps of events."""
     return HuntingRun(*plain_opened(sizes, state), bare(state).hunt)
-
-
-def joined(sizes: Any, rhs: Any, confirm: Any, accept: Any, turn: Any, residual: Any, tangent: Any, scheme: Any) -> Any:
-    """Return the model with the functions of events."""
-    own = scheme.happens, scheme.decide, scheme.rates
-    return HuntingSystem(sizes, rhs, confirm, accept, turn, residual, tangent, *own)
-
-
-def scheme_of(scheme: Any) -> Any:
-    """Return the record of a scheme."""
-    return scheme.scheme
 
 
 def decided(system: Any, run: Any, t: float, h: float, doing: int, y: Any) -> int:
@@ -98,20 +79,14 @@ def happened(system: Any, run: Any, t: float, following: float, h: float, huntin
     return decided(system, run, following, h, hunting, run.trial)
 
 
-def look(system: Any, run: Any) -> None:
-    """See on which side of each event a run begins, or goes on after its velocities or parameters were changed."""
-    evaluate_events(system, run, run.clock[abi.TIME], run.y)
-    decided(system, run, run.clock[abi.TIME], 0.0, searching.LOOK, run.y)
+def attend(system: Any, run: Any, doing: int) -> None:
+    """Look on which side of each event a run begins, or goes on after its velocities or parameters were changed.
 
-
-def remember(system: Any, run: Any) -> None:
-    """Keep what emitted functions remember at the beginning of a step."""
-    decided(system, run, 0.0, 0.0, searching.REMEMBER, run.y)
-
-
-def recall(system: Any, run: Any) -> None:
-    """Have again what `remember` kept."""
-    decided(system, run, 0.0, 0.0, searching.RECALL, run.y)
+    Or keep what emitted functions remember at the beginning of a step (`REMEMBER`), or have that again (`RECALL`).
+    """
+    if doing == LOOK:
+        evaluate_events(system, run, run.clock[abi.TIME], run.y)
+    decided(system, run, run.clock[abi.TIME], 0.0, doing, run.y)
 
 
 def notes_at(n: int, width: int, nw: int) -> int:
@@ -119,47 +94,9 @@ def notes_at(n: int, width: int, nw: int) -> int:
     return searching.N_HEAD + (searching.N_COLUMNS + 2) * n + 2 * width + 2 * (nw + abi.N_COUNTERS)
 
 
-def integrate_with_events(
-    rhs: Any,
-    confirm: Any,
-    accept: Any,
-    turn: Any,
-    residual: Any,
-    tangent: Any,
-    happens: Any,
-    decide: Any,
-    rates: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    state: Any,
-    outputs: Any,
-) -> int:
-    """Integrate as `symgen.runtime.frame.integrate` does, and look for events.
-
-    Parameters
-    ----------
-    rhs, confirm, accept, turn, residual, tangent, scheme, sizes, span, outputs
-        As there.
-    happens, decide : emitted function, function
-        Switching functions with their rates, and `symgen.runtime.searching.decide`.
-    rates : emitted function
-        q' and v': ``rhs``, or that of a law which integrates something else than v.
-    state : HuntingState
-        What the run keeps; changed.
-
-    Returns
-    -------
-    int
-        How it ended, see `symgen.runtime.abi`.
-    """
-    hunting = HuntingScheme(scheme, happens, decide, rates)
-    return int(integrate(rhs, confirm, accept, turn, residual, tangent, hunting, sizes, span, state, outputs))
-
-
 _MEANINGS: dict[str, Any] = {
-    **{"EVENTS": True, "opened": opened, "joined": joined, "scheme_of": scheme_of},
-    **{"happened": happened, "look": look, "remember": remember, "recall": recall},
+    **{"EVENTS": True, "opened": opened, "System": HuntingSystem},
+    **{"happened": happened, "attend": attend},
 }
 _loops: dict[Any, Any] = {}
 
@@ -176,12 +113,10 @@ def with_events(loop: Any) -> Any:
         return None
     if loop not in _loops:
         (module, name, scheme, *functions), meanings = frame.RECIPES[loop]
-        signature = types.int64(
-            *frame.kinds_of(functions),
-            *(abi.OBSERVE, abi.DECIDE, abi.RHS, scheme, SIZES, SPAN, HUNTING_STATE, OUTPUTS),
-        )
+        kinds = *frame.kinds_of(functions), abi.OBSERVE, abi.DECIDE, abi.RHS
+        signature = types.int64(types.Tuple(kinds), scheme, SPAN, HUNTING_STATE, OUTPUTS)
         own = f"{module.rpartition('.')[2]}_{name}"
-        _loops[loop] = compiled_loop(__name__, own, integrate_with_events, signature, **{**meanings, **_MEANINGS})
+        _loops[loop] = compiled_loop(__name__, own, frame.integrate, signature, **{**meanings, **_MEANINGS})
     return _loops[loop]
 
 

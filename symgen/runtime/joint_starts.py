@@ -23,7 +23,7 @@ from symgen.runtime.least_norm import dense_change, iterated_change
 from symgen.runtime.manifold import stay
 from symgen.runtime.probe import Ready
 from symgen.runtime.scales import extent_of, free_scale, measure_lengths
-from symgen.runtime.start_records import Asked, Instant, Layout, new_work
+from symgen.runtime.start_records import Asked, Closing, Instant, Layout, new_work
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel
@@ -154,8 +154,8 @@ def reach(
         of, phi = (layout, geometry) if rows is None else (rows.layout, rows.geometry)
         room = new_work(of, len(state.w))
         room.scale[:] = [0.0 if j in still else plain_form(free_scale)(layout, w, j) for j in range(layout.nv)]
-        close = plain_form(close_positions)
-        return bool(close(phi, measure, move, stay, solve, of, state, room))
+        closing = Closing(phi, measure, move, stay, solve)
+        return bool(plain_form(close_positions)(closing, of, state, room))
 
     still = set(np.flatnonzero(layout.fixed).tolist())
     first = y[: layout.nq].copy()
@@ -190,7 +190,8 @@ def reach(
     state = Instant(y, now.p, rates.scratch(w))
     rates.geometry(layout.t, *state)
     room = new_work(rates.layout, len(state.w))
-    code = plain_form(complete_velocities)(stay, solve, rates.layout, state, room, asked.given)
+    closing = Closing(geometry, measure, move, stay, solve)
+    code = plain_form(complete_velocities)(closing, rates.layout, state, room, asked.given)
     w[:] = state.w[: len(w)]
     asked.summary[e.START_VELOCITIES] = 1.0 if code == e.PROJECTED else 0.0
     return int(e.ASSEMBLED if code == e.PROJECTED else code)

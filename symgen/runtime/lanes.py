@@ -234,27 +234,14 @@ def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: An
     state.iw[abi.ITERATIONS] = int(lanes.iw[_ITERATIONS + lane])
 
 
-def run_lanes(
-    rhs: Any,
-    lanes_accept: Any,
-    rates: Any,
-    rates_confirm: Any,
-    accept: Any,
-    observe: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    chunk: Any,
-    state: Any,
-    kept: Any,
-) -> int:
+def run_lanes(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: Any) -> int:
     """Run the selected rows, `LANES` at a time; rows that are left to single runs get the code `LEFT`.
 
     Parameters
     ----------
-    rhs, lanes_accept : emitted functions
-        For lanes; the other ones are those of single runs.
-    rates, rates_confirm, accept, observe, scheme, sizes, span, chunk, kept
+    model : tuple
+        As for `symgen.runtime.rows.run_rows`; in place of the first three functions, ``rhs`` and ``accept`` for lanes.
+    scheme, span, chunk, kept
         As for `symgen.runtime.rows.run_rows`.
     state : State
         As for single runs; its working memory, `room_of_lanes` numbers, holds the lanes.
@@ -265,6 +252,7 @@ def run_lanes(
         How many of the selected rows were worked on: all of them, unless the run was stopped.
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
+    sizes, rhs, lanes_accept, rates, confirm, accept, observe = model
     n, n_p, nw, columns = sizes.ny, state.p.shape[0], state.w.shape[0], kept.outputs.status.shape[1]
     times, total, room = kept.outputs.times, chunk.selected.shape[0], state.room
     width = (n + 3) // 4 * 4 * _L  # as in `symgen.ir.program.lane_bases`
@@ -291,7 +279,7 @@ def run_lanes(
             return int(g)
         load(chunk, wide, state, g, z, gauges)
         copied(width, z, y)
-        if integrate(rhs, 0, lanes_accept, 0, 0, 0, scheme, wide, span, lanes, outputs) == abi.STOPPED:
+        if integrate((wide, rhs, 0, lanes_accept, 0, 0, 0), scheme, span, lanes, outputs) == abi.STOPPED:
             return int(g)
         steps, evaluations = control[abi.STEPS], control[abi.EVALUATIONS]
         for lane in range(min(_L, total - g)):
@@ -303,7 +291,7 @@ def run_lanes(
             take(chunk.ps, r * n_p, n_p, state.p)
             clock[abi.TIME] = span.until
             control[abi.STEPS], control[abi.OUTPUTS], control[abi.EVALUATIONS] = steps, times.shape[0], evaluations
-            end_run(abi.DONE, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
+            end_run(abi.DONE, r, (sizes, rates, confirm, accept, observe), chunk, state, kept)
     return int(total)
 
 
@@ -314,8 +302,8 @@ def room_of_lanes(n: int, stages: int, n_p: int, nw: int, windings: int, n_times
     return LANES * (numbers + n_times * (n + abi.N_STATUS + windings))
 
 
-_FUNCTIONS = LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE
+_MODEL = types.Tuple((SIZES, LANE_FUNCTION, LANE_FUNCTION, abi.RHS, abi.RHS, abi.ACCEPT, abi.OBSERVE))
 lane_runs = compiled_loop(
-    *(__name__, "lane_runs", run_lanes, types.int64(*_FUNCTIONS, TABLEAU, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
+    *(__name__, "lane_runs", run_lanes, types.int64(_MODEL, TABLEAU, SPAN, CHUNK, STATE, KEPT_OF_RUN)),
     integrate=Instances(_MEANINGS).of(integrate),
 )

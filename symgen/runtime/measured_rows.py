@@ -68,51 +68,33 @@ def bring(seen: Any, r: int, k: int, first: int, places: Any, y: Any, rates: Any
     return reached
 
 
-@from_its_source(_I8(abi.OBSERVE, LEFT, _C))
-def measure_rows(observe: Any, left: Any, found: Any) -> int:
-    """Evaluate formulas of a run at all outputs of runs, each with its own parameters.
+@from_its_source(_I8(types.Tuple((LEFT, abi.OBSERVE, abi.MEASURE)), _C, _I8, _C))
+def measure_rows(model: Any, found: Any, at: int, entries: Any) -> int:
+    """Evaluate formulas of a run, and the entries of D that vary, at all outputs of runs.
 
     Parameters
     ----------
-    observe : emitted function
-        See `symgen.runtime.abi`.
-    left : Left
-        Of the runs.
+    model : tuple
+        A `Left`, then a function of the formulas and ``geometry`` (`symgen.runtime.abi`).
     found : Array, shape (runs, times, numbers)
         Written; nan where a run did not get there.
-    """
-    times, selected, seen, first, places, ps, ws, y, rates = left
-    for s in range(selected.shape[0]):
-        r = selected[s]
-        for k in range(times.shape[0]):
-            if bring(seen, r, k, first, places, y, rates, ws[r]):
-                observe(times[k], y, ps[r], ws[r], rates, found[r, k])
-            else:
-                for i in range(found.shape[2]):
-                    found[r, k, i] = math.nan
-    return 0
-
-
-@from_its_source(_I8(abi.MEASURE, LEFT, _I8, _C))
-def gradient_rows(geometry: Any, left: Any, at: int, found: Any) -> int:
-    """Evaluate the entries of D that vary at all outputs of runs.
-
-    Parameters
-    ----------
-    geometry : emitted function
-        See `symgen.runtime.abi`.
-    left, found
-        As for `measure_rows`, with as many numbers as entries.
     at : int
         Where the entries begin in ``w``.
+    entries : Array, shape (runs, times, entries)
+        Written likewise; where it has no runs, nobody asks for them.
     """
-    times, selected, seen, first, places, ps, ws, y, rates = left
+    (times, selected, seen, first, places, ps, ws, y, rates), observe, geometry = model
     for s in range(selected.shape[0]):
         r = selected[s]
         for k in range(times.shape[0]):
             reached = bring(seen, r, k, first, places, y, rates, ws[r])
-            if reached:
-                geometry(times[k], y, ps[r], ws[r])
-            for i in range(found.shape[2]):
-                found[r, k, i] = ws[r, at + i] if reached else math.nan
+            if reached and found.shape[2] > 0:
+                observe(times[k], y, ps[r], ws[r], rates, found[r, k])
+            for i in range(0 if reached else found.shape[2]):
+                found[r, k, i] = math.nan
+            if entries.shape[0] > 0:
+                if reached:
+                    geometry(times[k], y, ps[r], ws[r])
+                for i in range(entries.shape[2]):
+                    entries[r, k, i] = ws[r, at + i] if reached else math.nan
     return 0

@@ -69,6 +69,11 @@ class Pattern:
         return self.nq + self.nv
 
     @property
+    def dynamic(self) -> NDArray[np.bool_]:
+        """Which numbers belong to equations of motion."""
+        return (self.rows >= self.nq) & (self.rows < self.width)
+
+    @property
     def left_out(self) -> Indices:
         """Equations of a stage that belong to redundant rows."""
         groups = (self.unknowns - self.width) // self.m if self.m else 0
@@ -137,12 +142,9 @@ def alpha_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
     Coefficients are 1, that of v, that of q, and minus that of q, which belongs to products with ``-N``. The third
     value is the number of sources; the last one is 1.
     """
-    nq, nv = pattern.nq, pattern.nv
-    dynamic = pattern.rows >= nq
-    parts, products = _along_motion(pattern, dynamic, nq)
-    by_k = np.flatnonzero(dynamic & (pattern.columns >= nq) & (pattern.columns < pattern.unknowns))
-    parts.append((pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k))
-    one, left_out = pattern.size + products.count, nv + pattern.masked
+    nq = pattern.nq
+    parts, products = _along_motion(pattern, pattern.rows >= nq, pattern.unknowns)
+    one, left_out = pattern.size + products.count, pattern.nv + pattern.masked
     return *make_plan(pattern.unknowns - nq, 1, Terms.joined(parts), left_out, one, products), one + 1
 
 
@@ -151,11 +153,7 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
 
     As in `alpha_plan`, minus the coefficient of K stands behind it; that of D^T D is the fifth.
     """
-    nq, nv, width = pattern.nq, pattern.nv, pattern.width
-    dynamic = (pattern.rows >= nq) & (pattern.rows < width)
-    parts, products = _along_motion(pattern, dynamic, nq)
-    by_k = np.flatnonzero(dynamic & (pattern.columns >= nq) & (pattern.columns < width))
-    parts.append((pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k))
+    parts, products = _along_motion(pattern, pattern.dynamic, pattern.width)
     row, velocity, source = constraint_forces(pattern)
     by_row: dict[int, list[tuple[int, int]]] = {}
     for c, j, e in zip(row.tolist(), velocity.tolist(), source.tolist(), strict=True):
@@ -179,37 +177,37 @@ def projection_plan(pattern: Pattern) -> tuple[Indices, Array, int]:
         products.count + len(place),
     )
     one, nothing = pattern.size + everything.count, np.zeros(0, dtype=np.int64)
-    return *make_plan(nv, 1, Terms.joined(parts), nothing, one, everything), one + 1
+    return *make_plan(pattern.nv, 1, Terms.joined(parts), nothing, one, everything), one + 1
 
 
 def constraint_forces(pattern: Pattern) -> tuple[Indices, Indices, Indices]:
     """Return row, velocity and source of the entries of D^T in the equations of motion."""
     width = pattern.width
-    dynamic = (pattern.rows >= pattern.nq) & (pattern.rows < width)
-    found = np.flatnonzero(dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
+    found = np.flatnonzero(pattern.dynamic & (pattern.columns >= width) & (pattern.columns < width + pattern.m))
     return pattern.columns[found] - width, pattern.rows[found] - pattern.nq, found
 
 
 def mass_diagonal(pattern: Pattern) -> Indices:
     """Return the sources of the diagonal of M."""
-    dynamic = (pattern.rows >= pattern.nq) & (pattern.rows < pattern.width)
-    return np.flatnonzero(dynamic & (pattern.rows == pattern.columns)).astype(np.int64)
+    return np.flatnonzero(pattern.dynamic & (pattern.rows == pattern.columns)).astype(np.int64)
 
 
 def _along_motion(
-    pattern: Pattern, chosen: NDArray[np.bool_], first_row: int
+    pattern: Pattern, chosen: NDArray[np.bool_], end: int
 ) -> tuple[list[tuple[Indices, Indices, int, Indices]], Products]:
-    """Return the terms of derivatives by v and by changes of position for the `chosen` numbers.
+    """Return the terms of derivatives by v, by changes of position and by unknowns from v' up to `end`.
 
-    The kinematic map is read from the Jacobian itself, whose first rows belong to ``q' - N v``.
+    Rows are those of the `chosen` numbers; the first of them is that of the first velocity. The kinematic map is read
+    from the Jacobian itself, whose first rows belong to ``q' - N v``.
     """
     n, nq, nv = pattern.unknowns, pattern.nq, pattern.nv
     by_v = np.flatnonzero(chosen & (pattern.columns >= n + nq))
     by_q = np.flatnonzero(chosen & (pattern.columns >= n) & (pattern.columns < n + nq))
-    parts = [(pattern.rows[by_v] - first_row, pattern.columns[by_v] - n - nq, 1, by_v)]
+    by_k = np.flatnonzero(chosen & (pattern.columns >= nq) & (pattern.columns < end))
+    by_rate = pattern.rows[by_v] - nq, pattern.columns[by_v] - n - nq, 1, by_v
+    unknown = pattern.rows[by_k] - nq, pattern.columns[by_k] - nq, 0, by_k
     if nq == nv:
-        parts.append((pattern.rows[by_q] - first_row, pattern.columns[by_q] - n, 2, by_q))
-        return parts, Products()
+        return [by_rate, (pattern.rows[by_q] - nq, pattern.columns[by_q] - n, 2, by_q), unknown], Products()
     map_entries: dict[int, list[tuple[int, int]]] = {}
     for e in np.flatnonzero((pattern.rows < nq) & (pattern.columns >= n + nq)).tolist():
         map_entries.setdefault(int(pattern.rows[e]), []).append((int(pattern.columns[e]) - n - nq, e))
@@ -225,8 +223,9 @@ def _along_motion(
     for r, j in dict.fromkeys((r, starts[j]) for r, j in list(place) if j in starts):
         triples += [pattern.size + place.setdefault((r, j + i), len(place)) for i in range(3)] + [j]
     pairs = np.array(list(place), dtype=np.int64).reshape(-1, 2)
-    parts.append((pairs[:, 0] - first_row, pairs[:, 1], 3, pattern.size + np.arange(len(place))))
-    return parts, Products(tuple(targets), tuple(left), tuple(right), tuple(triples), len(place))
+    turned = pairs[:, 0] - nq, pairs[:, 1], 3, pattern.size + np.arange(len(place))
+    products = Products(tuple(targets), tuple(left), tuple(right), tuple(triples), len(place))
+    return [by_rate, turned, unknown], products
 
 
 def make_plan(

@@ -25,28 +25,14 @@ def output(sizes: Any, outputs: Any, k: int, y: Any, w: Any) -> None:
         w[abi.WINDING + i] = outputs.status[k, abi.N_STATUS + i]
 
 
-@from_its_source(_I8(abi.RHS, abi.RHS, abi.ACCEPT, SIZES, OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
-def observe_rates(
-    rates: Any,
-    confirm: Any,
-    accept: Any,
-    sizes: Any,
-    outputs: Any,
-    count: int,
-    p: Any,
-    w: Any,
-    iw: Any,
-    observed: Any,
-    room: Any,
-) -> int:
+@from_its_source(_I8(types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT)), OUTPUTS, _I8, _A, _A, _I, OBSERVED, _A))
+def observe_rates(model: Any, outputs: Any, count: int, p: Any, w: Any, iw: Any, observed: Any, room: Any) -> int:
     """Evaluate v' and lambda at outputs.
 
     Parameters
     ----------
-    rates, confirm, accept : emitted functions
-        See `symgen.runtime.abi`.
-    sizes : Sizes
-        Of the model.
+    model : tuple
+        Its sizes, and ``rates`` or ``rhs``, ``confirm`` and ``accept`` (`symgen.runtime.abi`).
     outputs : Outputs
         In the order of time.
     count : int
@@ -58,6 +44,7 @@ def observe_rates(
     room : Array
         Working memory for two states.
     """
+    sizes, rates, confirm, accept = model
     y, rate = part(room, 0, sizes.ny), part(room, sizes.ny, sizes.ny)
     for k in range(count):
         output(sizes, outputs, k, y, w)
@@ -79,7 +66,9 @@ def observe_rows(observe: Any, sizes: Any, outputs: Any, count: int, p: Any, w: 
     ----------
     observe : emitted function
         See `symgen.runtime.abi`.
-    sizes, outputs, count, p, w
+    sizes : Sizes
+        Of the model.
+    outputs, count, p, w
         As for `observe_rates`.
     observed : Observed
         Holds accelerations and multipliers; receives rows, in the order that ``observe`` writes.
@@ -110,7 +99,7 @@ def observe_status(geometry: Any, measure: Any, sizes: Any, outputs: Any, p: Any
     geometry, measure : emitted functions
         See `symgen.runtime.abi`.
     sizes, p, w
-        As for `observe_rates`; the scratch holds the angles before the first state.
+        As for `observe_rows`; the scratch holds the angles before the first state.
     outputs : Outputs
         Holds states, and of angles that count turns those that are known, nan for others; receives the status.
     y : Array, shape (ny,)

@@ -96,16 +96,16 @@ class Motion:
         from symgen.runtime.observe import observe_rates
 
         (sizes, outputs, observed), law = self._seen, self.compiled.law_module
-        functions, iw = (*rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
+        model, iw = (sizes, *rates_of(law), law.accept), np.zeros(abi.N_COUNTERS, dtype=np.int64)
         w, room = self.start.w.copy(), np.zeros(2 * sizes.ny)
         choose = row_chooser(self.compiled) if self.start.redundant_rows else None
         for first, last, p in self.parameters:
             # the rows that stand for all follow the position
             for k, count in [(first, last - first)] if choose is None else [(k, 1) for k in range(first, last)]:
                 here, seen = _rows_of(outputs, k, k + count), _rows_of(observed, k, k + count)
-                observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                observe_rates(model, here, count, p, w, iw, seen, room)
                 if choose is not None and choose(w):
-                    observe_rates(*functions, sizes, here, count, p, w, iw, seen, room)
+                    observe_rates(model, here, count, p, w, iw, seen, room)
         return observed
 
     @property
@@ -191,29 +191,49 @@ class PrescribedMotion(Motion):
         return status
 
 
+@dataclass(frozen=True, kw_only=True)
+class Ended:
+    """How the loop of a run ended and what it saw: an `Outcome`, or a row of an ensemble.
+
+    Attributes
+    ----------
+    code, reason : int, str
+        How it ended, see `symgen.runtime.abi`, and why in words; empty at its end.
+    smallest_pivot : float
+        Of D D^T with scaled rows, over the run.
+    rank_events, rank_event_count : tuple of RankEvent, int
+        Passages near singular positions that were noted, and how many there were.
+    energy_jump, energy_scale : float
+        Largest change of the energy error over a passage, and the energy in motion [J].
+    counters : dict of str to int
+        Counts of the emitted code by name.
+    """
+
+    code: int
+    reason: str
+    smallest_pivot: float
+    rank_events: tuple[RankEvent, ...]
+    rank_event_count: int
+    energy_jump: float
+    energy_scale: float
+    counters: dict[str, int]
+
+
 @dataclass(frozen=True, kw_only=True, repr=False)
-class Outcome(Motion):
+class Outcome(Motion, Ended):
     """What a run gave: its motion at the outputs, and how the loop went.
 
     A run that an event has ended has its last output there.
     """
 
-    code: int
-    reason: str
     end: float
     steps: int
     rejected: int
     evaluations: int
-    counters: dict[str, int]
     position_violation_max: float
     velocity_violation_max: float
     energy_start: float
     energy_drift_max: float
-    energy_scale: float
-    energy_jump: float
-    smallest_pivot: float
-    rank_events: tuple[RankEvent, ...]
-    rank_event_count: int
     interrupted: bool
     run_seconds: float
     compile_seconds: float

@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 
 from numba import types
 
+from symgen.runtime.start_records import LAYOUT
+
 _F, _I = types.float64, types.int64
 _A, _K, _M = types.float64[::1], types.int64[::1], types.float64[:, ::1]
 
@@ -186,7 +188,7 @@ class Chunk(NamedTuple):
         Result.
     rates, joints : int
         1 where accelerations or multipliers, and joint coordinates, are asked for.
-    entries, constants, alone, dense : Array
+    layout, dense : Layout, Array
         For `symgen.runtime.redundancy.choose_rows`; `dense`, its working memory, is empty where nothing is chosen anew.
     """
 
@@ -200,9 +202,7 @@ class Chunk(NamedTuple):
     summary: Any
     rates: int
     joints: int
-    entries: Any
-    constants: Any
-    alone: Any
+    layout: Any
     dense: Any
 
 
@@ -370,7 +370,7 @@ STATE = types.NamedTuple((_A, _A, _A, _K, _A, _A, _K, *(_A,) * 6), State)
 OUTPUTS = types.NamedTuple((_A, _M, _M), Outputs)
 OBSERVED = types.NamedUniTuple(_M, 3, Observed)
 KEPT_OF_RUN = types.NamedTuple((OUTPUTS, OBSERVED), Kept)
-CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _I, _I, _K, _A, _K, _A), Chunk)
+CHUNK = types.NamedTuple((_K, _A, _A, _A, _A, _K, _A, _A, _I, _I, LAYOUT, _A), Chunk)
 TABLEAU = types.NamedTuple((_K, _K, _A, _A, _A, _K, _I, _I, _I, _I, _I), Tableau)
 ROTATIONS = types.NamedTuple((TABLEAU, _K, _I), Rotations)
 MULTISTEP = types.NamedTuple((_A, _A, _K, _I), Multistep)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from symgen.runtime import abi
 from symgen.runtime.exact import compiled_form, exact
 from symgen.runtime.scales import VANISHED
+from symgen.runtime.start_records import LAYOUT
 from symgen.store.jit import jit
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-_A, _I, _N = types.float64[::1], types.int64[::1], types.int64
+_A, _N = types.float64[::1], types.int64
 
 #: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
 FALLEN = 0.25
@@ -33,21 +34,8 @@ FALLEN = 0.25
 LARGEST = 250_000
 
 
-@exact(_N(_N, _N, _N, _N, types.float64, _I, _A, _N, _N, _N, _A, _A))
-def farthest(
-    m: int,
-    n: int,
-    width: int,
-    kept: int,
-    least: float,
-    entries: Any,
-    constants: Any,
-    jacobian: int,
-    gauge: int,
-    weights: int,
-    w: Any,
-    room: Any,
-) -> int:
+@exact(_N(LAYOUT, _N, _N, types.float64, _N, _A, _A))
+def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: Any, room: Any) -> int:
     """Choose up to `kept` rows, each the one that is farthest from those chosen before it; return how many.
 
     Unlike an elimination in a given order this passes no small pivot before it has to, so rounding stays rounding: the
@@ -55,33 +43,34 @@ def farthest(
 
     Parameters
     ----------
-    m, n, width, kept : int
-        Rows and columns of D, numbers kept of a row, and how many rows are chosen at most. With `width` n + m there
-        stand, behind what is left of a row, the lengths of all rows in the sum that it is.
+    layout : Layout
+        Of the model.
+    width, kept : int
+        Numbers kept of a row, and how many rows are chosen at most. With `width` nv + m there stand, behind what is
+        left of a row, the lengths of all rows in the sum that it is.
     least : float
         Square of the sine of the angle between a row and those chosen below which it is not chosen.
-    entries, constants : Array
-        D's structural entries, as in `symgen.runtime.start_records.Layout`.
-    jacobian, gauge, weights : int
-        Where the sections ``jacobian``, ``gauge`` and ``row_weight`` of w begin. By the weights rows are told that have
-        vanished: of these nothing is left. `weights` is negative where there are none yet.
+    weighed : int
+        1 where the section ``row_weight`` tells which rows have vanished: of these nothing is left. 0 where it is not
+        filled yet.
     w : Array
         Scratch; D is that of the present position.
     room : Array, shape (m * width + m,)
         Working memory; of its last m numbers, those of the rows that were chosen are negative.
     """
+    m, n, entries, constants, gauge = layout.m, layout.nv, layout.entries, layout.constants, layout.gauge
     for i in range(m * width + m):
         room[i] = 0.0
     for k in range(constants.shape[0]):
         row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
-        value = constants[k] if slot < 0 else w[jacobian + slot]
+        value = constants[k] if slot < 0 else w[layout.jacobian + slot]
         room[row * width + column] = value * math.sqrt(w[gauge + column])
     lengths = m * width
     for i in range(m):
         square = 0.0
         for j in range(n):
             square += room[i * width + j] * room[i * width + j]
-        if weights >= 0 and square * w[weights + i] < VANISHED:
+        if weighed != 0 and square * w[layout.row_weight + i] < VANISHED:
             for j in range(n):
                 room[i * width + j] = 0.0
             square = 0.0
@@ -112,21 +101,8 @@ def farthest(
     return kept
 
 
-@exact(_N(_N, _N, _N, _I, _A, _I, _N, _N, _N, _N, _A, _A))
-def choose_rows(
-    m: int,
-    n: int,
-    kept: int,
-    entries: Any,
-    constants: Any,
-    alone: Any,
-    jacobian: int,
-    gauge: int,
-    weights: int,
-    mask: int,
-    w: Any,
-    room: Any,
-) -> int:
+@exact(_N(LAYOUT, _N, _N, _A, _A))
+def choose_rows(layout: Any, kept: int, weighed: int, w: Any, room: Any) -> int:
     """Mask all rows but `kept` ones, of which the others are sums with small factors.
 
     An error in a row that is kept is one in the others times these factors. The rows that are left over where each is
@@ -137,17 +113,11 @@ def choose_rows(
 
     Parameters
     ----------
-    m, n, kept : int
-        Rows and columns of D, and how many rows are kept.
-    entries, constants : Array
-        D's structural entries, as in `symgen.runtime.start_records.Layout`.
-    alone : Array of int, shape (m,)
-        1 for rows that are never left out: their masks are not read.
-    jacobian, gauge, weights, mask : int
-        Where these sections of w begin, as for `farthest`.
-    w : Array
-        Scratch; D is that of the present position.
-    room : Array, shape (m * (n + m) + 2 * m,)
+    layout, weighed, w
+        As for `farthest`.
+    kept : int
+        How many rows are kept.
+    room : Array, shape (m * (nv + m) + 2 * m,)
         Working memory.
 
     Returns
@@ -155,8 +125,9 @@ def choose_rows(
     int
         1 where other rows are kept than before.
     """
+    m, n, alone, mask = layout.m, layout.nv, layout.alone, layout.mask
     width = n + m
-    if farthest(m, n, width, kept, 0.0, entries, constants, jacobian, gauge, weights, w, room) < kept:
+    if farthest(layout, width, kept, 0.0, weighed, w, room) < kept:
         return 0  # where D is not finite nothing can be said
     lengths, masked, changed = m * width, m * width + m, 0
     for i in range(m):
@@ -196,12 +167,9 @@ def row_chooser(compiled: CompiledModel) -> Callable[[Array], bool]:
     room, choose = np.zeros(room_of_choice(info.m, info.nv)), compiled_form(choose_rows)
     if not len(room):
         return lambda w: False
-    places = layout.jacobian, layout.gauge, layout.row_weight, layout.mask
 
     def chosen(w: Array) -> bool:
-        kept = info.m - int(np.count_nonzero(compiled.section(w, "mask")))
-        given = layout.entries, layout.constants, layout.alone
-        return bool(choose(info.m, info.nv, kept, *given, *places, w, room))
+        return bool(choose(layout, info.m - int(np.count_nonzero(compiled.section(w, "mask"))), 1, w, room))
 
     return chosen
 

@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 
 from symgen.errors import InputError
 from symgen.runtime import abi
-from symgen.runtime.impulses import strike
 from symgen.runtime.probe import Ready
 
 if TYPE_CHECKING:
     from symgen.runtime.compiled import CompiledModel, ModelInfo
 
 Array = NDArray[np.float64]
+
+#: Singular values below this part of the largest one are rounding; so is this part of conditions that are met.
+_ROUNDING, _MET = 1e-11, 1e-9
 
 
 @dataclass(frozen=True)
@@ -97,15 +99,14 @@ def impact_of(
         values.append(asked)
     v, every, right = y[info.nq : info.nq + info.nv], np.concatenate(rows), np.concatenate(values)
     carry, rest, bodies = masses(compiled, t, y, p, w)
-    blow = strike(carry.T @ bodies @ carry, every, right, v)
-    if blow.contradictory or not np.all(np.isfinite(blow.v)):
-        raise _refusal(names, labels, every[info.m :] @ blow.v, right[info.m :], t)
-    after = blow.v.copy()
+    after, impulses, contradictory = strike(carry.T @ bodies @ carry, every, right, v)
+    if contradictory or not np.all(np.isfinite(after)):
+        raise _refusal(names, labels, every[info.m :] @ after, right[info.m :], t)
     for row, value in zip(every[info.m :], right[info.m :], strict=True):
         if np.count_nonzero(row) == 1 and row.max() == 1.0:
             after[np.argmax(row)] = value  # a velocity itself: exactly, so that one at rest is at rest
     energy = 0.5 * float((carry @ (after - v)) @ bodies @ (carry @ (after + v) + 2.0 * rest))
-    return Impact(after, blow.impulses, tuple(labels), energy)
+    return Impact(after, impulses, tuple(labels), energy)
 
 
 def _rows(compiled: CompiledModel, reset: Reset, t: float, y: Array, p: Array, w: Array) -> tuple[Array, Array]:
@@ -134,3 +135,52 @@ def _refusal(names: str, labels: Sequence[str], found: Array, values: Array, t: 
     )
     expected = "velocities that the joints and each other allow"
     return InputError(names, expected, f"{asked} at t = {t:.6g} s", f"the nearest are {nearest}")
+
+
+def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Array, bool]:
+    """Return what the smallest impulse along some rows C makes of velocities.
+
+    An impulse i changes velocities by ``M (v+ - v-) = C^T i``. With ``C v+ = c`` this is the v+ for which the kinetic
+    energy of the change, ``(v+ - v-)^T M (v+ - v-) / 2``, is smallest.
+
+    Changes are found in two parts: the shortest one that satisfies the rows, and one that the rows do not see. So M may
+    be singular where velocities without mass are determined by the rows.
+
+    Parameters
+    ----------
+    mass : Array, shape (nv, nv)
+        M.
+    rows, values : Array, shapes (k, nv), (k,)
+        C and c.
+    v : Array, shape (nv,)
+        Velocities before.
+
+    Returns
+    -------
+    v : Array, shape (nv,)
+        Velocities afterwards.
+    impulses : Array, shape (k,)
+        Of each row, in the directions of the rows; of least norm where rows depend on each other.
+    contradictory : bool
+        Whether more than rounding is left of ``C v+ - c``.
+    """
+    diagonal = np.diag(mass)
+    usual = float(diagonal.mean()) or 1.0
+    unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))  # velocities in units of equal kinetic energy
+    long = np.linalg.norm(rows * unit, axis=1)
+    scale = 1.0 / np.where(long > 0.0, long, 1.0)
+    scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
+    metric = unit[:, np.newaxis] * mass * unit
+    left_vectors, sizes, vectors = np.linalg.svd(scaled, full_matrices=True)
+    rank = int(np.count_nonzero(sizes > _ROUNDING * sizes.max(initial=0.0)))
+    seen, unseen = vectors[:rank], vectors[rank:].T
+    back = left_vectors[:, :rank] / sizes[:rank]
+    change = np.zeros(len(v))
+    for _ in range(2):  # once more for what rounding has left
+        change += seen.T @ (back.T @ (target - scaled @ change))
+        change += unseen @ np.linalg.lstsq(unseen.T @ metric @ unseen, -unseen.T @ (metric @ change), rcond=None)[0]
+    after = v + unit * change
+    left = rows @ after - values
+    largest = float(np.max(np.abs(scale * values), initial=0.0) + np.max(np.abs(scale * (rows @ v)), initial=0.0))
+    contradictory = bool(np.any(np.abs(scale * left) > _MET * largest))
+    return after, scale * (back @ (seen @ (metric @ change))), contradictory

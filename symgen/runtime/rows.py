@@ -130,39 +130,27 @@ def summarise(code: int, state: Any, row: Any) -> None:
 
 
 @called
-def follow_rows(sizes: Any, chunk: Any, state: Any, w: Any) -> int:
+def follow_rows(chunk: Any, state: Any, w: Any) -> int:
     """Choose the rows that stand for all at the position of `w`; return 1 where they are others than before."""
     if chunk.dense.shape[0] == 0:
         return 0
-    m, kept = sizes.m, sizes.m - state.control[abi.MASKED]
-    places = sizes.jacobian, sizes.gauge, sizes.row_weight, sizes.mask
-    return int(choose_rows(m, sizes.nv, kept, chunk.entries, chunk.constants, chunk.alone, *places, w, chunk.dense))
+    return int(choose_rows(chunk.layout, chunk.layout.m - state.control[abi.MASKED], 1, w, chunk.dense))
 
 
-def end_run(
-    code: int,
-    r: int,
-    rates: Any,
-    confirm: Any,
-    accept: Any,
-    observe: Any,
-    sizes: Any,
-    chunk: Any,
-    state: Any,
-    kept: Any,
-) -> None:
+def end_run(code: int, r: int, model: Any, chunk: Any, state: Any, kept: Any) -> None:
     """Keep what a run gave.
 
     Parameters
     ----------
     code, r : int
         How the loop ended, and the row.
-    rates, confirm, accept, observe : emitted functions
-        For what is observed at outputs.
-    sizes, chunk, state, kept
+    model : tuple
+        Its sizes, and the functions that are called at outputs.
+    chunk, state, kept
         As for `run_rows`; `state` is that of the run at its end.
     """
-    nw, count = state.w.shape[0], state.control[abi.OUTPUTS]
+    sizes, rates, confirm, accept, observe = model
+    law, nw, count = (sizes, rates, confirm, accept), state.w.shape[0], state.control[abi.OUTPUTS]
     summarise(code, state, part(chunk.summary, r * e.N_SUMMARY, e.N_SUMMARY))
     if chunk.rates == 1:
         for i in range(state.iw.shape[0]):
@@ -174,11 +162,11 @@ def end_run(
             seen = Observed(
                 observed.accelerations[k : k + 1], observed.multipliers[k : k + 1], observed.rows[k : k + 1]
             )
-            observe_rates(rates, confirm, accept, sizes, here, 1, state.p, begun, state.iw, seen, state.room)
-            if follow_rows(sizes, chunk, state, begun) != 0:
-                observe_rates(rates, confirm, accept, sizes, here, 1, state.p, begun, state.iw, seen, state.room)
+            observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
+            if follow_rows(chunk, state, begun) != 0:
+                observe_rates(law, here, 1, state.p, begun, state.iw, seen, state.room)
         if not follows:
-            observe_rates(rates, confirm, accept, sizes, outputs, count, state.p, begun, state.iw, observed, state.room)
+            observe_rates(law, outputs, count, state.p, begun, state.iw, observed, state.room)
     if chunk.joints == 1:
         observe_rows(observe, sizes, kept.outputs, count, state.p, state.w, kept.observed, state.room)
     length = (chunk.picks.shape[0] // 2) * kept.outputs.times.shape[0]
@@ -191,27 +179,15 @@ def end_run(
     state.control[e.RUNS_DONE] += 1
 
 
-def run_rows(
-    rhs: Any,
-    confirm: Any,
-    accept: Any,
-    rates: Any,
-    rates_confirm: Any,
-    observe: Any,
-    scheme: Any,
-    sizes: Any,
-    span: Any,
-    chunk: Any,
-    state: Any,
-    kept: Any,
-) -> int:
+def run_rows(model: Any, scheme: Any, span: Any, chunk: Any, state: Any, kept: Any) -> int:
     """Run the selected rows from starts that `symgen.runtime.starting.close_runs` left.
 
     Parameters
     ----------
-    rhs, confirm, accept, rates, rates_confirm, observe : emitted functions
-        See `symgen.runtime.abi`; the last three for what is observed at outputs.
-    scheme, sizes, span
+    model : tuple
+        Its sizes and functions (`symgen.runtime.abi`): ``rhs``, ``confirm`` and ``accept``; for what is observed at
+        outputs ``rates`` or ``rhs``, its confirmation, and ``observe``.
+    scheme, span
         As for a single run.
     chunk : Chunk
         The rows.
@@ -226,6 +202,8 @@ def run_rows(
         How many of the selected rows are done: all of them, unless the run was stopped.
     """
     chunk, state, kept = bare(chunk), bare(state), bare(kept)
+    sizes, rhs, confirm, accept, rates, rates_confirm, observe = model
+    system, observers = (sizes, rhs, confirm, accept, 0, 0, 0), (sizes, rates, rates_confirm, accept, observe)
     ny, n_p, nw = sizes.ny, state.p.shape[0], state.w.shape[0]
     for s in range(chunk.selected.shape[0]):
         if state.control[abi.STOP] != 0:
@@ -235,15 +213,15 @@ def run_rows(
         take(chunk.ys, r * ny, ny, state.y)
         take(chunk.ps, r * n_p, n_p, state.p)
         take(chunk.ws, r * nw, nw, state.w)
-        code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+        code = integrate(system, scheme, span, state, kept.outputs)
         while code == abi.CHOOSE:
-            follow_rows(sizes, chunk, state, state.w)
-            code = integrate(rhs, confirm, accept, 0, 0, 0, scheme, sizes, span, state, kept.outputs)
+            follow_rows(chunk, state, state.w)
+            code = integrate(system, scheme, span, state, kept.outputs)
         if code == abi.STOPPED:
             return int(s)
         if code == abi.DONE:  # a grid of steps meets the end up to rounding
             state.clock[abi.TIME] = span.until
-        end_run(code, r, rates, rates_confirm, accept, observe, sizes, chunk, state, kept)
+        end_run(code, r, observers, chunk, state, kept)
     return int(chunk.selected.shape[0])
 
 
@@ -260,8 +238,8 @@ def observe_nothing(t: float, y: Any, p: Any, w: Any, ydot: Any, out: Any) -> in
 
 def rows_loop(name: str, loop: Any, scheme: Any) -> Any:
     """Return the loop over many runs around one over a single run, for a type of its scheme's record."""
-    functions = abi.RHS, abi.RHS, abi.ACCEPT, abi.RHS, abi.RHS, abi.OBSERVE
-    signature = types.int64(*functions, scheme, SIZES, SPAN, CHUNK, STATE, KEPT_OF_RUN)
+    model = types.Tuple((SIZES, abi.RHS, abi.RHS, abi.ACCEPT, abi.RHS, abi.RHS, abi.OBSERVE))
+    signature = types.int64(model, scheme, SPAN, CHUNK, STATE, KEPT_OF_RUN)
     return compiled_loop(__name__, name, run_rows, signature, integrate=loop)
 
 

@@ -18,7 +18,7 @@ import math
 from typing import Any
 
 from symgen.runtime import abi
-from symgen.runtime.frame import CROWD, MEET, NOTHING, SEEK, TAKE, TRY
+from symgen.runtime.frame import CROWD, LOOK, MEET, NOTHING, RECALL, REMEMBER, SEEK, TAKE, TRY
 from symgen.runtime.switching import asked, first_root, hidden, is_finite, side_of
 from symgen.store.emitted import plain
 
@@ -36,8 +36,8 @@ DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
 N_HEAD, N_COLUMNS = 13, 15
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
-#: What else is done with what is kept.
-LOOK, REMEMBER, RECALL, KEEP, GIVE_BACK = range(CROWD + 1, CROWD + 6)
+#: What is done beside `LOOK`, `REMEMBER` and `RECALL` with what is kept.
+KEEP, GIVE_BACK = range(RECALL + 1, RECALL + 3)
 #: What is being done: looking for events, taking the whole step, taking a step that ends in an event.
 _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 #: So many notes have room, and those of all events twice more: a loop is left at the end of a step where half of this

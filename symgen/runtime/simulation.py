@@ -185,7 +185,7 @@ class Simulation:
         while True:
             if entry is None:
                 span = self.span._replace(until=float(until), pause=float(pause), most=float(most))
-                arguments = *self.setup.functions, self.scheme, self.sizes, span, self.state, outputs
+                arguments = self._model, self.scheme, span, self.state, outputs
                 code = int(self.setup.loop(*arguments))
             else:
                 if not entry.has(self.scheme, self.span):
@@ -320,6 +320,10 @@ class Simulation:
             return code
         return None
 
+    @property
+    def _model(self) -> tuple[Any, ...]:
+        return self.sizes, *self.setup.functions
+
     @cached_property
     def _nothing(self) -> Outputs:
         return self.outputs(np.zeros(0))
@@ -328,9 +332,7 @@ class Simulation:
     def _entry(self) -> Entry | None:
         from symgen.runtime.entry import entry_of
 
-        setup = self.setup
-        records = self.scheme, self.sizes, self.span, self.state, self._nothing
-        entry = entry_of(setup.loop, (*setup.functions, *records))
+        entry = entry_of(self.setup.loop, (self._model, self.scheme, self.span, self.state, self._nothing))
         if entry is not None and self._copied:
             entry.copy_before(self.snapshot.copy, self.snapshot.front)
         return entry
@@ -349,8 +351,8 @@ class Simulation:
 
         if len(self.spec.pieces) > 1:
             self.changes.prepare()
-        records = self.scheme, self.sizes, self.span, self.state, outputs
-        if (entry := entry_of(self.setup.loop, (*self.setup.functions, *records))) is not None:
+        arguments = self._model, self.scheme, self.span, self.state, outputs
+        if (entry := entry_of(self.setup.loop, arguments)) is not None:
             self._prepared = outputs, entry
             return
         kept = self.save()

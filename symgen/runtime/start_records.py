@@ -101,6 +101,19 @@ class Asked(NamedTuple):
     summary: Any
 
 
+class Closing(NamedTuple):
+    """What the pieces of a start call: emitted functions, and a solver of `symgen.runtime.least_norm`.
+
+    ``geometry`` comes before ``measure`` and ``spread`` at the same state.
+    """
+
+    geometry: Any
+    measure: Any
+    move: Any
+    spread: Any
+    solve: Any
+
+
 class Work(NamedTuple):
     """Working memory, the same for all rows.
 
@@ -149,3 +162,6 @@ WORK = types.NamedTuple((*(_A,) * 8, _I, _I), Work)
 SOLVE = types.FunctionType(types.int64(abi.MOVE, LAYOUT, INSTANT, WORK))
 #: turns(geometry, measure, layout, now, work): see `symgen.runtime.turning`.
 TURNS = types.FunctionType(types.int64(abi.MEASURE, abi.MEASURE, LAYOUT, INSTANT, WORK))
+#: A model as `symgen.runtime.starting.close_row` takes it: its layout, what a `Closing` is made of, the choice of turns
+#: and ``rhs``.
+MODEL = types.Tuple((LAYOUT, abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS))

@@ -17,31 +17,13 @@ from symgen.runtime.bare import bare, part
 from symgen.runtime.closing import close_positions, complete_velocities, find_undetermined, is_light, mask_redundant
 from symgen.runtime.exact import exact
 from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, speed_of, weigh_rows
-from symgen.runtime.start_records import ASKED, INSTANT, LAYOUT, SOLVE, TURNS, WORK, Asked, Instant
+from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
 
 _A, _I = types.float64[::1], types.int64[::1]
 
 
-@exact(
-    types.int64(
-        *(abi.MEASURE, abi.MEASURE, abi.MOVE, abi.MOVE, SOLVE, TURNS, abi.RHS),
-        *(LAYOUT, INSTANT, ASKED, WORK),
-    ),
-    once=True,
-)
-def close_row(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    spread: Any,
-    solve: Any,
-    turns: Any,
-    rhs: Any,
-    layout: Any,
-    now: Any,
-    asked: Any,
-    work: Any,
-) -> int:
+@exact(types.int64(MODEL, INSTANT, ASKED, WORK), once=True)
+def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
     """Make the start of a run consistent.
 
     Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
@@ -50,11 +32,10 @@ def close_row(
 
     Parameters
     ----------
-    geometry, measure, move, spread, rhs : emitted functions
-        See `symgen.runtime.abi`.
-    solve, turns : compiled functions
-        Of `symgen.runtime.least_norm` and `symgen.runtime.turning`.
-    layout, now, asked, work : Layout, Instant, Asked, Work
+    model : tuple
+        A `Layout`, then ``geometry``, ``measure``, ``move``, ``spread``, `solve`, `turns` and ``rhs``: emitted ones
+        (`symgen.runtime.abi`), one of `symgen.runtime.least_norm` and one of `symgen.runtime.turning`.
+    now, asked, work : Instant, Asked, Work
         See `symgen.runtime.start_records`. The state holds the described coordinates and velocities of 0; parameters
         and masses are prepared, the pivots are 1.
 
@@ -63,7 +44,8 @@ def close_row(
     int
         `ASSEMBLED`, or why there is no start; see `symgen.runtime.ensemble_abi`.
     """
-    y, w, summary = now.y, now.w, asked.summary
+    layout, geometry, measure, move, spread, solve, turns, rhs = model
+    closing, y, w, summary = Closing(geometry, measure, move, spread, solve), now.y, now.w, asked.summary
     code = check_numbers(layout, now, summary)
     if code == e.ASSEMBLED:
         measure_lengths(geometry, layout, now, work)
@@ -73,23 +55,23 @@ def close_row(
             if math.isfinite(layout.branches[i]):
                 w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
-        code = _reach(geometry, measure, move, spread, solve, layout, now, asked, work)
+        code = _reach(closing, layout, now, asked, work)
     if code == e.ASSEMBLED:
-        code = complete_velocities(spread, solve, layout, now, work, asked.given)
+        code = complete_velocities(closing, layout, now, work, asked.given)
     if code == e.PROJECTED:
         summary[e.START_VELOCITIES] = 1.0
         code = e.ASSEMBLED
     if code == e.ASSEMBLED:
-        undetermined = find_undetermined(spread, solve, layout, now, work)
+        undetermined = find_undetermined(closing, layout, now, work)
         if undetermined >= 0:
             summary[e.START_WHERE] = undetermined
             code = e.UNDETERMINED
     if code == e.ASSEMBLED:
-        summary[e.REDUNDANT_ROWS] = mask_redundant(geometry, measure, move, spread, solve, layout, now, work)
+        summary[e.REDUNDANT_ROWS] = mask_redundant(closing, layout, now, work)
         weigh_rows(layout, now)
         w[abi.LENGTH] = larger(w[abi.LENGTH], extent_of(layout, y))
         w[abi.SPEED] = speed_of(layout, w, part(y, layout.nq, layout.nv))
-        if layout.ask_light != 0 and is_light(rhs, geometry, layout, now, work):
+        if layout.ask_light != 0 and is_light(rhs, closing, layout, now, work):
             summary[e.LIGHT] = 1.0
     summary[e.START] = code
     return int(code)
@@ -111,9 +93,7 @@ def check_numbers(layout: Any, now: Any, summary: Any) -> int:
 
 
 @exact()
-def _reach(
-    geometry: Any, measure: Any, move: Any, spread: Any, solve: Any, layout: Any, now: Any, asked: Any, work: Any
-) -> int:
+def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
     """Close the described positions, then positions with held coordinates on the way to their values."""
     y, first, scale, held, targets = now.y, work.first, work.scale, layout.held, asked.targets
     strides = 0
@@ -125,7 +105,7 @@ def _reach(
         for h in range(targets.shape[0] if k > 0 else 0):
             i = held[2 * h]
             y[i] = targets[h] if k == strides else first[i] + (k / strides) * (targets[h] - first[i])
-        if not close_positions(geometry, measure, move, spread, solve, layout, now, work):
+        if not close_positions(closing, layout, now, work):
             return int(e.OPEN)
         if k == 0:
             moved = away = 0.0
@@ -150,28 +130,13 @@ def _reach(
     return int(e.ASSEMBLED)
 
 
-@exact(
-    types.int64(*(abi.MEASURE, abi.MEASURE, abi.MOVE, SOLVE, TURNS, abi.RHS), *(LAYOUT, INSTANT, ASKED, WORK, _I, _I))
-)
-def close_rows(
-    geometry: Any,
-    measure: Any,
-    move: Any,
-    solve: Any,
-    turns: Any,
-    rhs: Any,
-    layout: Any,
-    all_of_now: Any,
-    all_asked: Any,
-    work: Any,
-    selected: Any,
-    control: Any,
-) -> int:
+@exact(types.int64(MODEL, INSTANT, ASKED, WORK, _I, _I))
+def close_rows(model: Any, all_of_now: Any, all_asked: Any, work: Any, selected: Any, control: Any) -> int:
     """Make the starts of many rows consistent.
 
     Parameters
     ----------
-    geometry, measure, move, solve, turns, rhs, layout, work
+    model, work
         As for `close_row`.
     all_of_now, all_asked : Instant, Asked
         Of all rows, one behind the other.
@@ -185,7 +150,9 @@ def close_rows(
     int
         Rows that were worked on: all of them, unless the run was stopped.
     """
+    layout, geometry, measure, move, spread, solve, turns, rhs = model
     layout, work, (ys, ps, ws), rest = bare(layout), bare(work), bare(all_of_now), bare(all_asked)
+    model = layout, geometry, measure, move, spread, solve, turns, rhs
     n, ny, h = layout.nv, layout.ny, layout.held.shape[0] // 2
     runs = ys.shape[0] // ny
     n_p, nw = ps.shape[0] // runs, ws.shape[0] // runs
@@ -196,7 +163,7 @@ def close_rows(
         now = Instant(part(ys, r * ny, ny), part(ps, r * n_p, n_p), part(ws, r * nw, nw))
         summary = part(rest.summary, r * e.N_SUMMARY, e.N_SUMMARY)
         asked = Asked(part(rest.given, r * n, n), part(rest.targets, r * h, h), summary)
-        close_row(geometry, measure, move, move, solve, turns, rhs, layout, now, asked, work)
+        close_row(model, now, asked, work)
     return int(selected.shape[0])
 
 

@@ -45,7 +45,7 @@ def one_by_one(compiled, rows, p, targets, held):
     """Each start alone, as a single run has it."""
     found = []
     for i in range(len(p)):
-        assembly = Assembly.of(compiled, held=held, ask_light=True)
+        assembly = Assembly(compiled, Held(dict.fromkeys(held, 0.0)), ask_light=True)
         state = Instant(np.zeros(compiled.info.ny), p[i].copy(), compiled.scratch())
         state.y[: compiled.info.nq] = rows.q[i]
         summary = np.zeros(e.N_SUMMARY)
@@ -61,7 +61,8 @@ def all_at_once(compiled, rows, p, targets, held):
     y[:, : compiled.info.nq] = rows.q
     now = Instant(y, p.copy(), np.full((count, len(compiled.scratch())), np.nan))
     asked = Asked(rows.v, targets, np.zeros((count, e.N_SUMMARY)))
-    assembly, control = Assembly.of(compiled, held=held, ask_light=True), np.zeros(e.N_CONTROL, dtype=np.int64)
+    assembly = Assembly(compiled, Held(dict.fromkeys(held, 0.0)), ask_light=True)
+    control = np.zeros(e.N_CONTROL, dtype=np.int64)
     assert assembly.close_all(now, asked, np.arange(count), control) == count
     return *now, asked.summary
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -68,15 +69,20 @@ def test_rows_of_a_sweep_follow_as_well(target: str, tmp_path: Path) -> None:
             np.testing.assert_allclose(found.values[i, k], table[name], rtol=0, atol=1e-9, err_msg=name)
 
 
+def dense_layout(m: int, n: int, alone: tuple[int, ...] = ()) -> SimpleNamespace:
+    """Of a model whose scratch holds a dense D, then the section ``gauge``, then the masks of its rows."""
+    entries = np.array([(i, j, n * i + j) for i in range(m) for j in range(n)], dtype=np.int64).ravel()
+    first = np.array([*alone, *[0] * (m - len(alone))], dtype=np.int64)
+    places = {"jacobian": 0, "gauge": m * n, "mask": m * n + n}
+    return SimpleNamespace(m=m, nv=n, entries=entries, constants=np.zeros(m * n), alone=first, **places)
+
+
 def test_kept_rows_span_the_others() -> None:
     rng = np.random.default_rng(3)
     d = rng.uniform(-1.0, 1.0, (3, 6))
     d = np.vstack([d, d[0] + d[1], 1e3 * d[2], d[1] - 2.0 * d[2]])[rng.permutation(6)]
-    entries = np.array([(i, j, 6 * i + j) for i in range(6) for j in range(6)], dtype=np.int64).ravel()
     w = np.concatenate([d.ravel(), np.ones(6), np.zeros(6)])
-    changed = plain_form(choose_rows)(
-        6, 6, 3, entries, np.zeros(36), np.zeros(6, dtype=np.int64), 0, 36, -1, 42, w, np.zeros(84)
-    )
+    changed = plain_form(choose_rows)(dense_layout(6, 6), 3, 0, w, np.zeros(84))
     kept = w[42:] == 0.0
     assert changed == 1 and kept.sum() == 3
     rows = d[kept] / np.linalg.norm(d[kept], axis=1, keepdims=True)
@@ -109,14 +115,10 @@ def test_errors_of_kept_rows_are_not_enlarged_in_the_others(seed: int) -> None:
     d = rng.uniform(-1.0, 1.0, (m - left_out, n))
     d = np.vstack([d, rng.uniform(-1.0, 1.0, (left_out, m - left_out)) @ d])[rng.permutation(m)]
     d *= 10.0 ** rng.uniform(-3.0, 3.0, (m, 1))
-    entries = np.array([(i, j, n * i + j) for i in range(m) for j in range(n)], dtype=np.int64).ravel()
     mask = np.zeros(m)
     mask[rng.permutation(m)[:left_out]] = np.inf
     w = np.concatenate([d.ravel(), np.ones(n), mask])
-    places = 0, m * n, -1, m * n + n
-    plain_form(choose_rows)(
-        m, n, m - left_out, entries, np.zeros(m * n), np.zeros(m, dtype=np.int64), *places, w, np.zeros(m * (n + m + 2))
-    )
+    plain_form(choose_rows)(dense_layout(m, n), m - left_out, 0, w, np.zeros(m * (n + m + 2)))
     kept = w[m * n + n :] == 0.0
     assert kept.sum() == m - left_out
     rows = d / np.linalg.norm(d, axis=1, keepdims=True)
@@ -236,11 +238,9 @@ def test_rows_that_are_eliminated_alone_are_never_left_out() -> None:
     first = np.linalg.qr(rng.uniform(-1.0, 1.0, (n, 2)))[0].T
     others = rng.uniform(-1.0, 1.0, (2, n))
     d = np.vstack([first, others, 5.0 * first[0] + 0.1 * others[0], first[1] - 0.2 * others[1]])
-    entries = np.array([(i, j, n * i + j) for i in range(m) for j in range(n)], dtype=np.int64).ravel()
-    for alone in ([0, 0, 0, 0, 0, 0], [1, 1, 0, 0, 0, 0]):
+    for alone in ((), (1, 1)):
         w = np.concatenate([d.ravel(), np.ones(n), np.zeros(m)])
-        given = entries, np.zeros(m * n), np.array(alone, dtype=np.int64), 0, m * n, -1, m * n + n
-        plain_form(choose_rows)(m, n, 4, *given, w, np.zeros(m * (n + m + 2)))
+        plain_form(choose_rows)(dense_layout(m, n, alone), 4, 0, w, np.zeros(m * (n + m + 2)))
         kept = w[m * n + n :] == 0.0
         assert kept.sum() == 4 and np.linalg.matrix_rank(d[kept]) == 4
         assert not any(alone) or kept[:2].all()
@@ -249,18 +249,15 @@ def test_rows_that_are_eliminated_alone_are_never_left_out() -> None:
 def test_rows_that_are_no_numbers_leave_the_choice_as_it_was() -> None:
     """Three rows in two columns, one to be left out: where D is not defined, nothing is chosen or written."""
     m, n, kept = 3, 2, 2
-    entries = np.array([[i, j, n * i + j] for i in range(m) for j in range(n)], dtype=np.int64).ravel()
     w = np.concatenate([[1.0, 0.0, 0.0, 1.0, 1.0, 1.0], np.ones(n), [0.0, 0.0, np.inf]])
-    places, mask = (0, m * n, -1, m * n + n), slice(m * n + n, None)
+    mask = slice(m * n + n, None)
     room = np.full(m * (n + m) + 2 * m + 1, 7.0)
     for broken, where in ((np.nan, slice(6)), (np.inf, slice(6)), (np.nan, slice(4, 6)), (np.nan, slice(2, 6))):
         w[:6] = [1.0, 0.0, 0.0, 1.0, 1.0, 1.0]
         w[where] = broken
         before = w.copy()
         with np.errstate(invalid="ignore"):
-            changed = plain_form(choose_rows)(
-                m, n, kept, entries, np.zeros(6), np.zeros(3, dtype=np.int64), *places, w, room[1:]
-            )
+            changed = plain_form(choose_rows)(dense_layout(m, n), kept, 0, w, room[1:])
         assert changed == 0
         np.testing.assert_array_equal(w, before)
         assert np.count_nonzero(w[mask]) == m - kept and room[0] == 7.0

@@ -163,14 +163,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
     run.control[abi.POINTS] = min(count + 1, DEPTH)
 
 
-def memory(width: int) -> int:
-    """Return the numbers of a history."""
-    return DEPTH * (width + 1)
-
-
-def room(width: int) -> int:
-    """Return the working memory of a step behind the state that is tried."""
-    return 3 * width + 3 * DEPTH + 1
+def memory(width: int) -> tuple[int, int]:
+    """Return the numbers of a history, and the working memory of a step behind the state that is tried."""
+    return DEPTH * (width + 1), 3 * width + 3 * DEPTH + 1
 
 
 _PARTS: dict[str, Any] = {"prepare": prepare, "attempt": attempt, "renew": renew}

@@ -144,14 +144,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
         begun[first + i] = rest[i]
 
 
-def memory(width: int, nv: int, unknowns: int) -> int:
-    """Return the numbers that a run keeps."""
-    return unknowns + nv + width
-
-
-def room(width: int, nv: int, unknowns: int) -> int:
-    """Return the working memory of a step behind the state that is tried."""
-    return 3 * unknowns + nv + 4 + width
+def memory(width: int, nv: int, unknowns: int) -> tuple[int, int]:
+    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
+    return unknowns + nv + width, 3 * unknowns + nv + 4 + width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"

@@ -196,15 +196,13 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
     run.control[abi.KNOWN] = 0
 
 
-def memory(unknowns: int, more: int) -> int:
-    """Return the numbers kept of the beginning of a step: unknowns, and rates of `more` auxiliary states."""
-    return unknowns + more
+def memory(width: int, unknowns: int, more: int, stages: int, together: bool) -> tuple[int, int]:
+    """Return the numbers kept of the beginning of a step, and its working memory behind the state that is tried.
 
-
-def room(width: int, unknowns: int, more: int, stages: int, together: bool) -> int:
-    """Return the working memory of a step behind the state that is tried."""
+    Kept are the unknowns, and rates of `more` auxiliary states.
+    """
     solved = max(width, unknowns, stages * unknowns if together else 0)
-    return width + stages * (unknowns + more) + 2 * solved + stages * stages + 2
+    return unknowns + more, width + stages * (unknowns + more) + 2 * solved + stages * stages + 2
 
 
 _PARTS: dict[str, Any] = {"attempt": attempt, "renew": renew}

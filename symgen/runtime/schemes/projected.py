@@ -177,14 +177,9 @@ def renew(system: Any, scheme: Any, span: Any, run: Any, t: float, changed: bool
         run.memory[i] = run.room[at + m + i]
 
 
-def memory(width: int, m: int) -> int:
-    """Return the numbers that a run keeps."""
-    return width + m + 1
-
-
-def room(width: int, nv: int, m: int, unknowns: int) -> int:
-    """Return the working memory of a step behind the state that is tried."""
-    return 8 + 2 * unknowns + 3 * m + 3 * nv + width
+def memory(width: int, nv: int, m: int, unknowns: int) -> tuple[int, int]:
+    """Return the numbers that a run keeps, and the working memory of a step behind the state that is tried."""
+    return width + m + 1, 8 + 2 * unknowns + 3 * m + 3 * nv + width
 
 
 _FUNCTIONS = "turn", "residual", "tangent"
