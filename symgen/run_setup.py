@@ -135,7 +135,7 @@ def start_of(
 
 
 def _sided(mechanism: Mechanism, start: Start) -> Start:
-    """Return a start with a warning where axes point opposite ways; refuse one that holds a body the wrong way round."""
+    """Return a start with warnings where axes point opposite ways; refuse one that holds a body the wrong way round."""
     lines = list[str]()
     for joint, held in wrong_sides(mechanism, start.y.tolist()):
         if held:

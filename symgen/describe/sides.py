@@ -73,9 +73,10 @@ def _matrix(e: Sequence[float]) -> Matrix:
 
 def _cosine(axes: dict[str, Matrix | None], a: Direction, b: Direction) -> float:
     """Return the product of two directions, each turned as its body is."""
-    ends = []
-    for direction in (a, b):
+
+    def in_ground(direction: Direction) -> tuple[float, float, float]:
         x, y, z = (e.value if isinstance(e, Number) else 0.0 for e in direction.vector)  # in space they are numbers
         turned = axes[direction.body]
-        ends.append((x, y, z) if turned is None else rotate(turned, (x, y, z)))
-    return sum(x * y for x, y in zip(*ends, strict=True))
+        return (x, y, z) if turned is None else rotate(turned, (x, y, z))
+
+    return sum(x * y for x, y in zip(in_ground(a), in_ground(b), strict=True))
