@@ -22,6 +22,7 @@ from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import give_inputs, ready, start_of, stopping, watching
 from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, default
@@ -309,6 +310,7 @@ class Model(Analysed):
         arguments.function("progress", progress)
         chosen, reasons = resolve(mechanism, asked)
         plan = make_plan(mechanism, chosen)
+        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
         plan = replace(plan, spec=replace(plan.spec, pieces=merged(given.pieces, plan.spec.pieces)))
         before = seconds_in_cache()
         loop = plan.tableau.loop(plan.spec.adaptive)
@@ -373,6 +375,7 @@ class Model(Analysed):
         mechanism = given.mechanism
         chosen, reasons = resolve(mechanism, given.settings)
         plan = make_plan(mechanism, replace(chosen, times=()))
+        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)

@@ -18,7 +18,9 @@ from symgen.describe.holds import ORIENTATION, holds_of
 from symgen.describe.inputs import Driven, driven
 from symgen.describe.kinks import knots_of
 from symgen.describe.moved import moved
+from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start
+from symgen.errors import AssemblyError
 from symgen.integrators._tableau import Tableau
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
@@ -116,7 +118,7 @@ def start_of(
     Raises
     ------
     AssemblyError
-        If the mechanism cannot be closed.
+        If the mechanism cannot be closed, or a joint closes the wrong way round.
     InputError
         If the start is refused; see `symgen.runtime.assembly.assemble`.
     """
@@ -129,7 +131,21 @@ def start_of(
         held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
     told = partial(moved, mechanism, numbers)
-    return assemble(compiled, np.array(q), v, p, strict, held, ask_light, told)
+    return _sided(mechanism, assemble(compiled, np.array(q), v, p, strict, held, ask_light, told))
+
+
+def _sided(mechanism: Mechanism, start: Start) -> Start:
+    """Return a start with warnings where axes point opposite ways; refuse one that holds a body the wrong way round."""
+    lines = list[str]()
+    for joint, held in wrong_sides(mechanism, start.y.tolist()):
+        if held:
+            raise AssemblyError(
+                f"{mechanism.name}: joint '{joint}' closes half a turn from where its directions coincide, as that is "
+                "nearer to the described start; describe how the bodies that it joins are turned",
+                (joint,),
+            ).stopped_at(start.y.tolist())
+        lines.append(f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line")
+    return replace(start, warnings=(*start.warnings, *lines)) if lines else start
 
 
 def held_of(info: ModelInfo, holds: Sequence[Hold], numbers: Scalars, v: Sequence[float | None]) -> Held:

@@ -27,7 +27,7 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.tree_start import Carrying, settle_tree
+from symgen.runtime.tree_start import Carrying, check_sides, settle_tree
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -326,7 +326,10 @@ def begin_on_tree(
     w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
+    run = TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
+    if info.spins:
+        check_sides(info, start.y, run._raw(start.t, y, p))
+    return run
 
 
 def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:

@@ -17,8 +17,6 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"
-#: What names of velocities end in.
-_SPEEDS = ("vx", "vy", "vz", "omega", "wx", "wy", "wz", "rate")
 _LOGIC = frozenset(("lt", "le", "gt", "ge", "and", "or", "not"))
 
 
@@ -150,6 +148,7 @@ def _velocity(scope: Scope, key: str, value: float | str) -> tuple[Expr, Expr]:
     """Return a velocity that is named, and its new value."""
     where = f"reset.{quoted(key)[1:-1]}"
     quantity = scope.of_state(where, key)
-    if not (isinstance(quantity, Name) and quantity.name.rpartition(".")[2] in _SPEEDS):
+    body, _, speed = quantity.name.rpartition(".") if isinstance(quantity, Name) else ("", "", "")
+    if body not in scope.model.bodies or speed not in scope.model.bodies[body].speeds:
         raise scope.error(where, "the name of a velocity, such as ball.vy", found(key))
     return quantity, scope.of_state(where, value)

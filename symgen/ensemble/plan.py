@@ -33,6 +33,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
 from symgen.run_setup import give_inputs, stops
+from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -210,6 +211,7 @@ def make_ensemble(
         refuse_events(f"target '{target}'", mechanism, chosen)
     plan = make_plan(mechanism, chosen)
     # before anything is derived
+    refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
     # lanes and devices have nothing between two parts of a run: they go across kinks, as the error estimate lets them

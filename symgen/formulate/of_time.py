@@ -1,4 +1,9 @@
-"""Formulas of time and parameters with their derivatives: what rows and drivers follow."""
+"""Formulas with their derivatives: of time and parameters, which rows and drivers follow, and potentials.
+
+SymPy differentiates. It takes every part of a formula that it does not know better for a complex number: the derivative
+of ``abs(log(t))`` has real and imaginary parts, and a condition on a choice between numbers is none to it. Where it
+gives what has no place among real numbers, the rules of the graph are used instead, one operation after the other.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import sympy as sp
 
 from symgen.formulate.equations import Driving
-from symgen.formulate.translate import Translator, to_sympy
+from symgen.formulate.translate import NotReal, Translator, to_sympy
+from symgen.ir.derivative import jacobian
 from symgen.vocabulary.expressions import Expr, names
 
 if TYPE_CHECKING:
@@ -35,11 +41,35 @@ def time_function(model: Model, e: Expr) -> tuple[int, int, int]:
     if "t" not in names(e):
         return model.expression(e), g.zero, g.zero
     symbols = as_symbols(e)
-    value = to_sympy(e, symbols)
     t = symbols["t"]
-    first = sp.diff(value, t)
-    nodes = translated(model, symbols, [value, first, sp.diff(first, t)])
-    return nodes[0], nodes[1], nodes[2]
+    try:
+        formula = to_sympy(e, symbols)
+        first = sp.diff(formula, t)
+        nodes = translated(model, symbols, [formula, first, sp.diff(first, t)])
+        return nodes[0], nodes[1], nodes[2]
+    except NotReal:
+        value = model.expression(e)
+        slope = _slope(g, value, ("t", 0))
+        return value, slope, _slope(g, slope, ("t", 0))
+
+
+def potential_of(model: Model, e: Expr, s: int) -> tuple[int, int]:
+    """Return -dU/ds and U of a formula U of ``s``, which is `s`, and parameters."""
+    symbols = as_symbols(e, "s")
+    try:
+        potential = to_sympy(e, symbols)
+        force, energy = translated(model, symbols, [-sp.diff(potential, symbols["s"]), potential], s=s)
+        return force, energy
+    except NotReal:
+        g, key = model.graph, ("s", 0)
+        value = model.expression(e, s=g.input(*key))
+        energy, slope = g.replaced([value, _slope(g, value, key)], {key: s})
+        return g.neg(slope), energy
+
+
+def _slope(g: Graph, node: int, key: tuple[str, int]) -> int:
+    """Return the derivative of a node by an input, from the rules of the graph."""
+    return jacobian(g, [node], [key])[0].get(key, g.zero)
 
 
 class Coordinate(NamedTuple):

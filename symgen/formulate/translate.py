@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -21,6 +22,10 @@ _RELATIONS = {
     sp.StrictGreaterThan: "gt",
     sp.GreaterThan: "ge",
 }
+
+
+class NotReal(TypeError):
+    """SymPy cannot tell that a part of a formula is a real number, and so has no use for it or no real derivative."""
 
 
 class Translator:
@@ -85,7 +90,7 @@ class Translator:
             return self.functions.call(f"table:{e.payload}", self.node(e.args[0]))
         if e in (sp.true, sp.false):
             return g.one if e == sp.true else g.zero
-        raise TypeError(f"no graph operation for {type(e).__name__}: {e}")
+        raise NotReal(f"no graph operation for {type(e).__name__}: {e}")
 
     def _product(self, e: Any) -> int:
         g = self.graph
@@ -117,6 +122,7 @@ class _Table(sp.Function):  # type: ignore[misc]  # SymPy is untyped
     payload = ""
 
 
+@cache  # SymPy takes two classes for two functions, whatever their names
 def table_function(payload: str) -> Any:
     """Return the function with the payload of a table's operation on the graph.
 
@@ -156,7 +162,13 @@ _TO_SYMPY: dict[str, Any] = {
 
 
 def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
-    """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy."""
+    """Return `expression` as a SymPy expression over `symbols`; only node kinds of the file's own tree reach SymPy.
+
+    Raises
+    ------
+    NotReal
+        If it compares what SymPy knows to be no real number.
+    """
     if isinstance(expression, Number):
         return (
             sp.Float(expression.value)
@@ -169,7 +181,10 @@ def to_sympy(expression: Expr, symbols: Mapping[str, Any]) -> Any:
     arguments = [to_sympy(a, symbols) for a in expression.arguments]
     if expression.function.startswith("table:"):
         return table_function(expression.function.removeprefix("table:"))(*arguments)
-    return _TO_SYMPY[expression.function](*arguments)
+    try:
+        return _TO_SYMPY[expression.function](*arguments)
+    except (TypeError, ValueError) as error:  # of relations, and of minima and maxima
+        raise NotReal(str(error)) from None
 
 
 def int_or_none(value: float) -> int | None:

@@ -74,7 +74,7 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
 
     found = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
-        found.update(crossings(lambda t, e=jump.argument: at(e, t), _line(jump, values), jump.levels, until))  # type: ignore[misc]
+        found.update(crossings(lambda t, e=jump.argument: at(e, t), line_of(jump, values), jump.levels, until))  # type: ignore[misc]
     times = [0.0]
     for t in sorted(found):
         if t - times[-1] > _SAME * until and until - t > _SAME * until:
@@ -113,7 +113,7 @@ def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: flo
     """
     found, apart = set[float](), _SAME * until
     for jump in jumps:
-        line = _line(jump, values)
+        line = line_of(jump, values)
         if line is None or not math.isfinite(sum(line)) or line[1] == 0.0:
             continue
         levels: Sequence[float] = jump.levels
@@ -229,7 +229,7 @@ def _lowest(function: Callable[[float], float], sign: float, low: float, high: f
     return 0.5 * (low + high)
 
 
-def _line(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
+def line_of(jump: Jump, values: Mapping[str, float]) -> tuple[float, float] | None:
     """Return value at 0 and slope of a jump's argument where that is a straight line in t."""
 
     def line(e: Expr) -> tuple[float, float] | None:

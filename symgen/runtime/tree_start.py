@@ -14,10 +14,11 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
+from symgen.errors import AssemblyError
 from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
 from symgen.runtime.bare import bare, part
-from symgen.runtime.compiled import CompiledModel
+from symgen.runtime.compiled import CompiledModel, ModelInfo
 from symgen.runtime.exact import exact, plain_form
 from symgen.runtime.probe import Ready
 from symgen.runtime.redundancy import row_chooser
@@ -67,6 +68,33 @@ def settle_tree(
             geometry(t, y, p, w)
             masked = compiled.section(w, "mask") > 0.0
     return w, rank, compiled.redundant(w)
+
+
+def check_sides(info: ModelInfo, closed: Array, carried: Array) -> None:
+    """Refuse a start from which joints of a tree turn a body over.
+
+    Rows of absolute coordinates leave open to which side the axis of a joint points, a tree does not.
+
+    Parameters
+    ----------
+    info : ModelInfo
+        Of bodies.
+    closed, carried : Array, shapes (>= nq,)
+        Coordinates of bodies as they were closed, and as the tree carries them.
+
+    Raises
+    ------
+    AssemblyError
+        With the body that is turned over.
+    """
+    for first, _ in info.spins:
+        if abs(carried[first : first + 4] @ closed[first : first + 4]) < 0.5:  # of Euler parameters: 120 degrees apart
+            body = info.coordinates[first].name.partition(".")[0]
+            raise AssemblyError(
+                f"{info.name}: in joint coordinates '{body}' would start turned over, as directions of a joint that "
+                "shall coincide point opposite ways there; describe how bodies are turned at the start, give one of "
+                "the directions the opposite sign, or use absolute coordinates"
+            )
 
 
 class Carrying(NamedTuple):

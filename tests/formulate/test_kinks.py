@@ -18,6 +18,12 @@ OF_TIME = (
     "max(t - 1, 0)**3",
     "abs(t)**2.5 + k1**t + atan2(t, k1)",
     "min(t**2, sin(t))*max(k1, 0.3)",
+    # what SymPy does not know to be real, and conditions on choices
+    "abs(log(t + 0.2))",
+    "sign(sqrt(t) - 0.5)*t**2",
+    "abs(sqrt(t) - 1.3)*abs((t - 0.1)**k1)",
+    "abs(log(t + 1) if t < 1 else t)",
+    "t**2 if min(t, 1) > (0.5 if t < k1 else 2) and sqrt(t) < k1 else t**3",
 )
 POTENTIALS = (
     "max(length - 1, 0)**2",
@@ -25,6 +31,7 @@ POTENTIALS = (
     "min(length, k1)**2",
     "piecewise(length < 1, 0, (length - 1)**2)",
     "max(0, k1*(length - 0.1))**1.5 + length**k1",
+    "log(length)*abs(length**k1 - 1.1)",
 )
 
 
@@ -69,3 +76,21 @@ def test_potential(text):
         slope = (plain.number(text, length=length + h) - plain.number(text, length=length - h)) / (2 * h)
         np.testing.assert_allclose(found.acceleration, [-0.6 * slope, -0.8 * slope, 0.0], atol=1e-8)
         close(found.status["potential"], plain.number(text, length=length), text)
+
+
+def test_a_table_is_one_function_wherever_it_is_called():
+    def rates(text):
+        raw = {
+            "mechanism": {"name": "driven"},
+            "tables": {"cam": {"x": [0.0, 0.5, 1.0, 2.0], "y": [0.0, 0.4, 0.1, 0.3], "interpolation": "cubic"}},
+            "bodies": {"b": {"mass": 1.0, "inertia": 1.0}},
+            "joints": {"drive": {"type": "driver", "body": "b", "coordinate": "x", "value": text}},
+        }
+        emitted = Emitted(mechanism_of(raw))
+        found = emitted.at(0.7, [0.0] * 3, [0.0] * 3, emitted.parameters({}))
+        return found.nu[0], found.gamma[0]
+
+    nu, gamma = rates("cam(t)")
+    assert nu != 0.0 and gamma != 0.0
+    assert rates("max(cam(t), cam(t))") == (nu, gamma)
+    assert rates("abs(cam(t))") == (nu, gamma)

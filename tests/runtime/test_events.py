@@ -14,6 +14,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.describe.toml import to_toml
+from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.plan import make_plan
@@ -585,6 +586,18 @@ def test_bad_events_are_refused_in_one_sentence(event, said):
     with pytest.raises(InputError) as caught:
         ball(x=event)
     assert said in str(caught.value) and "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["omega", "vx", "wz"])
+def test_a_parameter_named_like_a_velocity_is_none(name):
+    raw = {
+        "mechanism": {"name": "thrown"},
+        "parameters": {name: 1.0},
+        "bodies": {"ball": {"mass": 1.0, "inertia": 1.0}},
+        "events": {"x": {"when": "t > 1", "reset": {name: 2.0}}},
+    }
+    with pytest.raises(InputError, match=f"events.x.reset.{name}: expected the name of a velocity"):
+        validate(raw, "thrown")
 
 
 def test_bad_conditions_of_a_run_are_refused():

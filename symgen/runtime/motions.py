@@ -1,0 +1,132 @@
+"""Motions of drivers that jump, in value or rate: what is set in motion at once takes an impulse that no method gives.
+
+Conditions, signs, minima, maxima and absolute values are where a formula of the time may jump, and need not: a ramp
+that ends smoothly is one. So the formula is looked at from both sides of the times at which they change.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+
+import msgspec
+
+from symgen.describe.evaluate import evaluate, parameter_values
+from symgen.describe.inputs import Jump
+from symgen.describe.mechanism import Mechanism
+from symgen.describe.remembered import remembered
+from symgen.errors import InputError
+from symgen.runtime.pieces import crossings, line_of
+from symgen.vocabulary.expressions import Call, Expr, call, names
+from symgen.vocabulary.measures import Holonomic
+
+#: How near a formula is looked at, as a part of the run, and of the time to the next change at most; and once more,
+#: nearer by a factor: differences that stay are jumps, those that shrink are curvature.
+_NEAR, _APART, _NEARER = 1e-5, 0.125, 16.0
+#: Jumps of a value, as a part of its range, and of a rate, as a part of the speeds on both sides, that are none.
+_ROUNDING, _SMALL = 1e-6, 1e-3
+#: Part of a jump by which it may differ from the one seen from farther.
+_STAYS = 0.2
+_WORDS = (b"abs", b"sign", b"min", b"max", b"lt", b"le", b"gt", b"ge")
+
+
+def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> None:
+    """Refuse motions of drivers that jump within a run.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    parameters : mapping of str to float
+        Values of parameters that differ from the described ones.
+    until : float
+        End of the run [s].
+
+    Raises
+    ------
+    InputError
+        With the driver, and when and by how much its value or rate jumps.
+    """
+    if not (moved := _moved(mechanism)):
+        return
+    values, tables = parameter_values(mechanism, parameters), {table.name: table for table in mechanism.tables}
+
+    def at(e: Expr, t: float) -> float:
+        try:
+            return evaluate(e, {**values, "t": t}, tables=tables)
+        except InputError:
+            return math.nan
+
+    for joint, unit, formula, changes in moved:
+        found = set[float]()
+        for change in changes:
+            try:
+                found.update(crossings(lambda t, e=change.argument: at(e, t), line_of(change, values), (0.0,), until))  # type: ignore[misc]
+            except InputError:  # more often than can be told
+                continue
+        times = [0.0, *sorted(t for t in found if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
+        samples = [x for i in range(33) if math.isfinite(x := at(formula, until * i / 32))]
+        extent = max(samples, default=0.0) - min(samples, default=0.0) + 1e-9 * max(map(abs, samples), default=0.0)
+        for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
+            h = min(_NEAR * until, _APART * (t - before), _APART * (after - t))
+            kind, size = _jump(partial(at, formula), t, h, extent, until)
+            if kind:
+                raise InputError(
+                    f"{mechanism.name}: joints.{joint}.value",
+                    "a motion whose value and rate do not jump",
+                    f"a {kind} that jumps by {size:.6g} {unit if kind == 'value' else f'{unit}/s'} at t = {t:.6g} s",
+                    "it would take an impulse; a ramp such as a cubic table takes forces",
+                )
+
+
+def _jump(f: Callable[[float], float], t: float, h: float, extent: float, until: float) -> tuple[str, float]:
+    """Return what of a function jumps at a time, and by how much; nothing where neither value nor slope does."""
+    (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h / _NEARER), _sides(f, t, h)
+    for kind, near, far, least in (
+        ("value", value, far_value, _ROUNDING * extent),
+        ("rate", slope, far_slope, _SMALL * max(speed, extent / until)),
+    ):
+        if abs(near) > least and abs(near - far) <= _STAYS * abs(near):
+            return kind, near
+    return "", 0.0
+
+
+def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:
+    """Return by how much value and slope differ on both sides of a time, by parabolas, and the larger slope."""
+    ends = list[tuple[float, float]]()
+    for way in (-h, h):
+        a, b, c = (f(t + k * way) for k in (1, 2, 3))
+        ends.append((3.0 * a - 3.0 * b + c, (-2.5 * a + 4.0 * b - 1.5 * c) / way))
+    (value, slope), (other, further) = ends
+    return other - value, further - slope, max(abs(slope), abs(further))
+
+
+@remembered
+def _moved(mechanism: Mechanism) -> tuple[tuple[str, str, Expr, tuple[Jump, ...]], ...]:
+    """Return drivers whose formulas may jump: name, unit, formula, and where it changes."""
+    found = list[tuple[str, str, Expr, tuple[Jump, ...]]]()
+    for joint in mechanism.joints:
+        row = joint.rows[0] if joint.kind == "driver" and joint.rows else None
+        if isinstance(row, Holonomic) and any(word in msgspec.msgpack.encode(row.value) for word in _WORDS):
+            changes = tuple(dict.fromkeys(Jump(e) for e in _changing(row.value)))
+            if changes:
+                found.append((joint.name, row.unit, row.value, changes))
+    return tuple(found)
+
+
+def _changing(formula: Expr) -> Sequence[Expr]:
+    """Return what changes its sign where a formula of the time may jump."""
+    found, waiting = list[Expr](), [formula]
+    while waiting:
+        e = waiting.pop()
+        if not isinstance(e, Call):
+            continue
+        waiting += e.arguments
+        if "t" in set(names(e)):
+            if e.function in ("abs", "sign"):
+                found.append(e.arguments[0])
+            elif e.function in ("min", "max", "lt", "le", "gt", "ge"):
+                found.append(call("sub", *e.arguments))
+    return found
