@@ -105,7 +105,7 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     InputError
         If the start is wrong.
     AnalysisError
-        If no equilibrium or steady motion is found, or the run fails.
+        If no equilibrium or steady motion is found, or the run fails or does not come to the time asked for.
     """
     mechanism, settings, at = asked.mechanism, asked.settings, asked.at
     if at == "steady":
@@ -117,6 +117,8 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
         result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
         if result.status == "failed":
             raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
+        if result.end < at:
+            raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
         settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
     subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":

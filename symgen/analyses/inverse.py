@@ -142,6 +142,8 @@ def inverse(
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     names = arguments.words(WHERE, actuators)
+    if len(set(names)) < len(names):
+        raise InputError(WHERE, "each name once", ", ".join(names))
     drivers = drivers_of(mechanism)
     if motion is None:
         moved = kinematics(mechanism, settings, times, where="inverse")
