@@ -10,6 +10,7 @@ from symgen import catalogue
 from symgen.api import Model
 from symgen.describe.validate import validate
 from symgen.errors import AnalysisError, InputError
+from symgen.settings import Settings
 
 SLIDE = """
 [mechanism]
@@ -177,3 +178,19 @@ def test_no_actuator_stands_twice():
     model = Model(validate(copy.deepcopy(catalogue.raw("driven-four-bar")), "test"))
     with pytest.raises(InputError, match="each name once"):
         model.inverse(times=[0.0, 0.1], actuators=["motor", "motor"])
+
+
+def test_single_settings_that_count_for_nothing_are_refused():
+    model, driven = made(SLIDE), Model(validate(copy.deepcopy(catalogue.raw("driven-four-bar")), "test"))
+    for call, told in (
+        (lambda: driven.kinematics(until=1.0), "kinematics: until: expected one of parameters, inputs, start"),
+        (lambda: driven.inverse(times=[0.0], method="baumgarte"), "inverse: method: "),
+        (lambda: model.equilibrium(rtol=1e-3), "equilibrium: rtol: "),
+        (lambda: model.modes(until=1.0), "modes: until: "),
+        (lambda: model.modes(max_steps=10), "modes: max_steps: "),
+    ):
+        with pytest.raises(InputError, match=told):
+            call()
+    assert model.equilibrium(Settings(rtol=1e-3)).stability == "stable"
+    with pytest.raises(AnalysisError, match="the run to t = .* failed"):
+        model.linearise(at=0.1, max_steps=1, start={"block.vx": 1.0})

@@ -206,6 +206,7 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
         (["a.nc", "--model", "pendulum", "--mode", "1"], "about whose equilibrium"),
         (["pendulum", "--mode", "9"], "from 1 to"),
         (["pendulum", "--at", "start"], "asked for with --mode"),
+        (["pendulum", "--mode", "1", "--until", "3"], "--until: expected settings of a mode shape"),
     ],
 )
 def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -219,3 +220,5 @@ def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.Capt
     result.save(tmp_path / "a.nc")
     assert main(["view", str(tmp_path / "a.nc"), "--model", "pendulum", "-o", str(tmp_path / "y.html")]) == 2
     assert "one of slider-crank" in capsys.readouterr().err
+    assert main(["view", str(tmp_path / "a.nc"), "--set", "crank_mass=9", "-o", str(tmp_path / "y.html")]) == 2
+    assert "--set: expected settings of a saved result" in capsys.readouterr().err
