@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.equilibrium import Equilibrium, equilibria, judged
+from symgen.analyses.algebra import eigenvalues_of
+from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import settle
+from symgen.analyses.steady import at_rest, system
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
@@ -201,8 +203,13 @@ def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str]
     """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
     found = steady_motion(subject, arguments.words("cyclic", cyclic))
-    named_states(subject, tangent(subject, found[0]), (), False, "steady")
-    return judged(subject, *found)
+    x = tangent(subject, found[0])
+    names = named_states(subject, x, (), False, "steady")
+    told = judged(subject, *found)
+    if at_rest(subject, x):
+        return told
+    # what turns on may slow down as the rest moves out: the stiffness at constant speeds does not tell
+    return replace(told, stability=stability_in_motion(eigenvalues_of(system(x, names)[0])[0]))
 
 
 def scanned(

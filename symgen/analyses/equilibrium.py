@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 #: A stiffness below this fraction of the largest one is none; so is an imaginary part that rounding may have left.
 FLAT, REAL = 1e-9, 1e-6
+#: A real part of up to this share of an eigenvalue is what rounding leaves of two that are one.
+GROWS = 1e-6
 STABLE, UNSTABLE, INDIFFERENT = "stable", "unstable", "indifferent"
 
 
@@ -33,10 +35,11 @@ class Equilibrium:
     q : dict of str to float
         Coordinates of bodies and joints.
     stability : {"stable", "unstable", "indifferent"}
-        By the reduced stiffness, without dampers.
+        By the reduced stiffness, without dampers; in a steady motion by the eigenvalues of its linear system.
     omega_squared : tuple of float
         Eigenvalues of the reduced stiffness over the reduced mass [1/s^2], in increasing order; of complex ones, where
-        forces that follow a body let it flutter, the real parts.
+        forces that follow a body let it flutter, the real parts. In a steady motion the stiffness is that at constant
+        speeds: no frequencies where one of these is free to change.
     residual : float
         Largest force that is not balanced [N, N m].
     iterations : int
@@ -108,6 +111,14 @@ def stability_of(squares: Array | Complex) -> str:
     if squares.real.min() < -flat or np.iscomplexobj(squares):
         return UNSTABLE
     return INDIFFERENT if squares.min() <= flat or flat == 0.0 else STABLE
+
+
+def stability_in_motion(eigenvalues: Complex) -> str:
+    """Return the word for the eigenvalues of a steady motion's linear system."""
+    largest = np.abs(eigenvalues).max(initial=0.0)
+    if np.any((eigenvalues.real > GROWS * np.abs(eigenvalues)) & (eigenvalues.real > FLAT * largest)):
+        return UNSTABLE
+    return INDIFFERENT if np.any(eigenvalues == 0.0) else STABLE
 
 
 def reduced_squares(mass: Array, stiffness: Array) -> Array | Complex:

@@ -192,5 +192,51 @@ def test_single_settings_that_count_for_nothing_are_refused():
         with pytest.raises(InputError, match=told):
             call()
     assert model.equilibrium(Settings(rtol=1e-3)).stability == "stable"
-    with pytest.raises(AnalysisError, match="the run to t = .* failed"):
+    with pytest.raises(AnalysisError, match=r"the run to t = .* failed"):
         model.linearise(at=0.1, max_steps=1, start={"block.vx": 1.0})
+
+
+ORBIT = """
+[mechanism]
+name = "orbit"
+[parameters]
+pull = 4.0
+power = 0.0
+[bodies.arm]
+mass = 1.0
+inertia = 0.5
+[bodies.bob]
+mass = 1.0
+inertia = 1e-9
+position = [1.0, 0.0]
+[joints.turn]
+type = "revolute"
+between = ["ground", "arm"]
+at = [[0.0, 0.0], "centre"]
+[joints.slide]
+type = "translational"
+between = ["arm", "bob"]
+at = ["centre", "centre"]
+axis = [1.0, 0.0]
+[forces.inward]
+type = "force"
+body = "bob"
+frame = "body"
+force = ["-pull*slide.displacement**power", 0.0]
+"""
+
+
+@pytest.mark.parametrize(("power", "stability"), [(0.0, "indifferent"), (-4.0, "unstable"), (1.5, "indifferent")])
+def test_a_steady_motion_whose_speed_may_change_is_stable_or_not_with_its_momentum(power, stability):
+    """Bob of 1 kg on an arm of I = 0.5 kg m^2 under F = 4 r^n N, on its circle of 1 m at 2 rad/s.
+
+    At constant speed K = 4 n - 4; with L = (I + r^2) w kept K = 4 n - 4 + 4 w^2 / (I + 1), which decides. The speed may
+    be another one for good: indifferent at best.
+    """
+    model = made(ORBIT)
+    asked = {"start": {"arm.omega": 2.0}, "parameters": {"power": power}}
+    found = model.steady(**asked)
+    square = 4.0 * power - 4.0 + 16.0 / 1.5
+    assert (square < 0.0) == (stability == "unstable")
+    assert found.stability == stability
+    assert np.abs(model.modes(at="steady", **asked).eigenvalues).max() == pytest.approx(abs(square) ** 0.5, rel=1e-6)
