@@ -195,6 +195,22 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
     assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
 
 
+def test_a_film_lasts_as_long_as_the_motion(tmp_path: Path) -> None:
+    """A GIF counts hundredths of a second: pictures of 66 ms were shown for 60."""
+    from PIL import Image
+
+    from symgen.player.moving import write_film
+    from symgen.result.viewed import recorded
+
+    result = load("pendulum").simulate(until=0.46, times=np.linspace(0.0, 0.46, 7), step=1e-2)
+    shown = 0
+    with Image.open(write_film(tmp_path / "a.gif", recorded(result))) as film:
+        for k in range(film.n_frames):
+            film.seek(k)
+            shown += film.info["duration"]
+    assert shown == 460
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
