@@ -151,7 +151,8 @@ def inverse(
             return _of_drivers(moved, names or drivers)
         found = recorded(moved)
         settings = _with_known(settings, mechanism, found, names or drivers)
-        return replace(_of_record(mechanism, settings, found, names or drivers, weights), ended=moved.ended)
+        told = _of_record(mechanism, settings, found, names or drivers, weights)
+        return replace(told, ended=moved.ended, notes=tuple(dict.fromkeys((*moved.notes, *told.notes))))
     if times is not None:
         raise InputError("inverse: times", "the times of the motion that is given", "others")
     if isinstance(motion, str | Path):

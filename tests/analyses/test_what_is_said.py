@@ -240,3 +240,11 @@ def test_a_steady_motion_whose_speed_may_change_is_stable_or_not_with_its_moment
     assert (square < 0.0) == (stability == "unstable")
     assert found.stability == stability
     assert np.abs(model.modes(at="steady", **asked).eigenvalues).max() == pytest.approx(abs(square) ** 0.5, rel=1e-6)
+
+
+def test_efforts_of_a_branch_tell_which_it_is():
+    """Of other actuators than the drivers the notes of the motion were lost."""
+    model = Model(validate(copy.deepcopy(catalogue.raw("driven-four-bar")), "test"))
+    for actuators in ((), ("D",)):
+        notes = model.inverse(times=[0.0, 0.1], actuators=actuators, start={"rocker.theta": -1.5}).notes
+        assert sum("ways to close it are known" in note for note in notes) == 1
