@@ -121,7 +121,7 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
             raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
         if result.end < at:
             raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
-        settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
+        settings = replace(settings, start=result)  # type: ignore[arg-type]  # a result is gone on from
     subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":
         return subject, equilibria(subject)[0].y

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.settle import NEAR, OPENED
-from symgen.analyses.subject import described_state
+from symgen.analyses.subject import described_state, given_at_start
 from symgen.errors import AnalysisError, AssemblyError
 from symgen.plan import make_plan
-from symgen.run_setup import give_inputs, ready
+from symgen.run_setup import ready
 from symgen.runtime import abi
 from symgen.runtime.newton import Pattern
 from symgen.runtime.probe import Ready
@@ -139,7 +139,7 @@ def sparse_of(mechanism: Mechanism, settings: Settings) -> Sparse:
     InputError
         If a setting is wrong.
     """
-    given = give_inputs(mechanism, settings)
+    given = given_at_start(mechanism, settings)
     mechanism = given.mechanism
     asked = replace(given.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
     plan = make_plan(mechanism, asked)

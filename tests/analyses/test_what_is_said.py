@@ -248,3 +248,48 @@ def test_efforts_of_a_branch_tell_which_it_is():
     for actuators in ((), ("D",)):
         notes = model.inverse(times=[0.0, 0.1], actuators=actuators, start={"rocker.theta": -1.5}).notes
         assert sum("ways to close it are known" in note for note in notes) == 1
+
+
+PUSHED = """
+[mechanism]
+name = "pushed"
+gravity = [0.0, -9.81]
+[inputs]
+push = 0.0
+[bodies.rod]
+mass = 1.0
+inertia = 0.1
+points = { pin = [-0.5, 0.0] }
+position = [0.5, 0.0]
+[joints.A]
+type = "revolute"
+between = ["ground", "rod"]
+at = [[0.0, 0.0], "pin"]
+[forces.drive]
+type = "torque"
+body = "rod"
+torque = "push*(1.0 + rod.theta)"
+"""
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(("interpolation", "at", "push"), [("hold", 0.8, 5.0), ("hold", 0.2, 1.0), ("cubic", 0.8, 3.4)])
+def test_a_linear_system_at_a_time_has_what_inputs_are_then(coordinates, interpolation, at, push):
+    """Inputs that jump were those of the start, and smooth data had to go on to twice the time."""
+    times = [0.0, 0.5, 1.0] if interpolation == "hold" else [0.0, 0.25, 0.5, 1.0]
+    values = [1.0, 5.0, 0.0] if interpolation == "hold" else [1.0 + 3.0 * t for t in times]
+    data = {"push": {"t": times, "u": values, "interpolation": interpolation}}
+    model = made(PUSHED)
+    found = model.linearise(at=at, instantaneous=True, inputs=data, coordinates=coordinates, states=["A.angle"])
+    theta = found.about["A.angle"]
+    # (I + m l^2 / 4) theta'' = push (1 + theta) - m g l / 2 cos(theta)
+    assert found.A[1, 0] == pytest.approx((push + 9.81 * 0.5 * np.sin(theta)) / 0.35, rel=1e-9)
+
+
+def test_analyses_take_the_end_of_any_run_as_their_start():
+    """A run up to the end of the file was refused, as none could go on from there to the same end."""
+    model = made(PUSHED + "[run]\nuntil = 0.5\n")
+    result = model.simulate()
+    assert result.t[-1] == 0.5
+    for shape in ("straight", "looped"):
+        assert abs(np.cos(model.equilibrium(start=result, shape=shape).q["rod.theta"])) < 1e-9
