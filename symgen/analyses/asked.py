@@ -276,6 +276,8 @@ def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = No
             raise InputError(
                 "count", "modes about an equilibrium, without states of their own", "another place, or states"
             )
+        if asked.settings.coordinates == "joint":
+            raise InputError("count", "coordinates of bodies", "those of joints", "ask for all modes")
         return lowest_modes(asked.mechanism, asked.settings, arguments.whole("count", count, 1, 10_000))
     subject, y = subject_at(asked)
 

@@ -142,6 +142,8 @@ def test_a_column_that_flutters_is_unstable(shape):
 def test_lowest_modes_are_those_of_a_potential():
     with pytest.raises(InputError, match="forces that have a potential"):
         made(COLUMN).modes(count=1)
+    with pytest.raises(InputError, match="coordinates of bodies"):
+        made(COLUMN).modes(count=1, coordinates="joint")
     alone = made(COLUMN.replace('frame = "body"', 'frame = "ground"')).modes(parameters={"load": 0.1}, count=1)
     # the load on the ground's axis has a potential: K = [[2 - P, -1], [-1, 1 - P]]
     mass, stiffness = np.array([[3.0, 1.0], [1.0, 1.0]]), np.array([[1.9, -1.0], [-1.0, 0.9]])
