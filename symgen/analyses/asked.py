@@ -263,7 +263,7 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     """
     if not isinstance(given, tuple) or len(given) != 2 or not isinstance(given[0], str):
         raise InputError(where, "a pair of a name and its values", quoted(given))
-    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", list(given[1])), dtype=np.float64)
+    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", given[1]), dtype=np.float64)
 
 
 def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = None) -> Modes:

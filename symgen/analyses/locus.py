@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen import arguments
 from symgen.analyses.asked import Array, Asked, asked_modes, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
@@ -89,7 +90,7 @@ class Locus:
         InputError
             If the ending is not known, matplotlib is missing, or the file cannot be written.
         """
-        path = Path(path)
+        path = arguments.path("plot", path)
         check_path("plot", path, PLOTTED, "plot")
         figure = self._drawn()
         kind = path.suffix.lower().removeprefix(".")
@@ -123,12 +124,14 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
     Raises
     ------
     InputError
-        If the range is none, or the number of eigenvalues changes.
+        If the range is none, what varies is said twice, or the number of eigenvalues changes.
     """
     name, values = range_of("over", over)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
         raise InputError(f"over {name}", "two values or more in increasing order", f"{len(values)}")
     settings = asked.settings
+    if name in settings.inputs:
+        raise InputError(f"over {name}", "an input that is given nothing else", "one that inputs say")
     parameter_values(asked.mechanism, {name: float(values[0])})
 
     def eigenvalues(value: float) -> Complex:

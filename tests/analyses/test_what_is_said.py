@@ -295,3 +295,18 @@ def test_analyses_take_the_end_of_any_run_as_their_start():
     assert result.t[-1] == 0.5
     for shape in ("straight", "looped"):
         assert abs(np.cos(model.equilibrium(start=result, shape=shape).q["rod.theta"])) < 1e-9
+
+
+def test_what_a_locus_varies_is_said_once():
+    """An input that was given as well had its value at all places."""
+    model = made(PUSHED)
+    found = model.locus(("push", [0.0, 1.0]))
+    assert abs(found.branches[1, 0] - found.branches[0, 0]) > 0.1
+    for call, told in (
+        (lambda: model.locus(("push", [0.0, 1.0]), inputs={"push": 5.0}), "an input that is given nothing else"),
+        (lambda: found.plot(5), "a path"),
+        (lambda: model.equilibria(("rod.theta", 5.0)), "two values or more"),
+        (lambda: model.equilibria(("rod.theta", None)), "two values or more"),
+    ):
+        with pytest.raises(InputError, match=told):
+            call()
