@@ -166,12 +166,14 @@ def inverse(
 def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded, sought: Sequence[str]) -> Settings:
     """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
     for name, told in found.inputs.items():
-        if name in mechanism.inputs and name not in (*settings.inputs, *sought) and are_words_of_data(told):
+        given = (*settings.inputs, *settings.parameters, *sought)
+        if name in mechanism.inputs and name not in given and are_words_of_data(told):
             expected = "the data of the recorded motion once more, of which it keeps no more than their number or file"
             raise InputError(f"inverse: input '{name}'", expected, str(told))
     known = {p.name for p in mechanism.parameters if not p.input}
     parameters = {name: x for name, x in found.parameters.items() if name in known}
-    inputs = {name: x for name, x in found.inputs.items() if name in mechanism.inputs}
+    own = set(mechanism.inputs).difference(settings.parameters)
+    inputs = {name: x for name, x in found.inputs.items() if name in own}
     return replace(settings, parameters={**parameters, **settings.parameters}, inputs={**inputs, **settings.inputs})
 
 

@@ -130,8 +130,8 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
         raise InputError(f"over {name}", "two values or more in increasing order", f"{len(values)}")
     settings = asked.settings
-    if name in settings.inputs:
-        raise InputError(f"over {name}", "an input that is given nothing else", "one that inputs say")
+    if name in settings.inputs or name in settings.parameters:
+        raise InputError(f"over {name}", "one way of giving it a value", "two")
     parameter_values(asked.mechanism, {name: float(values[0])})
 
     def eigenvalues(value: float) -> Complex:

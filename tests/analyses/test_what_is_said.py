@@ -303,7 +303,7 @@ def test_what_a_locus_varies_is_said_once():
     found = model.locus(("push", [0.0, 1.0]))
     assert abs(found.branches[1, 0] - found.branches[0, 0]) > 0.1
     for call, told in (
-        (lambda: model.locus(("push", [0.0, 1.0]), inputs={"push": 5.0}), "an input that is given nothing else"),
+        (lambda: model.locus(("push", [0.0, 1.0]), inputs={"push": 5.0}), "one way of giving it a value"),
         (lambda: found.plot(5), "a path"),
         (lambda: model.equilibria(("rod.theta", 5.0)), "two values or more"),
         (lambda: model.equilibria(("rod.theta", None)), "two values or more"),
