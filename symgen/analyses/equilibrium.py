@@ -147,7 +147,7 @@ def reduced_squares(mass: Array, stiffness: Array) -> Array | Complex:
     found = np.sort_complex(linalg.eigvals(stiffness, mass))
     if np.abs(found.imag).max(initial=0.0) > REAL * np.abs(found).max(initial=0.0):
         return np.asarray(found, dtype=np.complex128)
-    return rounded(found.real)
+    return rounded(np.asarray(found.real, dtype=np.float64))
 
 
 def rounded(squares: Array) -> Array:
