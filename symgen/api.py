@@ -20,13 +20,13 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, ready, start_of, stopping, watching
+from symgen.run_setup import give_inputs, ready, start_of, watching
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, default
-from symgen.tree_run import tree_run
+from symgen.tree_run import begun, tree_run
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -315,14 +315,7 @@ class Model(Analysed):
         before = seconds_in_cache()
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)
-        tree = None
-        if plan.coordinates == "joint":
-            tree = tree_run(mechanism, plan, chosen.parameters, chosen.strict)
-            compiled, start = tree.compiled, tree.start
-        else:
-            compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
-        run_of = mechanism if tree is None else tree.mechanism
-        plan = stopping(run_of, watching(run_of, plan, compiled, chosen.parameters), compiled)
+        plan, compiled, start, tree = begun(mechanism, plan, chosen.parameters, chosen.strict)
         start = replace(start, notes=(*reasons, *start.notes))
         runs = timed(compiled, plan.tableau, start, plan.spec, chosen.repeat, progress)
         outcome, spread = runs.outcome, runs.spread
@@ -369,7 +362,8 @@ class Model(Analysed):
 
         asked = changed(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):
-            if getattr(asked, name) != default(name):
+            value, usual = getattr(asked, name), default(name)
+            if (value is not None) if usual is None else (value != usual):  # an array of times has no one truth
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         given = give_inputs(self.mechanism, asked)
         mechanism = given.mechanism

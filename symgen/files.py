@@ -68,7 +68,7 @@ def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
     InputError
         If one cannot be written, or exists and is not to be replaced. Nothing is left behind.
     """
-    siblings: dict[Path, Path] = {}
+    siblings, made = dict[Path, Path](), list[Path]()
     current = Path()
     try:
         for current, content in files.items():
@@ -81,14 +81,16 @@ def write_all(files: Mapping[Path, Content], *, replace: bool = True) -> None:
                 os.fsync(file.fileno())  # a disk that is full, or gone, may say so only now
         for current, sibling in siblings.items():
             _place(sibling, current, replace)
+            made += [] if replace else [current]
+        made = []
     except FileExistsError:
         raise InputError(str(current), "the name of a file that does not exist yet", "one that does") from None
     except OSError as error:
         raise InputError(str(current), "a file that can be written", why(error)) from error
     finally:
-        for sibling in siblings.values():
+        for path in (*siblings.values(), *made):  # what was made before one failed had not been there
             with suppress(OSError):
-                sibling.unlink()
+                path.unlink()
 
 
 def write_csv(path: Path, heading: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:

@@ -20,7 +20,7 @@ from symgen.describe.kinks import knots_of
 from symgen.describe.moved import moved
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError
+from symgen.errors import AssemblyError, InputError
 from symgen.integrators._tableau import Tableau
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
@@ -74,8 +74,11 @@ def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
     Raises
     ------
     InputError
-        If what is given makes no sense, see `symgen.describe.inputs.driven`.
+        If what is given makes no sense, see `symgen.describe.inputs.driven`, or an input is given twice.
     """
+    for name in settings.inputs:
+        if name in settings.parameters:
+            raise InputError(f"input '{name}'", "one way of giving it a value", "two: a parameter is set by that name")
     set_by_name = {name: settings.parameters[name] for name in mechanism.inputs if name in settings.parameters}
     if not settings.inputs:
         values = parameter_values(mechanism, settings.parameters) if mechanism.inputs else {}

@@ -21,7 +21,7 @@ from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Topology
 from symgen.describe.topology import known_coordinates, state_names
 from symgen.lower.windings import winding_order
-from symgen.run_setup import choice_of, compiled_for, made_of, ready, taken_up
+from symgen.run_setup import choice_of, compiled_for, made_of, ready, stopping, taken_up, watching
 from symgen.runtime import abi
 from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
@@ -41,7 +41,6 @@ Array = NDArray[np.float64]
 
 #: What both descriptions of a motion measure alike, taken over from the run.
 _SCALES = (abi.LENGTH, abi.SPEED, abi.MEAN_MASS)
-
 
 #: What is kept of bodies for a run that goes on: state, parameters, scratch, and the rank at the start of the tree.
 _BODIES = ("body_y", "body_p", "body_w", "tree_rank")
@@ -267,6 +266,22 @@ def tree_run(
     bodies, start = ready(mechanism, plan, parameters, strict)
     carried = tree_code(mechanism, plan.choice, bodies)
     return begin_on_tree(mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+
+
+def begun(
+    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float] | None = None, strict: bool = False
+) -> tuple[Plan, CompiledModel, Start, TreeRun | None]:
+    """Return the plan of a run with what it watches, its code and start, and its tree in joint coordinates.
+
+    Parameters
+    ----------
+    mechanism, plan, parameters, strict
+        As for `tree_run`.
+    """
+    tree = tree_run(mechanism, plan, parameters, strict) if plan.coordinates == "joint" else None
+    compiled, start = ready(mechanism, plan, parameters, strict) if tree is None else (tree.compiled, tree.start)
+    moved = mechanism if tree is None else tree.mechanism
+    return stopping(moved, watching(moved, plan, compiled, parameters), compiled), compiled, start, tree
 
 
 def tree_code(mechanism: Mechanism, choice: MethodChoice, bodies: CompiledModel) -> tuple[Mechanism, CompiledModel]:

@@ -10,11 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.equilibrium import Equilibrium, equilibria, judged
+from symgen.analyses.algebra import eigenvalues_of
+from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import settle
+from symgen.analyses.steady import at_rest, system
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
 
@@ -105,7 +107,7 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     InputError
         If the start is wrong.
     AnalysisError
-        If no equilibrium or steady motion is found, or the run fails.
+        If no equilibrium or steady motion is found, or the run fails or does not come to the time asked for.
     """
     mechanism, settings, at = asked.mechanism, asked.settings, asked.at
     if at == "steady":
@@ -117,7 +119,9 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
         result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
         if result.status == "failed":
             raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
-        settings = replace(settings, start=result, until=2.0 * at)  # type: ignore[arg-type]  # a result is gone on from
+        if result.end < at:
+            raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
+        settings = replace(settings, start=result)  # type: ignore[arg-type]  # a result is gone on from
     subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":
         return subject, equilibria(subject)[0].y
@@ -199,8 +203,13 @@ def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str]
     """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
     found = steady_motion(subject, arguments.words("cyclic", cyclic))
-    named_states(subject, tangent(subject, found[0]), (), False, "steady")
-    return judged(subject, *found)
+    x = tangent(subject, found[0])
+    names = named_states(subject, x, (), False, "steady")
+    told = judged(subject, *found)
+    if at_rest(subject, x):
+        return told
+    # what turns on may slow down as the rest moves out: the stiffness at constant speeds does not tell
+    return replace(told, stability=stability_in_motion(eigenvalues_of(system(x, names)[0])[0]))
 
 
 def scanned(
@@ -254,7 +263,7 @@ def range_of(where: str, given: object) -> tuple[str, Array]:
     """
     if not isinstance(given, tuple) or len(given) != 2 or not isinstance(given[0], str):
         raise InputError(where, "a pair of a name and its values", quoted(given))
-    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", list(given[1])), dtype=np.float64)
+    return given[0], np.array(arguments.numbers(f"{where} {given[0]}", given[1]), dtype=np.float64)
 
 
 def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = None) -> Modes:
@@ -267,6 +276,8 @@ def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = No
             raise InputError(
                 "count", "modes about an equilibrium, without states of their own", "another place, or states"
             )
+        if asked.settings.coordinates == "joint":
+            raise InputError("count", "coordinates of bodies", "those of joints", "ask for all modes")
         return lowest_modes(asked.mechanism, asked.settings, arguments.whole("count", count, 1, 10_000))
     subject, y = subject_at(asked)
 

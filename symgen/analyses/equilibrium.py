@@ -12,15 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.algebra import Complex, split, symmetric
 from symgen.analyses.settle import settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
 Array = NDArray[np.float64]
 
-#: A stiffness below this fraction of the largest one is none.
-FLAT = 1e-9
+#: A stiffness below this fraction of the largest one is none; so is an imaginary part that rounding may have left.
+FLAT, REAL = 1e-9, 1e-6
+#: A real part of up to this share of an eigenvalue is what rounding leaves of two that are one.
+GROWS = 1e-6
 STABLE, UNSTABLE, INDIFFERENT = "stable", "unstable", "indifferent"
 
 
@@ -33,9 +35,11 @@ class Equilibrium:
     q : dict of str to float
         Coordinates of bodies and joints.
     stability : {"stable", "unstable", "indifferent"}
-        By the reduced stiffness, without dampers.
+        By the reduced stiffness, without dampers; in a steady motion by the eigenvalues of its linear system.
     omega_squared : tuple of float
-        Eigenvalues of the reduced stiffness over the reduced mass [1/s^2], in increasing order.
+        Eigenvalues of the reduced stiffness over the reduced mass [1/s^2], in increasing order; of complex ones, where
+        forces that follow a body let it flutter, the real parts. In a steady motion the stiffness is that at constant
+        speeds: no frequencies where one of these is free to change.
     residual : float
         Largest force that is not balanced [N, N m].
     iterations : int
@@ -89,7 +93,7 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     return Equilibrium(
         q=subject.named(y),
         stability=stability_of(squares),
-        omega_squared=tuple(float(x) for x in squares),
+        omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(e.value("balance")).max(initial=0.0)),
         iterations=steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
@@ -99,18 +103,28 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     )
 
 
-def stability_of(squares: Array) -> str:
-    """Return the word for squares of angular frequencies."""
+def stability_of(squares: Array | Complex) -> str:
+    """Return the word for squares of angular frequencies; the roots of a complex one grow in one direction of time."""
     flat = FLAT * np.abs(squares).max(initial=0.0)
     if len(squares) == 0:
         return STABLE  # nothing can move
-    if squares.min() < -flat:
+    if squares.real.min() < -flat or np.iscomplexobj(squares):
         return UNSTABLE
     return INDIFFERENT if squares.min() <= flat or flat == 0.0 else STABLE
 
 
-def reduced_squares(mass: Array, stiffness: Array) -> Array:
+def stability_in_motion(eigenvalues: Complex) -> str:
+    """Return the word for the eigenvalues of a steady motion's linear system."""
+    largest = np.abs(eigenvalues).max(initial=0.0)
+    if np.any((eigenvalues.real > GROWS * np.abs(eigenvalues)) & (eigenvalues.real > FLAT * largest)):
+        return UNSTABLE
+    return INDIFFERENT if np.any(eigenvalues == 0.0) else STABLE
+
+
+def reduced_squares(mass: Array, stiffness: Array) -> Array | Complex:
     """Return the eigenvalues of a reduced stiffness over a reduced mass, in increasing order; massless ones are none.
+
+    They are complex numbers where one of them is none.
 
     Parameters
     ----------
@@ -130,7 +144,10 @@ def reduced_squares(mass: Array, stiffness: Array) -> Array:
     size = np.abs(stiffness).max(initial=0.0)
     if np.abs(stiffness - stiffness.T).max(initial=0.0) <= 1e-9 * size:
         return rounded(np.asarray(linalg.eigh(symmetric(stiffness), symmetric(mass), eigvals_only=True)))
-    return rounded(np.sort(np.real(linalg.eigvals(stiffness, mass))))
+    found = np.sort_complex(linalg.eigvals(stiffness, mass))
+    if np.abs(found.imag).max(initial=0.0) > REAL * np.abs(found).max(initial=0.0):
+        return np.asarray(found, dtype=np.complex128)
+    return rounded(np.asarray(found.real, dtype=np.float64))
 
 
 def rounded(squares: Array) -> Array:

@@ -142,6 +142,8 @@ def inverse(
 ) -> Inverse:
     """Return the efforts that a motion needs; see `symgen.api.Model.inverse`, which has these arguments and errors."""
     names = arguments.words(WHERE, actuators)
+    if len(set(names)) < len(names):
+        raise InputError(WHERE, "each name once", ", ".join(names))
     drivers = drivers_of(mechanism)
     if motion is None:
         moved = kinematics(mechanism, settings, times, where="inverse")
@@ -149,7 +151,8 @@ def inverse(
             return _of_drivers(moved, names or drivers)
         found = recorded(moved)
         settings = _with_known(settings, mechanism, found, names or drivers)
-        return replace(_of_record(mechanism, settings, found, names or drivers, weights), ended=moved.ended)
+        told = _of_record(mechanism, settings, found, names or drivers, weights)
+        return replace(told, ended=moved.ended, notes=tuple(dict.fromkeys((*moved.notes, *told.notes))))
     if times is not None:
         raise InputError("inverse: times", "the times of the motion that is given", "others")
     if isinstance(motion, str | Path):
@@ -163,12 +166,14 @@ def inverse(
 def _with_known(settings: Settings, mechanism: Mechanism, found: Recorded, sought: Sequence[str]) -> Settings:
     """Return settings with the parameters and inputs that a motion was recorded with, where others are not given."""
     for name, told in found.inputs.items():
-        if name in mechanism.inputs and name not in (*settings.inputs, *sought) and are_words_of_data(told):
+        given = (*settings.inputs, *settings.parameters, *sought)
+        if name in mechanism.inputs and name not in given and are_words_of_data(told):
             expected = "the data of the recorded motion once more, of which it keeps no more than their number or file"
             raise InputError(f"inverse: input '{name}'", expected, str(told))
     known = {p.name for p in mechanism.parameters if not p.input}
     parameters = {name: x for name, x in found.parameters.items() if name in known}
-    inputs = {name: x for name, x in found.inputs.items() if name in mechanism.inputs}
+    own = set(mechanism.inputs).difference(settings.parameters)
+    inputs = {name: x for name, x in found.inputs.items() if name in own}
     return replace(settings, parameters={**parameters, **settings.parameters}, inputs={**inputs, **settings.inputs})
 
 

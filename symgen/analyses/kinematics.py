@@ -19,6 +19,7 @@ from symgen.analyses.tracing import trace
 from symgen.analyses.transmission import transmission_angles
 from symgen.errors import InputError, nearest
 from symgen.memory import require
+from symgen.plan import multiples, output_size
 from symgen.result.derived import Derived
 from symgen.result.labelled import Labelled, labelled
 from symgen.result.measured import Measured
@@ -269,8 +270,9 @@ def _numbers(found: Prescribed) -> dict[str, float]:
 def default_times(mechanism: Mechanism) -> Array:
     """Return the times of the outputs of a run as the file has them."""
     until, step = mechanism.defaults.until, mechanism.defaults.output_step
-    count = DEFAULT_TIMES if step is None else round(until / step) + 1
-    return np.linspace(0.0, until, count)
+    if step is None:
+        return np.linspace(0.0, until, DEFAULT_TIMES)
+    return multiples(step, until, output_size(mechanism))
 
 
 def checked_times(where: str, given: Any) -> Array:

@@ -24,6 +24,8 @@ Array = NDArray[np.float64]
 
 #: Damping or turning of this part of the stiffness and masses is refused: these modes are those of M and K alone.
 NONE = 1e-9
+#: An asymmetry of the stiffness of this part of it is none; motions at random by which it is looked for.
+UNEVEN, SEEN = 1e-8, 3
 #: Squares of frequencies that are said of a large mechanism at rest: those nearest to 0.
 SAID = 10
 #: Up to this many velocities stiffness and masses are reduced as dense matrices.
@@ -45,7 +47,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     Raises
     ------
     InputError
-        If a setting is wrong, or something damps or turns.
+        If a setting is wrong, something damps or turns, or a force follows what it moves.
     AnalysisError
         If no equilibrium is found.
     """
@@ -58,6 +60,8 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     scale = float(np.sqrt(abs(stiffness).max() * abs(mass).max()))
     if damping.nnz and abs(damping).max() > NONE * scale:
         raise InputError("count", "a mechanism without dampers", "one that has some", "ask for all modes")
+    if _follows(stiffness, rows):
+        raise InputError("count", "forces that have a potential", "one that has none", "ask for all modes")
     squares, vectors = _nearest(stiffness, mass, rows, count)
     roots = np.sqrt(-squares.astype(np.complex128))
     names = tuple(q.name for q in sparse.compiled.info.coordinates)
@@ -88,8 +92,10 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     y, lam, steps = settled(sparse)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.kept)
-    if sparse.pattern.nv <= DENSE or free <= SAID:
-        basis = split(rows.toarray())[0] if sparse.pattern.nv <= DENSE else _along(rows, free)
+    follows = _follows(stiffness, rows)
+    if sparse.pattern.nv <= DENSE or free <= SAID or follows:
+        small = sparse.pattern.nv <= DENSE or free > SAID
+        basis = split(rows.toarray())[0] if small else _along(rows, free)
         squares = reduced_squares(basis.T @ mass @ basis, basis.T @ stiffness @ basis)
         stability = stability_of(squares)
     else:
@@ -106,7 +112,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     return Equilibrium(
         q=places | {c.name: float(x) for c, x in zip(found, out[info.m :: 2], strict=True)},
         stability=stability,
-        omega_squared=tuple(float(x) for x in squares),
+        omega_squared=tuple(float(x) for x in squares.real),
         residual=float(np.abs(sparse.forces(y, lam)[0]).max(initial=0.0)),
         iterations=steps,
         multipliers={row.name: float(x) for row, x in zip(info.rows, lam, strict=True)},
@@ -114,6 +120,26 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         y=y,
         lam=lam,
     )
+
+
+def _follows(stiffness: Any, rows: Any) -> bool:
+    """Whether the stiffness is not symmetric along what rows leave free, as that of forces that follow a body.
+
+    What is not symmetric beside it is the rows' to take, and is no part of any motion: seen by some motions at random.
+    """
+    from scipy.sparse import eye
+
+    apart = stiffness - stiffness.T
+    limit = UNEVEN * abs(stiffness).max()
+    if not apart.nnz or abs(apart).max() <= limit:
+        return False
+    solve, none = _regular(eye(stiffness.shape[0], format="csc"), rows), np.zeros(rows.shape[0])
+    for anything in np.random.default_rng(0).standard_normal((SEEN, stiffness.shape[0])):
+        along = solve(anything, none)[0]
+        left = solve(apart @ along, none)[0]
+        if np.abs(left).max(initial=0.0) > limit * np.abs(along).max(initial=0.0):
+            return True
+    return False
 
 
 def _along(rows: Any, free: int) -> Array:

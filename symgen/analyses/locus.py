@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen import arguments
 from symgen.analyses.asked import Array, Asked, asked_modes, range_of
 from symgen.describe.evaluate import parameter_values
 from symgen.errors import InputError
@@ -88,7 +90,7 @@ class Locus:
         InputError
             If the ending is not known, matplotlib is missing, or the file cannot be written.
         """
-        path = Path(path)
+        path = arguments.path("plot", path)
         check_path("plot", path, PLOTTED, "plot")
         figure = self._drawn()
         kind = path.suffix.lower().removeprefix(".")
@@ -122,12 +124,14 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
     Raises
     ------
     InputError
-        If the range is none, or the number of eigenvalues changes.
+        If the range is none, what varies is said twice, or the number of eigenvalues changes.
     """
     name, values = range_of("over", over)
     if len(values) < 2 or np.any(np.diff(values) <= 0.0):
         raise InputError(f"over {name}", "two values or more in increasing order", f"{len(values)}")
     settings = asked.settings
+    if name in settings.inputs or name in settings.parameters:
+        raise InputError(f"over {name}", "one way of giving it a value", "two")
     parameter_values(asked.mechanism, {name: float(values[0])})
 
     def eigenvalues(value: float) -> Complex:
@@ -159,18 +163,20 @@ def _crossings(values: Array, branches: Complex, eigenvalues: Callable[[float], 
 
     level = LEVEL * np.abs(branches).max(initial=1e-300)
     found = list[Crossing]()
-    for k in range(len(values) - 1):
-        for a, b in zip(branches[k], branches[k + 1], strict=True):
-            if min(abs(a.real), abs(b.real)) <= level or a.real * b.real > 0.0 or a.imag < 0.0:
+    for branch in branches.T:
+        # a value at which nothing decays or grows may be the one that is passed
+        sided = np.flatnonzero(np.abs(branch.real) > level)
+        for k, following in pairwise(sided):
+            a, b = branch[k], branch[following]
+            if a.real * b.real > 0.0 or a.imag < 0.0:
                 continue
 
-            def nearest(value: float, a: complex = a, b: complex = b, k: int = k) -> complex:
-                part = (value - values[k]) / (values[k + 1] - values[k])
+            def nearest(value: float, branch: Complex = branch) -> complex:
                 now = eigenvalues(value)
-                return complex(now[np.abs(now - (a + part * (b - a))).argmin()])
+                return complex(now[np.abs(now - np.interp(value, values, branch)).argmin()])
 
             try:
-                at = float(brentq(lambda x: nearest(x).real, values[k], values[k + 1], xtol=1e-13, rtol=1e-14))
+                at = float(brentq(lambda x: nearest(x).real, values[k], values[following], xtol=1e-13, rtol=1e-14))
             except ValueError:
                 continue  # branches meet between and were told apart wrongly
             if abs(nearest(at).real) <= 1e-6 * abs(branches).max():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from symgen import arguments
+from symgen.errors import InputError
 from symgen.settings import Settings, changed
 
 if TYPE_CHECKING:
@@ -25,6 +26,27 @@ if TYPE_CHECKING:
     from symgen.result.result import Result
 
     Array = NDArray[np.float64]
+
+#: Settings that count for analyses about a state, and for motions that drivers prescribe.
+OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
+OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+#: And beside those of states for a run that leads to one.
+OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_steps")
+
+
+def _settings(where: str, settings: Settings | None, changes: Mapping[str, object], known: Sequence[str]) -> Settings:
+    """Return settings with single ones replaced.
+
+    Raises
+    ------
+    InputError
+        If a single one would count for nothing; of settings that are given all at once, those are of no account.
+    """
+    found = changed(settings, changes)
+    for name in changes:
+        if name not in known:
+            raise InputError(f"{where}: {name}", f"one of {', '.join(known)}", "a setting of runs")
+    return found
 
 
 class Analysed:
@@ -48,7 +70,7 @@ class Analysed:
             All settings at once; ``parameters``, ``inputs``, ``start``, ``coordinates`` and ``shape`` are looked at:
             looped code, and any mechanism with more than 300 coordinates, is searched with sparse matrices.
         **changes
-            Single settings. Drivers hold what they drive where it is at the time 0.
+            Single settings among these; others are refused. Drivers hold what they drive where it is at the time 0.
 
         Raises
         ------
@@ -57,7 +79,7 @@ class Analysed:
         """
         from symgen.analyses.asked import asked_equilibrium
 
-        return asked_equilibrium(self.mechanism, changed(settings, changes))
+        return asked_equilibrium(self.mechanism, _settings("equilibrium", settings, changes, OF_STATES))
 
     def equilibria(
         self, scan: tuple[str, Sequence[float] | Array], settings: Settings | None = None, **changes: object
@@ -78,7 +100,7 @@ class Analysed:
         """
         from symgen.analyses.asked import scanned
 
-        return scanned(self.mechanism, changed(settings, changes), scan)
+        return scanned(self.mechanism, _settings("equilibria", settings, changes, OF_STATES), scan)
 
     def steady(self, settings: Settings | None = None, *, cyclic: Sequence[str] = (), **changes: object) -> Equilibrium:
         """Return the steady motion that the start leads to: cyclic coordinates turn on, everything else stays.
@@ -98,7 +120,7 @@ class Analysed:
         """
         from symgen.analyses.asked import asked_steady
 
-        return asked_steady(self.mechanism, changed(settings, changes), cyclic)
+        return asked_steady(self.mechanism, _settings("steady", settings, changes, OF_STATES), cyclic)
 
     def modes(
         self,
@@ -125,7 +147,8 @@ class Analysed:
             Only that many of the lowest modes, without dampers, about the equilibrium near the start: by sparse
             matrices from looped code, for mechanisms of any size.
         **changes
-            Single settings.
+            Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
+            ``strict``, ``max_violation``, ``max_energy_error``, ``max_steps``.
 
         Raises
         ------
@@ -136,7 +159,13 @@ class Analysed:
         """
         from symgen.analyses.asked import Asked, asked_modes
 
-        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        asked = Asked(
+            self.mechanism,
+            _settings("modes", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
+            at,
+            self.simulate,
+            cyclic,
+        )
         return asked_modes(asked, states, count)
 
     def view_mode(
@@ -158,7 +187,8 @@ class Analysed:
         at : {"equilibrium", "start"} or float
             As for `modes`; in a steady motion shapes are not those of bodies.
         **changes
-            Single settings.
+            Single settings among these; with a time also those that a run to it has: ``options``, ``events``,
+            ``strict``, ``max_violation``, ``max_energy_error``, ``max_steps``.
 
         Raises
         ------
@@ -169,7 +199,7 @@ class Analysed:
         """
         from symgen.analyses.shown import mode_page
 
-        asked = changed(settings, changes)
+        asked = _settings("view_mode", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
         number = arguments.whole("number", number, 1, 10**6)
         return mode_page(self.mechanism, self.modes(asked, at=at), number, asked.parameters)
 
@@ -209,7 +239,13 @@ class Analysed:
         """
         from symgen.analyses.asked import Asked, asked_system
 
-        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        asked = Asked(
+            self.mechanism,
+            _settings("linearise", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
+            at,
+            self.simulate,
+            cyclic,
+        )
         return asked_system(asked, states, instantaneous, by)
 
     def locus(
@@ -234,7 +270,13 @@ class Analysed:
         from symgen.analyses.asked import Asked
         from symgen.analyses.locus import locus
 
-        asked = Asked(self.mechanism, changed(settings, changes), at, self.simulate, cyclic)
+        asked = Asked(
+            self.mechanism,
+            _settings("locus", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
+            at,
+            self.simulate,
+            cyclic,
+        )
         return locus(asked, over, states)
 
     def kinematics(
@@ -267,7 +309,7 @@ class Analysed:
         """
         from symgen.analyses.kinematics import kinematics
 
-        return kinematics(self.mechanism, changed(settings, changes), times, transmission)
+        return kinematics(self.mechanism, _settings("kinematics", settings, changes, OF_MOTIONS), times, transmission)
 
     def inverse(
         self,
@@ -305,4 +347,6 @@ class Analysed:
         """
         from symgen.analyses.inverse import inverse
 
-        return inverse(self.mechanism, changed(settings, changes), motion, times, actuators, weights)
+        return inverse(
+            self.mechanism, _settings("inverse", settings, changes, OF_MOTIONS), motion, times, actuators, weights
+        )

@@ -19,10 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.settle import NEAR, OPENED
-from symgen.analyses.subject import described_state
+from symgen.analyses.subject import described_state, given_at_start
 from symgen.errors import AnalysisError, AssemblyError
 from symgen.plan import make_plan
-from symgen.run_setup import give_inputs, ready
+from symgen.run_setup import ready
 from symgen.runtime import abi
 from symgen.runtime.newton import Pattern
 from symgen.runtime.probe import Ready
@@ -139,7 +139,7 @@ def sparse_of(mechanism: Mechanism, settings: Settings) -> Sparse:
     InputError
         If a setting is wrong.
     """
-    given = give_inputs(mechanism, settings)
+    given = given_at_start(mechanism, settings)
     mechanism = given.mechanism
     asked = replace(given.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
     plan = make_plan(mechanism, asked)
@@ -172,13 +172,18 @@ def settled(sparse: Sparse) -> tuple[Array, Array, int]:
     shift, best = 0.0, np.inf
     first = float(abs(stiffness).max() / abs(still).max()) or 1.0
     for step in range(steps + 1, MOST_STEPS):
-        load = max(float(np.abs(rows.T @ lam[sparse.kept]).max(initial=0.0)), 1e-300)
+        load = float(np.abs(rows.T @ lam[sparse.kept]).max(initial=0.0))
+        # where joints carry nothing, what forces change by over a thousandth of the mechanism
+        load = max(load, 1e-3 * float(abs(stiffness).max()) * float(sparse.lengths.max(initial=0.0)), 1e-300)
         error = float(np.abs(force).max(initial=0.0)) / load
         error += float(np.abs(gaps).max(initial=0.0)) / max(1.0, float(sparse.w[abi.LENGTH]))
-        if error < 1e3 * TOLERANCE and error >= 0.5 * best:
+        good = error < 1e3 * TOLERANCE
+        if good and (error >= 0.5 * best or error == 0.0):
             return y, lam, step
         best = min(best, error)
         found = _near(sparse, motion, solver(stiffness, rows), force, gaps)
+        if found is None and good:
+            return y, lam, step
         if found is None:
             found, shift = _down(sparse, (y, lam), (motion, still, rows, stiffness), (force, gaps), shift or first)
         change, more = found

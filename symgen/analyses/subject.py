@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -16,13 +17,13 @@ from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, held_of, ready
+from symgen.run_setup import Given, give_inputs, held_of, ready
 from symgen.runtime import abi
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from symgen.describe.mechanism import Mechanism
     from symgen.runtime.compiled import CompiledModel
@@ -181,7 +182,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     InputError
         If a setting is wrong.
     """
-    given = give_inputs(mechanism, settings)
+    given = given_at_start(mechanism, settings)
     mechanism, settings = given.mechanism, given.settings
     if settings.shape == "auto":
         size = mechanism.body_coordinates
@@ -201,9 +202,28 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
         except AssemblyError:
             compiled, y, p, w = described_state(mechanism, plan, settings.parameters)
             t, closed = 0.0, False
+    p = _at(compiled, p.copy(), given, t)
     names = _parameters(mechanism, by)
     form = compile_linearised(_as_given(mechanism, settings.parameters), compiled, (*mechanism.inputs, *names))
-    return Subject(mechanism, compiled, form, t, y.copy(), p.copy(), w.copy(), notes, closed, names)
+    return Subject(mechanism, compiled, form, t, y.copy(), p, w.copy(), notes, closed, names)
+
+
+def given_at_start(mechanism: Mechanism, settings: Settings) -> Given:
+    """Return a mechanism and settings with inputs in their places: known up to the start, which may be one of a run."""
+    if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
+        return give_inputs(mechanism, settings)
+    found = give_inputs(mechanism, replace(settings, until=begin))
+    return replace(found, settings=replace(found.settings, until=2.0 * begin))  # nothing is run
+
+
+def _at(compiled: CompiledModel, p: Array, given: Given, t: float) -> Array:
+    """Return parameters with what inputs that jump are at a time."""
+    places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
+    for piece in given.pieces[1:]:
+        if piece.begin <= t:
+            p[[places[name] for name in piece.values]] = list(piece.values.values())
+    compiled.prepare(p)
+    return p
 
 
 def _parameters(mechanism: Mechanism, by: Sequence[str]) -> tuple[str, ...]:

@@ -162,7 +162,7 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     option, text : str
         The option and its value; None gives None.
     kind : str
-        ``"data"``, ``"plot"``, or nothing for any ending.
+        ``"data"`` of runs, ``"tables"`` of analyses, ``"plot"``, or nothing for any ending.
 
     Raises
     ------
@@ -175,7 +175,11 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     from symgen.result.export import PLOTTED, SAVED, check_path
 
     path = Path(text)
-    if kind:
+    if kind == "tables":
+        from symgen.result.tables import SAVED as TABLES
+
+        check_path(option, path, TABLES, "data")
+    elif kind:
         check_path(option, path, SAVED if kind == "data" else PLOTTED, kind)
     else:
         check_writable(option, path)

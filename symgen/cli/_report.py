@@ -108,7 +108,9 @@ def command_again() -> str:
     return shlex.join(found)
 
 
-def sketches_of(models: Sequence[Model], parameters: Mapping[str, float] | None = None) -> dict[str, str]:
-    """Return sketches for the head of a report, by the names of mechanisms; changed parameters are known ones."""
+def sketches_of(
+    models: Sequence[Model], parameters: Mapping[str, float] | None = None, start: Mapping[str, float] | None = None
+) -> dict[str, str]:
+    """Return sketches for the head of a report, by the names of mechanisms, where runs begin."""
     small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
-    return {model.name: model.draw(parameters).svg for model in small}
+    return {model.name: model.draw(parameters, start).svg for model in small}

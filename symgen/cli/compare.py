@@ -19,6 +19,7 @@ from symgen.cli._options import (
     words,
 )
 from symgen.cli._report import StudyFiles, command_again, sketches_of, study_files
+from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -87,6 +88,8 @@ def command(
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
     --steps. Ctrl-C keeps the rows that are done; with --resume the same command goes on behind them.
     """
+    if files.csv is not None and files.csv.suffix.lower() != ".csv":
+        raise InputError("--csv", "a file ending in .csv", f"'{files.csv}'")
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
 
@@ -125,7 +128,7 @@ def command(
         from symgen.report.comparison import comparison
         from symgen.report.write import write
 
-        sketches = sketches_of(loaded, asked["parameters"])
+        sketches = sketches_of(loaded, asked["parameters"], asked["start"])
         write(comparison(studies, command_again(), _asked(step_list, rtol_list, studies), sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 

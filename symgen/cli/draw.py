@@ -10,7 +10,7 @@ import click
 
 from symgen.cli import BAD_INPUT, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
-from symgen.errors import InputError, quoted
+from symgen.errors import InputError, SimulationError, quoted
 
 if TYPE_CHECKING:
     from symgen.api import Model
@@ -69,6 +69,8 @@ def command(
 def _drawing(
     model: Model, at: str, parameters: dict[str, float], start: dict[str, float], view: View | None
 ) -> Drawing:
+    from symgen.result.result import FAILED
+
     if at in ("start", "described"):
         return model.draw(parameters, start, at=at, view=view)
     try:
@@ -81,6 +83,11 @@ def _drawing(
         return model.draw(parameters, start, view=view)
     changes: dict[str, Any] = {"parameters": parameters, "start": start, "until": time, "times": (0.0, time)}
     result = model.simulate(**changes, step=min(model.mechanism.defaults.step, time))
+    if result.status == FAILED:
+        raise SimulationError(f"the run to t = {time:g} s failed: {result.reason}")
+    if result.end < time:
+        expected = f"a time up to t = {result.end:.6g} s, where an event ends the run"
+        raise InputError("--at", expected, quoted(at))
     return model.draw(parameters, q=result.q.values[-1], view=view)
 
 

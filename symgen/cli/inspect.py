@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -59,8 +60,8 @@ def command(
     """
     from symgen.cli._reading import Asked, refuse, write_document, write_page
 
-    given = {key.rpartition(".")[2]: value for key, value in options.items()}
-    asked = Asked(method, given, parameters, shape, coordinates)
+    asked = Asked(method, {}, parameters, shape, coordinates)
+    asked = replace(asked, options=_own(options, asked.named))
     form = "json" if as_json else form
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
@@ -79,6 +80,17 @@ def command(
 
         click.echo(as_latex(facts) if form == "latex" else as_text(facts), nl=False)
     return OK
+
+
+def _own(options: dict[str, str], method: str) -> dict[str, str]:
+    """Return options of a method by their own names; they are given with its name, with ``method``, or with none."""
+    found = {}
+    for key, value in options.items():
+        owner, _, name = key.rpartition(".")
+        if owner not in ("", "method", method):
+            raise InputError(f"--option {key}", f"{method}.NAME, method.NAME or NAME", f"'{key}'")
+        found[name] = value
+    return found
 
 
 def describe(name: str, asked: Asked, latex: bool = False) -> dict[str, Any]:

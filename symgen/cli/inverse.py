@@ -67,7 +67,7 @@ def command(
     settings = Settings(**asked)
     chosen = None if times is None else time_list("--times", times)
     named, weighed = words("--actuators", actuators), assignments("--weight", weights)
-    save_path, plot_path = output_file("--save", save, "data"), output_file("--plot", plot, "plot")
+    save_path, plot_path = output_file("--save", save, "tables"), output_file("--plot", plot, "plot")
 
     from symgen.api import load
 

@@ -53,7 +53,7 @@ def command(
     """
     settings = Settings(**asked)
     chosen = None if times is None else time_list("--times", times)
-    save_path = output_file("--save", save, "data")
+    save_path = output_file("--save", save, "tables")
     plot_path, curve_path = output_file("--plot", plot, "plot"), output_file("--curves", curves, "plot")
 
     from symgen.api import load

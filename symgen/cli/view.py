@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,11 +11,15 @@ import click
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
 from symgen.cli._options import examples, json_option, setting_options
 from symgen.errors import InputError
-from symgen.settings import Settings
+from symgen.settings import Settings, default, flag, names
 
 if TYPE_CHECKING:
     from symgen.api import Model
     from symgen.result.result import Result
+
+
+#: Settings that count for mode shapes.
+_OF_MODES = ("parameters", "inputs", "start", "coordinates")
 
 
 @click.command(
@@ -79,6 +84,9 @@ def command(
         model = load(what)
     if beside is not None and stored is None:
         raise InputError("--beside", "two saved results", f"the model '{what}'")
+    without = () if stored is not None else _OF_MODES if mode is not None else None
+    if without is not None:
+        _refuse(settings, without, "a saved result" if mode is None else "a mode shape")
     if mode is not None and stored is not None:
         raise InputError("--mode", "a model, about whose equilibrium modes are", f"the saved result '{what}'")
     if mode is None and at != "equilibrium":
@@ -103,6 +111,13 @@ def command(
     made = result.view(live=live)
     made.save(file)
     return _told(file, made.live, as_json, result.status) or _code(result)
+
+
+def _refuse(settings: Settings, known: Collection[str], what: str) -> None:
+    """Refuse settings that mean nothing where nothing is run by them."""
+    for name in names():
+        if name not in known and getattr(settings, name) != default(name):
+            raise InputError(flag(name), f"settings of {what}", "one of a run")
 
 
 def _checked(file: Path) -> Path:

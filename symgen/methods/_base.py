@@ -224,10 +224,10 @@ class Method(ABC):
         known = {o.name: o for o in self.options}
         for name, value in given.items():
             if name not in known:
-                names = [*known, *(p.name for p in self.parameters)]
-                raise InputError(
-                    f"option {self.name}.{name}", "an option of the method", f"'{name}'", nearest(name, names)
-                )
+                numbers = [p.name for p in self.parameters]
+                got = f"'{name}'" + (", a number that runs are given" if name in numbers else "")
+                hint = nearest(name, known if name in numbers else [*known, *numbers]) or "it has none"
+                raise InputError(f"option {self.name}.{name}", "an option of the method", got, hint)
             if value not in known[name].values:
                 raise InputError(
                     f"option {self.name}.{name}",

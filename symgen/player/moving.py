@@ -82,9 +82,12 @@ def write_film(path: Path, recording: Recording) -> Path:
     from PIL import Image
 
     frames = [picture.convert("P", palette=Image.Palette.ADAPTIVE, colors=64) for picture in pictures]
+    # a GIF counts hundredths of a second: pictures last one more or less, so that all together last as long as they are
+    ends = np.round(0.1 * pause * np.arange(count + 1))
+    pauses = [10 * int(x) for x in np.diff(ends)]
 
     def write(file: io.BytesIO) -> None:
-        frames[0].save(file, format="GIF", save_all=True, append_images=frames[1:], duration=round(pause), loop=0)
+        frames[0].save(file, format="GIF", save_all=True, append_images=frames[1:], duration=pauses, loop=0)
 
     return write_whole(path, write)
 

@@ -205,12 +205,13 @@ class SymbolicEquations:
     # -- computing -------------------------------------------------------------------------------------------------
 
     def subs(self, values: Mapping[Any, Any]) -> SymbolicEquations:
-        """Return the equations with symbols replaced.
+        """Return the equations with symbols replaced, all of them at once.
 
         Parameters
         ----------
         values : mapping
-            By symbol or name, what is put in its place: numbers or SymPy expressions.
+            By symbol or name, what is put in its place: numbers or SymPy expressions. A symbol that was replaced before
+            and is named again gets the new value.
 
         Raises
         ------
@@ -218,12 +219,15 @@ class SymbolicEquations:
             If a name is not one of the equations.
         """
         known = {s.name: s for s in (*self._plain.symbols.values(), *self._named.named.values())}
-        found = dict(self.values)
+        new = dict[Any, Any]()
         for key, value in values.items():
             name = key.name if isinstance(key, sp.Symbol) else str(key)
             if name not in known:
                 raise InputError("subs", "a name of the equations", f"'{name}'", nearest(name, known))
-            found[known[name]] = sp.sympify(value)
+            new[known[name]] = sp.sympify(value)
+        left = {symbol for value in self.values.values() for symbol in value.free_symbols}
+        found = {key: value.xreplace(new) for key, value in self.values.items()}
+        found |= {key: value for key, value in new.items() if key not in found or key not in left}
         return replace(self, values=found)
 
     def lambdify(self, *names: str, modules: str | Sequence[Any] = "numpy") -> Callable[..., Any]:
@@ -356,7 +360,7 @@ class SymbolicEquations:
         return sp.ImmutableDenseMatrix(*shape, lambda i, j: found.get((int(i), int(j)), sp.S.Zero))
 
     def _put(self, expression: Any) -> Any:
-        return expression.subs(self.values) if self.values else expression
+        return expression.xreplace(self.values) if self.values else expression
 
     def _definitions(self, ends: Iterable[int]) -> dict[Any, Any]:
         """Return what the names in `ends` stand for, in evaluation order."""

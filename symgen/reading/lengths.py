@@ -86,7 +86,8 @@ class _Symbols:
         if not _is_number(value) or value == 0:
             return value
         number = len(self.given) + 1
-        while f"l_{number}" in self.taken or f"l_{number}" in self.given:
+        # `l1` and `l_1` are typeset alike
+        while f"l_{number}" in self.taken or f"l{number}" in self.taken or f"l_{number}" in self.given:
             number += 1
         self.given[f"l_{number}"] = {"value": abs(float(value)), "unit": "m", "note": place}
         return f"l_{number}" if value > 0 else f"-l_{number}"

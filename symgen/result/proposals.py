@@ -13,10 +13,12 @@ from symgen.methods import METHODS
 from symgen.plan import make_plan
 from symgen.result.judge import judge_alone
 from symgen.result.result import OK
-from symgen.run_setup import ready
+from symgen.run_setup import give_inputs
 from symgen.runtime import abi
+from symgen.runtime.pieces import merged
 from symgen.runtime.run import integrate
 from symgen.settings import Settings, flag
+from symgen.tree_run import begun
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -50,7 +52,8 @@ def proposals(mechanism: Mechanism, settings: Settings, outcome: Outcome) -> tup
     chosen = settings.method not in METHODS.names or settings.integrator not in (None, *INTEGRATORS.names)
     if outcome.code in (abi.DONE, abi.STOPPED) or chosen:  # automatically
         return ()
-    for change in _changes(make_plan(mechanism, settings), settings, outcome):
+    given = give_inputs(mechanism, settings)
+    for change in _changes(make_plan(given.mechanism, given.settings), settings, outcome):
         asked = replace(settings, **change)
         try:
             if _works(mechanism, asked):
@@ -97,8 +100,10 @@ def _plain(value: float) -> float:
 
 
 def _works(mechanism: Mechanism, settings: Settings) -> bool:
-    plan = make_plan(mechanism, settings)
-    compiled, start = ready(mechanism, plan, settings.parameters, settings.strict)
+    given = give_inputs(mechanism, settings)
+    plan = make_plan(given.mechanism, given.settings)
+    plan = replace(plan, spec=replace(plan.spec, pieces=merged(given.pieces, plan.spec.pieces)))
+    plan, compiled, start, _ = begun(given.mechanism, plan, given.settings.parameters, settings.strict)
     law, spec = compiled.law, plan.spec
     operations = max(1, sum(law.operations.get(name, 0) for name in ("rhs", "accept", "residual", "tangent")))
     most = BUDGET / operations

@@ -92,7 +92,7 @@ class Forces:
         info = self.compiled.info
         found = {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
         if self.redundant:
-            columns, _ = _weighed(self.outcome, 0.0, self.outcome.start.y)
+            columns, _ = _weighed(self.outcome, self.outcome.start.t, self.outcome.start.y)
             left, singular, _ = np.linalg.svd(columns.T, full_matrices=True)
             rank = int(np.sum(singular > CUTOFF * singular.max(initial=0.0)))
             share = np.linalg.norm(left[:, rank:], axis=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -41,6 +42,6 @@ def read_saved(
         return (of_dataset if ending == ".nc" else of_columns)(option, path)
     except InputError:
         raise
-    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration) as error:
+    except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, csv.Error) as error:
         why = " ".join(str(error).split())[:80]
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None

@@ -44,7 +44,7 @@ def view(result: Result, beside: Result | None = None, live: bool = True) -> Pag
     """
     first = recorded(result)
     second = None if beside is None else recorded(beside)
-    if second is not None and second.q.shape[1] != first.q.shape[1]:
+    if beside is not None and second is not None and beside.q.names != result.q.names:
         raise InputError("view", f"another motion of {first.mechanism.name}", f"one of {second.mechanism.name}")
     part, note = _live(result, first) if live else (None, "")
     return Page(page(first, part, note, second), first.mechanism.name, part is not None)

@@ -89,12 +89,13 @@ def code_identity() -> str:
 
     package = Path(__file__).resolve().parent.parent
     found = hashlib.sha256(f"{__version__} {FORMAT} {generator_digest()}".encode())
-    for folder in ("compiling", "integrators", "runtime", "result", "study"):
+    # `native` and `store` make machine code: run times are theirs as well
+    for folder in ("compiling", "integrators", "native", "result", "runtime", "store", "study"):
         for path in sorted((package / folder).rglob("*.py")):
             name = path.relative_to(package).as_posix()
             if name not in TELLING:
                 found.update(name.encode() + b"\0" + path.read_bytes())
-    for name in ("auto.py", "plan.py", "api.py", "run_setup.py", "tree_run.py"):
+    for name in ("auto.py", "plan.py", "api.py", "run_setup.py", "settings.py", "tree_run.py"):
         found.update((package / name).read_bytes())
     return found.hexdigest()
 

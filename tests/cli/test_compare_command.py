@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from symgen.api import load
 from symgen.cli import main
 from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
@@ -147,3 +148,11 @@ def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_
         assert len(kept) == 5
         assert {key: kept.get(key) for key in before} == before
     assert rows_of(journal) == 5
+
+
+def test_the_sketch_at_the_head_of_a_report_is_where_runs_begin():
+    from symgen.cli._report import sketches_of
+
+    model, start = load("pendulum"), {"bob.x": 0.0, "bob.y": -1.0}
+    assert sketches_of([model], {}, start) == {"pendulum": model.draw(start=start).svg}
+    assert model.draw(start=start).svg != model.draw().svg

@@ -75,6 +75,19 @@ def test_a_run_that_goes_on_is_tried_from_where_it_began(folder, capsys, tmp_pat
     assert main(["run", *words, *shlex.split(proposed)]) == 0
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_what_a_run_gives_an_input_is_tried_as_well(folder, capsys, coordinates):
+    """The search knew no inputs: it ended the command with code 2, and nothing was shown of the run."""
+    text = "[inputs]\npush = 0.0\n" + SPRING.replace("STIFFNESS", "1e6").replace("DAMPING", "0.0")
+    text += '\n[forces.thrust]\ntype = "force"\nbody = "mass"\nforce = ["push", 0.0]\n'
+    Path("pushed.toml").write_text(text, encoding="utf-8")
+    words = ("run", "pushed.toml", "--input", "push=sin(20*t)", "--integrator", "rk4", "--json")
+    words += ("--coordinates", coordinates)
+    assert main([*words]) == 1
+    (proposed,) = json.loads(capsys.readouterr().out)["proposals"]
+    assert main([*words, *shlex.split(proposed)]) == 0
+
+
 def test_where_nothing_is_found_nothing_is_proposed(folder, capsys):
     """A force that has no value from some time on, whatever the step."""
     text = SPRING.replace("STIFFNESS", "1.0").replace("DAMPING", "0.0")

@@ -155,6 +155,14 @@ def test_steps_are_bounded_in_stress_studies():
         (["run", "pendulum", "--set", "bob_mass=1", "--set", "bob_mass=2"], "--set bob_mass: expected each name once"),
         (["run", "pendulum", "--start", "bob.vx=1", "--start", "bob.vx=1"], "--start bob.vx: expected each name once"),
         (["run", "cart-pole", "--input", "force=1", "--input", "force=t"], "--input force: expected each name once"),
+        (
+            ["run", "cart-pole", "--set", "force=1", "--input", "force=t"],
+            "input 'force': expected one way of giving it",
+        ),
+        (
+            ["sweep", "cart-pole", "--vary", "cart.x=lin(0,1,2)", "--set", "force=1", "--input", "force=t"],
+            "'force': expected one",
+        ),
         (["run", "pendulum", *["--option", "method.weight=mass"] * 2], "--option method.weight: expected each name"),
         (
             ["sweep", "pendulum", "--vary", "bob_mass=lin(1,2,2)", "--set", "bob_mass=3"],

@@ -124,6 +124,31 @@ def test_at_a_time_it_is_where_the_run_is(tmp_path: Path) -> None:
     assert (tmp_path / "x.svg").read_text() == model.draw(q=result.q.values[-1]).svg
 
 
+def test_what_a_run_does_not_reach_is_not_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The last output that there was stood for the time asked for, the start where a run failed."""
+    text = """
+[mechanism]
+name = "ball"
+gravity = [0.0, -9.81]
+[bodies.ball]
+type = "point"
+mass = 1.0
+position = [0.0, 1.0]
+"""
+    stop, lost = (
+        '[events.low]\nwhen = "ball.y < 0.5"\naction = "stop"\n',
+        "[forces.wind]\ntype = 'force'\nbody = 'ball'\n",
+    )
+    lost += "force = ['sqrt(0.1 - t)', 0.0]\n"
+    for words, code, told in ((stop, 2, "up to t = 0.319275 s"), (lost, 1, "the run to t = 1 s failed")):
+        (tmp_path / "ball.toml").write_text(text + words)
+        assert main(["draw", str(tmp_path / "ball.toml"), "--at", "1", "-o", str(tmp_path / "x.svg")]) == code
+        assert told in capsys.readouterr().err
+        assert not (tmp_path / "x.svg").exists()
+    (tmp_path / "ball.toml").write_text(text + stop)
+    assert main(["draw", str(tmp_path / "ball.toml"), "--at", "0.3", "-o", str(tmp_path / "x.svg")]) == 0
+
+
 # -- shapes ------------------------------------------------------------------------------------------------------------
 
 

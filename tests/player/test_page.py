@@ -68,8 +68,9 @@ def test_large_equations_stay_outside_and_the_page_says_so() -> None:
 def test_two_motions_of_one_mechanism(result: Any) -> None:
     other = load("slider-crank").simulate(until=0.5, parameters={"crank_mass": 2.0})
     assert len(data_of(result.view(other).html)["motions"]) == 2
-    with pytest.raises(InputError, match="another motion of slider-crank"):
-        result.view(load("pendulum").simulate(until=0.1))
+    for another in ("pendulum", "four-bar"):  # which has as many coordinates
+        with pytest.raises(InputError, match="another motion of slider-crank"):
+            result.view(load(another).simulate(until=0.1, step=1e-2))
 
 
 def test_notebooks_show_a_page_in_a_frame(result: Any) -> None:
@@ -195,6 +196,22 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
     assert whole[-1] > 1e-9 and whole[-1] == pytest.approx(run.violations["position"][-1], rel=2e-3)
 
 
+def test_a_film_lasts_as_long_as_the_motion(tmp_path: Path) -> None:
+    """A GIF counts hundredths of a second: pictures of 66 ms were shown for 60."""
+    from PIL import Image
+
+    from symgen.player.moving import write_film
+    from symgen.result.viewed import recorded
+
+    result = load("pendulum").simulate(until=0.46, times=np.linspace(0.0, 0.46, 7), step=1e-2)
+    shown = 0
+    with Image.open(write_film(tmp_path / "a.gif", recorded(result))) as film:
+        for k in range(film.n_frames):
+            film.seek(k)
+            shown += film.info["duration"]
+    assert shown == 460
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -206,6 +223,7 @@ def test_gaps_of_single_joints_are_those_of_the_run() -> None:
         (["a.nc", "--model", "pendulum", "--mode", "1"], "about whose equilibrium"),
         (["pendulum", "--mode", "9"], "from 1 to"),
         (["pendulum", "--at", "start"], "asked for with --mode"),
+        (["pendulum", "--mode", "1", "--until", "3"], "--until: expected settings of a mode shape"),
     ],
 )
 def test_wrong_words_are_refused(words: list[str], told: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -219,3 +237,5 @@ def test_a_file_of_something_else_is_refused(tmp_path: Path, capsys: pytest.Capt
     result.save(tmp_path / "a.nc")
     assert main(["view", str(tmp_path / "a.nc"), "--model", "pendulum", "-o", str(tmp_path / "y.html")]) == 2
     assert "one of slider-crank" in capsys.readouterr().err
+    assert main(["view", str(tmp_path / "a.nc"), "--set", "crank_mass=9", "-o", str(tmp_path / "y.html")]) == 2
+    assert "--set: expected settings of a saved result" in capsys.readouterr().err

@@ -48,6 +48,13 @@ def test_a_file_that_exists_is_kept_where_that_is_asked(tmp_path, monkeypatch):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a", "b"]
 
 
+def test_of_files_that_belong_together_none_is_made_where_one_exists(tmp_path):
+    (tmp_path / "b").write_text("kept")
+    with pytest.raises(InputError, match="does not exist yet"):
+        files.write_all({tmp_path / "a": "new", tmp_path / "b": "new"}, replace=False)
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("b", "kept")]
+
+
 def test_a_link_stays_a_link(tmp_path):
     (tmp_path / "real").write_text("old")
     (tmp_path / "link").symlink_to("real")

@@ -6,9 +6,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from symgen import memory
+from symgen.api import load
+from symgen.describe.mechanism import Defaults
 from symgen.errors import InputError
 
 #: Runs commands in a process whose address space is bounded, and says how much of it they took at most.
@@ -146,3 +149,17 @@ def test_groups_of_a_container_count(tmp_path, monkeypatch, old):
 def test_this_machine_says_something():
     found = memory.available()
     assert found is None or 1e6 < found < 1e15
+
+
+def test_a_method_s_own_integrator_has_an_output_at_every_step(monkeypatch):
+    """Only an integrator that was named counted: of runs by default a thousand outputs were expected."""
+    from symgen.plan import check_saving
+    from symgen.settings import Settings
+
+    mechanism = msgspec.structs.replace(load("four-bar").mechanism, defaults=Defaults(until=10.0, step=1e-3))
+    monkeypatch.setattr(memory, "available", lambda: 1e9)
+    check_saving(mechanism, Settings())
+    for integrator in (None, "rk4"):
+        with pytest.raises(InputError, match=r"1e\+06 outputs of four-bar"):
+            check_saving(mechanism, Settings(step=1e-5, integrator=integrator))
+    check_saving(mechanism, Settings(step=1e-5, integrator="dop853"))

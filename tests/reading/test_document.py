@@ -89,6 +89,8 @@ def test_a_name_that_is_taken_is_left_to_its_owner():
     found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l_1": 3.0}})
     assert found["parameters"]["l_1"] == 3.0
     assert "l_2" in found["parameters"]
+    found = with_symbols({**raw, "parameters": {**raw.get("parameters", {}), "l1": 3.0}})
+    assert "l_2" in found["parameters"] and "l_1" not in found["parameters"]  # which is typeset as l1 is
 
 
 def test_drivers_without_rows_are_said_and_numbers_stay_apart(capsys):

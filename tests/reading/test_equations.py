@@ -141,6 +141,11 @@ def test_values_replace_symbols_everywhere():
     assert changed.M[0, 0] == 2
     assert changed.D[2, 2] == 0
     assert changed.shared().subs({"crank_mass": 3}).M[0, 0] == 3
+    one, other = e.q["crank.x"], e.q["crank.y"]
+    turned = e.subs({one: other, other: one})  # at once: one after the other both would be one of them
+    assert turned.D == e.D.xreplace({one: other, other: one}) and turned.Phi != e.Phi
+    assert turned.Phi == e.Phi.xreplace({one: other, other: one})
+    assert turned.subs({one: 2}).Phi == turned.Phi.xreplace({one: sp.Integer(2)})
     rng = np.random.default_rng(1)
     q, v = rng.uniform(size=9), rng.uniform(size=9)
     found = changed.lambdify("D", "f")(0.0, q, v)

@@ -139,6 +139,7 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
     changed.to_netcdf(tmp_path / "changed.nc", engine="h5netcdf")
     (tmp_path / "text.nc").write_text("no file of a result")
     (tmp_path / "text.csv").write_text("a,b\n1,2\n")
+    (tmp_path / "long.csv").write_text("a" * 200_000 + ",b\n1,2\n")  # beyond what Python's reader takes for a word
     older = whole.drop_vars([name for name in whole if str(name).startswith("last_")])
     del older.attrs["last_state"]
     older.to_netcdf(tmp_path / "older.nc", engine="h5netcdf")
@@ -146,6 +147,7 @@ def test_files_of_runs_that_were_not_changed_and_others(tmp_path, capsys):
         "changed.nc": "in which it was changed",
         "text.nc": "cannot be read as one",
         "text.csv": "cannot be read as one",
+        "long.csv": "cannot be read as one",
         "none.nc": "which is none",
         "first.txt": "a file ending in .nc, .parquet, .csv",
     }.items():

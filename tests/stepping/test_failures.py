@@ -149,6 +149,7 @@ def test_what_has_no_sense_is_refused_in_one_sentence(four_bar):
     adaptive = four_bar.start(integrator="dopri5")
     for call, sentence in (
         (lambda: four_bar.start(times=[0.1]), "start: times: expected settings of a run without outputs"),
+        (lambda: four_bar.start(times=np.array([0.1, 0.2])), "start: times: expected settings of a run without"),
         (lambda: four_bar.start(repeat=2), "start: repeat: expected settings of a run without outputs"),
         (lambda: four_bar.start(stepp=2), "did you mean 'step'?"),
         *(

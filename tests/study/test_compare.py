@@ -258,6 +258,32 @@ def test_a_journal_gives_rows_back_and_computes_only_what_is_missing(tmp_path, m
     assert [t for t, r in zip(second.traces, second.rows, strict=True) if r.step != 5e-3] == list(first.traces)
 
 
+def test_a_journal_tells_shapes_apart():
+    """Run times are those of the shape that was asked for."""
+    from symgen.study.journal import Journal
+
+    journal, arguments = Journal(), {"methods": ["lagrange"], "integrators": ["rk4"], "steps": [1e-2]}
+    for shape in ("straight", "looped", "straight"):
+        symgen.compare("pendulum", **arguments, until=0.05, repeat=1, journal=journal, shape=shape)
+    assert len(journal) == 3  # a row each, and the reference
+
+
+@pytest.mark.parametrize(
+    ("name", "start"), [("pendulum", {"bob.vy": -2.0}), ("n-four-bar:1", {"vertical0.omega": -2.0})]
+)
+def test_errors_are_to_the_motion_from_the_start_that_is_asked_for(name, start):
+    """Formulas know the start of the catalogue alone: distances to it were of the size of the mechanism."""
+    from symgen.study.comparison.prepare import Task
+
+    asked = {"methods": ["direct-correction"], "integrators": ["dop853"], "rtols": [1e-10]}
+    found = symgen.compare(name, **asked, until=0.3, repeat=1, start=start)
+    assert found.rows[0].error < 1e-7
+    assert "independently derived" in found.how
+    times = np.linspace(0.0, 0.3, 4)
+    mechanism, settings = symgen.load(name).mechanism, symgen.Settings(start=start)
+    assert Task("reference", mechanism, (settings,), times).do()["how"] == found.how
+
+
 def test_failed_rows_come_back_from_a_journal_as_they_were(tmp_path):
     from symgen.study.journal import Journal
 

@@ -216,3 +216,15 @@ def test_progress_counts_what_was_found_and_estimates_the_rest(tmp_path):
     # three cells of at least 0.05 s each are left after the first of four
     assert seen[1].seconds_left > 0.14
     assert sorted(traced(tmp_path)) == [0, 1, 2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("edited", ["native/llvm.py", "store/emitted.py", "runtime/frame.py", "settings.py"])
+def test_cells_are_those_of_the_code_that_made_them(edited, monkeypatch):
+    """Run times are kept as well, so that what makes machine code counts as much as what it computes."""
+    from symgen.study import journal as module
+
+    known, real = module.code_identity.__wrapped__(), Path.read_bytes
+    monkeypatch.setattr(
+        Path, "read_bytes", lambda self: real(self) + b"#" * self.as_posix().endswith(f"symgen/{edited}")
+    )
+    assert module.code_identity.__wrapped__() != known

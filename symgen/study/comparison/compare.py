@@ -330,7 +330,7 @@ def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress
     values = work.model.parameters(settings.parameters)
     try:
         state = compiled.info.parts(start.y)
-        known = reference(mechanism, values, *state, work.times, progress, work.reference_by)
+        known = reference(mechanism, values, *state, work.times, progress, work.reference_by, not settings.start)
     except SimulationError as error:
         work.note = f"there is no reference, so errors are unknown: {error}"
         return

@@ -45,7 +45,7 @@ class Kept:
         shared["start"] = dict(settings.start)
         if what == "reference":
             return cell_key(what=what, **self._base, **shared)
-        own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in (*shared, "shape")}
+        own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in shared}
         if own["coordinates"] == "absolute":
             del own["coordinates"]  # rows were kept before there were others
         return cell_key(what=what, **self._base, **shared, **own)

@@ -70,8 +70,9 @@ class Task:
             return None
         settings = self.settings[0]
         compiled, start = model.ready(make_plan(model.mechanism, settings), settings.parameters)
-        values = model.parameters(settings.parameters)
-        return reference(self.mechanism, values, *compiled.info.parts(start.y), self.times, solver=self.reference_by)
+        values, (q, v) = model.parameters(settings.parameters), compiled.info.parts(start.y)
+        by = self.reference_by
+        return reference(self.mechanism, values, q, v, self.times, solver=by, own_start=not settings.start)
 
 
 def as_entry(known: Reference) -> dict[str, Any]:

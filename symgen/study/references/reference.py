@@ -72,6 +72,7 @@ def reference(
     times: Array,
     progress: Progress | None = None,
     solver: str = AUTO,
+    own_start: bool = True,
 ) -> Reference:
     """Return the reference motion of a mechanism.
 
@@ -89,6 +90,8 @@ def reference(
         Called with the fraction that is done.
     solver : str
         ``auto``, or one of `SOLVERS`.
+    own_start : bool
+        Whether the start is the one that the mechanism describes: formulas know no other one.
 
     Raises
     ------
@@ -99,7 +102,7 @@ def reference(
     """
     if check_solver(solver) != AUTO:
         return _integrated(mechanism, parameters, (q, v), times, solver, progress)
-    closed = closed_form(mechanism)
+    closed = closed_form(mechanism) if own_start else None
     if closed is not None:
         how, estimated, motion = closed(mechanism, parameters, q, times)
         return Reference(how, estimated, times, motion)
