@@ -5,6 +5,7 @@ Worker processes of pytest-xdist inherit it through the environment. SYMGEN_TEST
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import tempfile
@@ -16,6 +17,10 @@ from hypothesis import HealthCheck, settings
 # no test depends on how fast a machine is or how busy: neither an example's time nor that of drawing it is bounded
 settings.register_profile("any machine", deadline=None, suppress_health_check=list(HealthCheck))
 settings.load_profile("any machine")
+
+#: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
+#: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
+COLLECTIONS = (10_000, 20, 50)
 
 _made: list[Path] = []
 
@@ -34,6 +39,13 @@ def pytest_configure(config: pytest.Config) -> None:
         return
     _made.append(Path(tempfile.mkdtemp(prefix="symgen-tests-")))
     os.environ["SYMGEN_CACHE_DIR"] = str(_made[0])
+
+
+def pytest_collection_finish() -> None:
+    """Leave modules and collected tests, which last as long as the session, out of garbage collection."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(*COLLECTIONS)
 
 
 def pytest_unconfigure() -> None:

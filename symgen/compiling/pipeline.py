@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import os
 import time
+import weakref
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -166,21 +167,22 @@ def generate(
 
 
 def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], target: str) -> Generated:
-    from symgen.emit.emit import emit_law, emit_model
-    from symgen.emit.lanes import emit_lanes_law, emit_lanes_model
-    from symgen.formulate.formulate import formulate
+    from symgen.emit.emit import emit_law
+    from symgen.emit.lanes import emit_lanes_law
     from symgen.lower.law import lower_law
-    from symgen.lower.model import lower_model
 
     began = time.perf_counter()
-    folder = folder_of(mechanism)
-    equations = formulate(mechanism)
+    folder, key = folder_of(mechanism), (id(mechanism), target)
+    # methods are often generated one after the other; whoever lowers one has the graph, which grows by it, for himself
+    known, before = _latest.pop(key, (None, None))
+    if before is None or known is None or known() is not mechanism:
+        _latest.clear()
+        before = _without_method(mechanism, target)
     derived = time.perf_counter()
-    program = lower_model(equations, mechanism_digest(mechanism))
+    equations, program, source, info = before
     modules: dict[str, tuple[str, Mapping[str, Any]]] = {}
     suffix = SUFFIXES[target]
-    source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
-    modules[f"model{suffix}"] = source, model_info(program, equations).to_dict()
+    modules[f"model{suffix}"] = source, info
     for choice in choices:
         law = lower_law(equations, program, choice.method, choice.options, choice.implicit)
         words = (choice.method.summary, choice.method.reference)
@@ -190,9 +192,27 @@ def _generate_straight(mechanism: Mechanism, choices: tuple[MethodChoice, ...], 
             sources = emit_law(law, program, equations, *words, target)
         *shared, own = sources
         modules |= {stem: (sources[stem], {}) for stem in shared}
-        info = msgspec.structs.replace(law.info, modules=tuple(shared))
-        modules[own] = sources[own], info.to_dict()
+        law_info = msgspec.structs.replace(law.info, modules=tuple(shared))
+        modules[own] = sources[own], law_info.to_dict()
+    _latest[key] = weakref.ref(mechanism, lambda _: _latest.pop(key, None)), before
     return Generated(folder, modules, derived - began, time.perf_counter() - derived)
+
+
+#: What was derived last, of one mechanism for one target: the mechanism, and what `_without_method` gave.
+_latest: dict[tuple[int, str], tuple[weakref.ref[Mechanism], tuple[Any, Any, str, Mapping[str, Any]]]] = {}
+
+
+def _without_method(mechanism: Mechanism, target: str) -> tuple[Any, Any, str, Mapping[str, Any]]:
+    """Return equations, the model's program, its source and its metadata, which every method shares."""
+    from symgen.emit.emit import emit_model
+    from symgen.emit.lanes import emit_lanes_model
+    from symgen.formulate.formulate import formulate
+    from symgen.lower.model import lower_model
+
+    equations = formulate(mechanism)
+    program = lower_model(equations, mechanism_digest(mechanism))
+    source = emit_lanes_model(program) if target == "lanes" else emit_model(program, equations, target)
+    return equations, program, source, model_info(program, equations).to_dict()
 
 
 def _refuse_target(target: str, choices: tuple[MethodChoice, ...], shape: str) -> None:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 
 import pytest
+from support.processes import python
 
 pytest.importorskip("resource")
 
@@ -48,13 +49,7 @@ def full(folder, command, option, name, limit):
     """Return exit code and what is said under the limit."""
     warm = None if command[0] == "new" else [*command, *(() if option == "--plot" else (option, f"warm-{name}"))]
     second = [*command, option, name]
-    found = subprocess.run(
-        [sys.executable, "-c", SCRIPT, json.dumps([warm, second, limit])],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-        timeout=600,
-    )
+    found = python(SCRIPT, json.dumps([warm, second, limit]), cwd=folder)
     return found.returncode, found.stdout, found.stderr.partition("=====\n")[2]
 
 

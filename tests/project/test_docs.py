@@ -7,13 +7,12 @@ import ast
 import os
 import re
 import shlex
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import msgspec
 import pytest
+from support.processes import COMMAND, python
 
 import symgen
 from benchmarks import gallery
@@ -107,8 +106,6 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
     shown = files(page)
     for file, text in shown.items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    folder = Path(sys.executable).parent
-    environment = {**os.environ, "PATH": f"{folder}{os.pathsep}{os.environ.get('PATH', '')}"}
     for line, command in commands:
         words, settings = shlex.split(command), dict[str, str]()
         while (setting := _SETTING.fullmatch(words[0])) is not None:  # as a shell reads them
@@ -116,15 +113,8 @@ def test_every_command_runs(page: Path, tmp_path: Path) -> None:
             words = words[1:]
         own = words[0] == "symgen" or (words[0] == "python" and words[1] in shown and len(words) == 2)
         assert own, f"{name(page)}:{line}: only symgen's own commands and scripts of the page are run: {command}"
-        done = subprocess.run(
-            words,
-            capture_output=True,
-            text=True,
-            cwd=tmp_path,
-            env={**environment, **settings},
-            timeout=600,
-            check=False,
-        )
+        script, rest = (COMMAND, words[1:]) if words[0] == "symgen" else (shown[words[1]], [])
+        done = python(script, *rest, cwd=tmp_path, env={**os.environ, **settings})
         assert done.returncode == 0, f"{name(page)}:{line}: {command}\n{done.stderr}"
 
 

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from support.processes import COMMAND, python
 
 from symgen.forces import FORCES
 from symgen.integrators import INTEGRATORS
@@ -19,12 +17,11 @@ from symgen.registry import Registry
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = sorted((ROOT / "examples").iterdir())
-SYMGEN = Path(sys.executable).with_name("symgen")
 
 
-def run(*command: str | Path, cwd: Path) -> str:
-    """Run a command that must succeed; return its standard output."""
-    done = subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=600, check=False, env=os.environ)
+def run(script: str, *words: str | Path, cwd: Path) -> str:
+    """Run a script, or a command, that must succeed; return its standard output."""
+    done = python(script, *words, cwd=cwd)
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -35,7 +32,7 @@ def test_there_is_nothing_but_files_and_scripts() -> None:
 
 @pytest.mark.parametrize("path", [p for p in EXAMPLES if p.suffix == ".toml"], ids=lambda p: p.name)
 def test_a_file_runs_as_it_is(path: Path, tmp_path: Path) -> None:
-    result = json.loads(run(SYMGEN, "run", path, "--until", "0.5", "--json", cwd=tmp_path))
+    result = json.loads(run(COMMAND, "run", path, "--until", "0.5", "--json", cwd=tmp_path))
     assert result["status"] == "ok", result["reason"]
     assert result["position_violation_max"] < 1e-10
     assert result["final"]["t"] == 0.5
@@ -43,10 +40,10 @@ def test_a_file_runs_as_it_is(path: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("path", [p for p in EXAMPLES if p.suffix == ".py"], ids=lambda p: p.name)
 def test_a_script_runs_and_writes_a_file_that_runs(path: Path, tmp_path: Path) -> None:
-    text = run(sys.executable, path, cwd=tmp_path)
+    text = run(path.read_text(encoding="utf-8"), cwd=tmp_path)
     assert "[mechanism]" in text
     (tmp_path / "written.toml").write_text(text, encoding="utf-8")
-    result = json.loads(run(SYMGEN, "run", "written.toml", "--until", "0.2", "--json", cwd=tmp_path))
+    result = json.loads(run(COMMAND, "run", "written.toml", "--until", "0.2", "--json", cwd=tmp_path))
     assert result["status"] == "ok", result["reason"]
 
 

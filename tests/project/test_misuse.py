@@ -14,6 +14,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from support.processes import python
 
 import symgen
 from symgen.errors import InputError, SymgenError
@@ -599,9 +600,8 @@ def test_a_compiled_model_travels_as_what_made_it(model, shape, tmp_path):
         "import pickle, sys; model, compiled = pickle.load(open(sys.argv[1], 'rb'))\n"
         "print(compiled.shape, sorted(compiled.law.options), model.assemble(compiled).rank)"
     )
-    read = subprocess.run(
-        [sys.executable, "-c", script, tmp_path / "compiled"], capture_output=True, text=True, check=True, timeout=600
-    )
+    read = python(script, tmp_path / "compiled")
+    assert read.returncode == 0, read.stderr
     assert read.stdout == f"{shape} {sorted(made.law.options)} {model.assemble(made).rank}\n"
 
 

@@ -1,12 +1,10 @@
 """Runs in pieces from Python: bit for bit the runs that `simulate` makes in one go."""
 
-import os
 import pickle
-import subprocess
-import sys
 
 import numpy as np
 import pytest
+from support.processes import python
 from support.remembering import CONSTANT, PAIRS
 
 import symgen
@@ -121,13 +119,12 @@ def test_a_saved_state_goes_on_in_another_process(four_bar, tmp_path):
         "sim.restore(saved)\n"
         "assert sim.parameters['rocker_mass'] == 4.0\n"
         "sim.step(20 * 2e-3)\n"
-        "sys.stdout.buffer.write(sim.state.tobytes())"
+        "print(sim.state.tobytes().hex())"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(tmp_path / "saved")], capture_output=True, check=True, env={**os.environ}
-    )
+    done = python(code, tmp_path / "saved")
+    assert done.returncode == 0, done.stderr
     sim.step(20 * STEP)
-    np.testing.assert_array_equal(np.frombuffer(done.stdout), sim.state)
+    np.testing.assert_array_equal(np.frombuffer(bytes.fromhex(done.stdout)), sim.state)
 
 
 @pytest.mark.parametrize("integrator", ["rk4", "abm4", "generalized-alpha"])

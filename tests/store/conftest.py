@@ -1,16 +1,19 @@
-"""Each test has a cache of its own; what must happen in another process goes through `python`."""
+"""Each test has a cache of its own; what must happen in another process goes through `python`.
+
+That process is a fork of one in which Numba is imported and nothing is compiled; where a variable is given that Python
+or Numba reads when it starts, an interpreter is started.
+"""
 
 from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support import processes
 
 MODEL = """\
 import math
@@ -106,15 +109,9 @@ def python(tmp_path: Path) -> Callable[..., Any]:
     """Run a script in another process and return the JSON of its last line."""
 
     def run(script: str, *arguments: object, **environment: str) -> Any:
-        path = os.pathsep.join([str(tmp_path / "library"), str(Path(__file__).parents[2])])
-        result = subprocess.run(
-            [sys.executable, "-W", "error", "-c", script, *map(str, arguments)],
-            env={**os.environ, "PYTHONPATH": path, **environment},
-            capture_output=True,
-            text=True,
-            timeout=600,
-            check=False,
-        )
+        folders = [str(tmp_path / "library"), str(Path(__file__).parents[2])]
+        variables = {**os.environ, **environment}
+        result = processes.python(script, *arguments, env=variables, path=folders, strict=True)
         assert result.returncode == 0, result.stderr
         return json.loads(result.stdout.splitlines()[-1])
 

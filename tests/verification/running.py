@@ -13,14 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from support import processes
 
 from benchmarks.plain.motion import integrate
 from benchmarks.plain.start import start
 from benchmarks.plain.system import System, read
 
 DEFECTS = Path(__file__).resolve().parents[1] / "data" / "defects"
-#: A process that does not end within this hangs [s].
-PATIENCE = 600
 _COMMAND = "import sys; from symgen.cli import main; sys.exit(main(sys.argv[1:]))"
 
 
@@ -42,15 +41,7 @@ class Said:
 
 def symgen(words: Sequence[str | Path], folder: Path, **variables: str) -> Said:
     """Run ``symgen`` in a process of its own, in a folder."""
-    done = subprocess.run(
-        [sys.executable, "-c", _COMMAND, *map(str, words)],
-        capture_output=True,
-        text=True,
-        cwd=folder,
-        env={**os.environ, **variables},
-        timeout=PATIENCE,
-        check=False,
-    )
+    done = processes.symgen(words, cwd=folder, env={**os.environ, **variables})
     return Said(done.returncode, done.stdout, done.stderr)
 
 

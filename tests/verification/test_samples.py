@@ -5,17 +5,17 @@ from __future__ import annotations
 import json
 import re
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from support.processes import python
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def run(*words: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", *words]
-    return subprocess.run(command, capture_output=True, text=True, cwd=ROOT, check=False)
+def run(module: str, *words: str) -> subprocess.CompletedProcess[str]:
+    script = f"import runpy; runpy.run_module({module!r}, run_name='__main__', alter_sys=True)"
+    return python(script, *words, cwd=ROOT, path=[ROOT])
 
 
 def lines(path: Path) -> list[dict]:

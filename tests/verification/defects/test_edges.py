@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from support.processes import python
 
 import symgen
 from benchmarks.mechanisms.toml import text
@@ -176,14 +177,7 @@ resource.setrlimit(resource.RLIMIT_FSIZE, (2_000, 2_000))
 from symgen.cli import main
 sys.exit(main({RUN!r}))
 """
-    done = subprocess.run(
-        [sys.executable, "-c", script],
-        capture_output=True,
-        text=True,
-        cwd=tmp_path,
-        env={**os.environ, "SYMGEN_CACHE_DIR": str(tmp_path / "cache")},
-        check=False,
-    )
+    done = python(script, cwd=tmp_path, env={**os.environ, "SYMGEN_CACHE_DIR": str(tmp_path / "cache")})
     assert done.returncode == 1
     lines = done.stderr.strip().splitlines()
     assert len(lines) == 1 and "cannot be written" in lines[0] and "SYMGEN_CACHE_DIR" in lines[0], done.stderr[-500:]

@@ -7,13 +7,12 @@ import contextlib
 import io
 import json
 import random
-import subprocess
-import sys
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import pytest
+from support.processes import python
 
 import symgen
 from benchmarks.fuzzing.texts import CANARY
@@ -220,9 +219,8 @@ def test_units_stay_text(name: str, tmp_path: Path) -> None:
 
 def test_a_full_disk_is_said(tmp_path: Path) -> None:
     """Saving stops in the middle of the file; the process stays alive and leaves nothing behind."""
-    script = f"""
+    script = """
 import resource, signal, sys
-sys.path.insert(0, {str(Path(symgen.__file__).parents[1])!r})
 import symgen
 result = symgen.load("pendulum").simulate(until=20.0, step=1e-3)
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -232,7 +230,7 @@ try:
 except symgen.SymgenError as error:
     print("said:", error)
 """
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path, check=False)
+    done = python(script, cwd=tmp_path)
     assert done.returncode == 0, (done.returncode, done.stderr)
     assert done.stdout.startswith("said:") and done.stdout.count("\n") == 1
     assert not list(tmp_path.iterdir())
