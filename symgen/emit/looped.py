@@ -58,7 +58,7 @@ _GENERIC = (
 
 #: Names that the modules ``machine`` and ``model`` define.
 _MACHINE = (*(name for name, *_ in _GENERIC), "run", "tables", *_MODES)
-_SHARED = ("constrain", "decide_rank", "geometry", "spread", "measure", "observe", "move", "turn", "normalise")
+_SHARED = ("geometry", "spread", "measure", "observe", "move", "turn", "normalise")
 
 
 def emit_shared_model(generator: str) -> str:

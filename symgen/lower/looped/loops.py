@@ -207,10 +207,6 @@ class Loops(Replay):
     #: Of a root of M^-1 only products with its transposed are formed, beside another one.
     _on_times_transposed = _nothing
 
-    def _on_geometry(self, operation: Operation, rank: None) -> None:
-        self._call("constrain", "t", "y", "p", "w", "T")
-        self._call("decide_rank", "T", "p", "w")
-
     def _on_dot(self, operation: Operation, a: Nodes, b: Nodes) -> int:
         node = self.graph.mul(a[0], b[0])
         if node == self.graph.zero:
