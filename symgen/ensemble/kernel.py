@@ -78,11 +78,6 @@ class Results:
     events: Array
     behind: Array
 
-    @property
-    def whole_summary(self) -> Array:
-        """All numbers of every run that are not over time."""
-        return np.hstack([self.summary, self.events]) if self.events.shape[1] else self.summary
-
 
 @dataclass
 class _Prepared:
@@ -170,7 +165,7 @@ class Kernel:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
-        return Chunk(recipe.in_order(values, behind), out.whole_summary, complete)
+        return Chunk(recipe.in_order(values, behind), np.hstack([out.summary, out.events]), complete)
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
