@@ -242,9 +242,8 @@ class Kernel:
         picks = picked, out.values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
         dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        chunk = ChunkRecord(
-            selected, *(x.ravel() for x in now), recipe.limits, *picks, *wants, model.compiled.layout, dense
-        )
+        flat, places = (x.ravel() for x in now), (model.compiled.layout, dense)
+        chunk = ChunkRecord._make((selected, *flat, recipe.limits, *picks, *wants, *places))
         room = max(model.setup.room, 2 * info.ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
