@@ -71,9 +71,10 @@ def factors(model: str, pair: str, shape: str = "looped") -> dict[str, int]:
         coefficients = np.append(1.0, STEP * a.ravel())
     while (skipped := sparse.prepare(plan, sources, coefficients, numbers)) < 0:
         plan, numbers = sparse.enlarged(plan, numbers)
-    stored = sparse.stored_entries(plan)
-    entries = int(plan[sparse.ENTRIES])
-    return {"unknowns": int(plan[sparse.SIZE]), "entries": entries, "stored": stored, "skipped": skipped}
+    size, work, entries = (int(plan[where]) for where in (sparse.SIZE, sparse.WORK, sparse.ENTRIES))
+    upper, end = (plan[work + where * size :][:size] for where in (sparse._UPPER, sparse._END))
+    stored = int(np.sum(end - upper))  # entries of L and U beside the diagonal
+    return {"unknowns": size, "entries": entries, "stored": stored, "skipped": skipped}
 
 
 def measure(model: str, pair: str, shape: str) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from asyncio import CancelledError
 from collections.abc import Callable
 from contextlib import suppress
+from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
 from symgen.ensemble.kernel import Chunk, kernel_of, new_control
@@ -97,7 +98,7 @@ def run_there(
     def hand_out(index: int, attempt: int) -> Any:
         rows = ensemble.rows(*table.bounds(index))
         try:
-            future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{_unique()}")
+            future = client.submit(run_chunk, recipe, rows, pure=False, key=f"symgen-chunk-{index}-{token_hex(8)}")
         except (Exception, CancelledError) as error:  # of a scheduler that has gone
             raise _gave_up(index, error) from None
         handed[future.key] = (index, attempt)
@@ -145,9 +146,3 @@ def _outcome(future: Any) -> Chunk | BaseException:
     except (Exception, CancelledError) as error:
         return error
     return found
-
-
-def _unique() -> str:
-    import secrets
-
-    return secrets.token_hex(8)

@@ -78,11 +78,6 @@ class Results:
     events: Array
     behind: Array
 
-    @property
-    def whole_summary(self) -> Array:
-        """All numbers of every run that are not over time."""
-        return np.hstack([self.summary, self.events]) if self.events.shape[1] else self.summary
-
 
 @dataclass
 class _Prepared:
@@ -170,36 +165,37 @@ class Kernel:
             out.summary[light] = 0.0
             complete = self._run_with(spare, rows, light.astype(np.int64), out, control)
             out.summary[light, e.LIGHT] = 1.0
-        return Chunk(recipe.in_order(values, behind), out.whole_summary, complete)
+        return Chunk(recipe.in_order(values, behind), np.hstack([out.summary, out.events]), complete)
 
     def _run_with(self, model: _Prepared, rows: Rows, selected: Integers, out: Results, control: Integers) -> bool:
         """Close and run selected rows with one compiled model; those with light bodies only where there is no other."""
         info, recipe = model.compiled.info, self.recipe
-        k, ny, nw = len(rows), info.ny, max(1, model.compiled.law.nw)
-        ps, ws = np.tile(model.p, (max(k, 1), 1)), np.empty((max(k, 1), nw))
-        ys = np.zeros((max(k, 1), ny))
-        ps[:k, : len(info.parameters)], ys[:k, : info.nq] = rows.parameters, rows.q
-        if not self._close(model, rows, Instant(ys, ps, ws), selected, out.summary, control):
+        k, room = len(rows), max(len(rows), 1)
+        now = Instant(
+            np.zeros((room, info.ny)), np.tile(model.p, (room, 1)), np.empty((room, max(1, model.compiled.law.nw)))
+        )
+        now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
+        if not self._close(model, rows, now, selected, out.summary, control):
             return False
         ready = out.summary[selected, e.START] == e.ASSEMBLED
         if model is self.first and recipe.spare is not None:
             ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
         if model.tree is not None and model.on_tree is not None:
-            starts, apart = model.tree.settle((ys, ps, ws), selected, control)
+            starts, apart = model.tree.settle(now, selected, control)
             plain, selected = selected[apart], selected[~apart]
-            if not self._advance(model.on_tree, starts, plain, out.values, out.summary, control):
+            if not self._advance(model.on_tree, starts, plain, out, control):
                 return False
-            model.tree.turn(recipe.quantities, plain, ys, out.values)
+            model.tree.turn(recipe.quantities, plain, now.y, out.values)
         if model.single is not None:
-            return model.single.run(rows, (ys, ps, ws), selected, out, control)
-        if not self._advance(model, (ys, ps, ws), selected, out.values, out.summary, control):
+            return model.single.run(rows, now, selected, out, control)
+        if not self._advance(model, now, selected, out, control):
             return False
         redundant = selected[out.summary[selected, e.REDUNDANT_ROWS] > 0.0]
         for i in (i for i, q in enumerate(recipe.columns) if q.source == e.MULTIPLIER):  # they are not unique then
             out.values[redundant, i] = np.nan
         if model.measures is not None:
-            given = recipe.behind, recipe.times, selected, out.values, ps, ws
+            given = recipe.behind, recipe.times, selected, out.values, now.p, now.w
             out.behind[selected] = model.measures.work_out(model.compiled, *given)
         return True
 
@@ -226,24 +222,15 @@ class Kernel:
         velocities = {j: float(rows.v[r, j]) for j in recipe.kept}
         return replace(model.assembly, held=Held(coordinates, velocities, recipe.fixed, at[0], at[1]))
 
-    def _advance(
-        self,
-        model: _Prepared,
-        starts: tuple[Array, Array, Array],
-        selected: Integers,
-        values: Array,
-        summary: Array,
-        control: Integers,
-    ) -> bool:
+    def _advance(self, model: _Prepared, now: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from their starts, parameters and scratch; return whether all are done."""
         from symgen.runtime.records import Chunk as ChunkRecord
         from symgen.runtime.redundancy import room_of_choice
         from symgen.runtime.rows import observe_nothing
 
-        info, law, recipe = model.compiled.info, model.compiled.law_module, self.recipe
-        (ys, ps, ws), ny = starts, info.ny
+        info, law, recipe, summary = model.compiled.info, model.compiled.law_module, self.recipe, out.summary
         if model.device is not None:
-            return model.device.run(ys, ps, ws, selected, values, summary, control) == len(selected)
+            return model.device.run(*now, selected, out.values, summary, control) == len(selected)
         picked = recipe.picks if model.picks is None else model.picks
         sources = {*picked[::2].tolist()}
         observes = e.JOINT in sources
@@ -252,13 +239,12 @@ class Kernel:
         sizes, span, kept = sizes_of(model.compiled), span_of(recipe.spec, model.setup), self._kept(info, model.width)
         needs = {e.ACCELERATION, e.MULTIPLIER} | ({e.JOINT} if model.width is None else set())
         wants = int(bool(sources & needs)), int(observes)
-        picks = picked, values.reshape(-1), summary.reshape(-1)
+        picks = picked, out.values.reshape(-1), summary.reshape(-1)
         redundant = np.any(summary[selected, e.REDUNDANT_ROWS] > 0.0)
         dense = np.zeros(room_of_choice(info.m, info.nv) if redundant else 0)
-        chunk = ChunkRecord(
-            selected, ys.ravel(), ps.ravel(), ws.ravel(), recipe.limits, *picks, *wants, model.compiled.layout, dense
-        )
-        room = max(model.setup.room, 2 * ny + kept.observed.rows.shape[1])
+        flat, places = (x.ravel() for x in now), (model.compiled.layout, dense)
+        chunk = ChunkRecord._make((selected, *flat, recipe.limits, *picks, *wants, *places))
+        room = max(model.setup.room, 2 * info.ny + kept.observed.rows.shape[1])
         state = new_state(model.compiled, sizes, model.setup.memory, room)._replace(control=control)
         if model.lanes is not None:
             observed = sizes, *rates, law.accept, seen

@@ -198,14 +198,13 @@ def make_ensemble(
     if len(names.coordinates) > LARGEST_STRAIGHT:
         found = f"{len(names.coordinates)} coordinates"
         raise InputError("sweep", f"a mechanism of at most {LARGEST_STRAIGHT} coordinates", found)
-    chosen, notes = resolve(mechanism, replace(settings, shape="straight"))
+    chosen, notes = resolve(
+        mechanism, replace(settings, shape="straight")
+    )  # loops over rows are those of one mechanism
     ends = chosen.times is None and chosen.output_step is None
     if ends:
         end = mechanism.defaults.until if chosen.until is None else chosen.until
         chosen = replace(chosen, times=(end,))
-    if chosen.shape == "looped":
-        raise InputError("shape", "straight code for an ensemble", "'looped'")
-    chosen = replace(chosen, shape="straight")  # batch loops hold the code of one mechanism
     if target != "cpu":
         chosen = replace(chosen, coordinates="absolute")
         refuse_events(f"target '{target}'", mechanism, chosen)

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
+    from symgen.runtime.start_records import Instant
     from symgen.runtime.tree_start import Carrying
 
 Array = NDArray[np.float64]
@@ -138,16 +139,14 @@ class SingleRuns:
         formulas = formulas_of(mechanism, self.recipe.quantities)
         return [name for name, _ in formulas], compile_side(mechanism, self.compiled, NAME, PURPOSE, formulas)
 
-    def run(
-        self, rows: Rows, starts: tuple[Array, Array, Array], selected: Integers, out: Results, control: Integers
-    ) -> bool:
+    def run(self, rows: Rows, starts: Instant, selected: Integers, out: Results, control: Integers) -> bool:
         """Run selected rows from consistent starts; return whether all are done.
 
         Parameters
         ----------
         rows : Rows
             What distinguishes the runs.
-        starts : tuple of Array
+        starts : Instant
             States, parameters and scratch of all rows.
         selected, control : Array of int
             Rows to work on; what the watching thread shares.
@@ -163,7 +162,7 @@ class SingleRuns:
             control[e.RUNS_DONE] += 1
         return True
 
-    def _begun(self, r: int, starts: tuple[Array, Array, Array]) -> Start | TreeRun:
+    def _begun(self, r: int, starts: Instant) -> Start | TreeRun:
         y, p, w = (array[r].copy() for array in starts)
         start = Start(y, p, w, self.compiled.rank(w), self.compiled.redundant(w), ())
         if self.tree is None:

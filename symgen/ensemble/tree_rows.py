@@ -99,14 +99,12 @@ class TreeRows:
                 found.append((e.STATE, q.column - info.work + own.work))
         return np.array(found, dtype=np.int64).ravel()
 
-    def settle(
-        self, starts: tuple[Array, Array, Array], selected: Integers, control: Integers
-    ) -> tuple[tuple[Array, Array, Array], NDArray[np.bool_]]:
+    def settle(self, starts: Instant, selected: Integers, control: Integers) -> tuple[Instant, NDArray[np.bool_]]:
         """Return states, parameters and scratch of the tree, and which of the selected rows have no dependent rows.
 
         Parameters
         ----------
-        starts : tuple of Array
+        starts : Instant
             Consistent states of bodies, with parameters and scratch.
         selected, control : Array of int
             Rows to work on; what the watching thread shares.
@@ -123,7 +121,7 @@ class TreeRows:
         room = np.zeros(info.ny + info.observed + starts[2].shape[1])
         functions = self.bodies.model.observe, model.geometry
         compiled_form(settle_rows)(*functions, self.compiled.layout, of_bodies, flat, places, room, selected, control)
-        return (ys, ps, ws), places.dependent[selected] == 0
+        return Instant(ys, ps, ws), places.dependent[selected] == 0
 
     def turn(self, quantities: Sequence[Quantity], selected: Integers, starts: Array, values: Array) -> None:
         """Give Euler parameters the signs that they have at the start.

@@ -13,7 +13,7 @@ from typing import Any
 from symgen.runtime import decisions
 from symgen.runtime.bare import part
 from symgen.runtime.exact import exact
-from symgen.runtime.scales import free_scale, row_weight
+from symgen.runtime.scales import entry_of, free_scale, row_weight
 from symgen.runtime.start_records import SOLVE
 
 
@@ -21,12 +21,12 @@ from symgen.runtime.start_records import SOLVE
 def dense_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
     """Set `work.x` by an orthogonal factorisation of the dense D; return its rank. `spread` is not used."""
     m, n, numbers, x, scale = layout.m, layout.nv, work.numbers, work.x, work.scale
-    entries, constants, w, jacobian = layout.entries, layout.constants, now.w, layout.jacobian
+    entries, w = layout.entries, now.w
     for i in range(m * n):
         numbers[i] = 0.0
-    for k in range(constants.shape[0]):
-        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
-        value = (constants[k] if slot < 0 else w[jacobian + slot]) * scale[column]
+    for k in range(layout.constants.shape[0]):
+        row, column = entries[3 * k], entries[3 * k + 1]
+        value = entry_of(layout, w, k) * scale[column]
         numbers[row * n + column] = row_weight(layout, w, row) * value
     for i in range(m):
         work.right[i] *= row_weight(layout, w, i)
@@ -94,24 +94,20 @@ def iterated_change(spread: Any, layout: Any, now: Any, work: Any) -> int:
 @exact()
 def multiply(layout: Any, w: Any, x: Any, result: Any) -> None:
     """Set `result` to D x."""
-    entries, constants, jacobian = layout.entries, layout.constants, layout.jacobian
     for i in range(layout.m):
         result[i] = 0.0
-    for k in range(constants.shape[0]):
-        slot = entries[3 * k + 2]
-        result[entries[3 * k]] += (constants[k] if slot < 0 else w[jacobian + slot]) * x[entries[3 * k + 1]]
+    for k in range(layout.constants.shape[0]):
+        result[layout.entries[3 * k]] += entry_of(layout, w, k) * x[layout.entries[3 * k + 1]]
 
 
 @exact()
 def _multiply_transposed(layout: Any, w: Any, y: Any, result: Any) -> None:
     """Set `result` to D^T y, where y is of rows that are weighed."""
-    entries, constants, jacobian = layout.entries, layout.constants, layout.jacobian
     for j in range(layout.nv):
         result[j] = 0.0
-    for k in range(constants.shape[0]):
-        row, slot = entries[3 * k], entries[3 * k + 2]
-        weighed = row_weight(layout, w, row) * y[row]
-        result[entries[3 * k + 1]] += (constants[k] if slot < 0 else w[jacobian + slot]) * weighed
+    for k in range(layout.constants.shape[0]):
+        row = layout.entries[3 * k]
+        result[layout.entries[3 * k + 1]] += entry_of(layout, w, k) * (row_weight(layout, w, row) * y[row])
 
 
 @exact()

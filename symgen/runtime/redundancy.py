@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from symgen.runtime import abi
 from symgen.runtime.exact import compiled_form, exact
-from symgen.runtime.scales import VANISHED
+from symgen.runtime.scales import VANISHED, entry_of
 from symgen.runtime.start_records import LAYOUT
 from symgen.store.jit import jit
 
@@ -58,13 +58,12 @@ def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: 
     room : Array, shape (m * width + m,)
         Working memory; of its last m numbers, those of the rows that were chosen are negative.
     """
-    m, n, entries, constants, gauge = layout.m, layout.nv, layout.entries, layout.constants, layout.gauge
+    m, n, entries = layout.m, layout.nv, layout.entries
     for i in range(m * width + m):
         room[i] = 0.0
-    for k in range(constants.shape[0]):
-        row, column, slot = entries[3 * k], entries[3 * k + 1], entries[3 * k + 2]
-        value = constants[k] if slot < 0 else w[layout.jacobian + slot]
-        room[row * width + column] = value * math.sqrt(w[gauge + column])
+    for k in range(layout.constants.shape[0]):
+        row, column = entries[3 * k], entries[3 * k + 1]
+        room[row * width + column] = entry_of(layout, w, k) * math.sqrt(w[layout.gauge + column])
     lengths = m * width
     for i in range(m):
         square = 0.0

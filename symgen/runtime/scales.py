@@ -34,6 +34,13 @@ def larger(a: float, b: float) -> float:
 
 
 @exact()
+def entry_of(layout: Any, w: Any, k: int) -> float:
+    """Return structural entry `k` of D, as ``geometry`` left it in the scratch array or constant."""
+    slot = layout.entries[3 * k + 2]
+    return layout.constants[k] if slot < 0 else w[layout.jacobian + slot]  # type: ignore[no-any-return]  # arrays
+
+
+@exact()
 def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
     """Set the section ``gauge``, and the scales of lengths and masses, from D at the described positions.
 
@@ -56,8 +63,7 @@ def measure_lengths(geometry: Any, layout: Any, now: Any, work: Any) -> None:
                 sums[j] = 0.0
             joint = here
         if here >= 0 and rows[2 * entries[3 * k] + 1] == 1 and spin[entries[3 * k + 1]] >= 0:
-            slot = entries[3 * k + 2]
-            value = constants[k] if slot < 0 else w[layout.jacobian + slot]
+            value = entry_of(layout, w, k)
             if math.isfinite(value):
                 sums[spin[entries[3 * k + 1]]] += value * value
     extent = extent_of(layout, now.y)
@@ -92,9 +98,8 @@ def square_rows(layout: Any, w: Any) -> None:
     for i in range(layout.m):
         w[weights + i] = 0.0
     for k in range(layout.constants.shape[0]):
-        row, column, slot = layout.entries[3 * k], layout.entries[3 * k + 1], layout.entries[3 * k + 2]
-        value = layout.constants[k] if slot < 0 else w[layout.jacobian + slot]
-        w[weights + row] += value * value * w[layout.gauge + column]
+        value = entry_of(layout, w, k)
+        w[weights + layout.entries[3 * k]] += value * value * w[layout.gauge + layout.entries[3 * k + 1]]
 
 
 @exact()

@@ -380,10 +380,3 @@ def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
     for k in range(n):
         x[order[k]] = y[k] * column_scale[k]
         y[k] = 0.0
-
-
-def stored_entries(plan: Any) -> int:
-    """Return the entries of L and U beside the diagonal that the last factorisation has."""
-    n, work = int(plan[SIZE]), int(plan[WORK])
-    upper, end = plan[work + _UPPER * n :][:n], plan[work + _END * n :][:n]
-    return int(np.sum(end - upper))
