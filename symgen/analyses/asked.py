@@ -150,7 +150,8 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     Raises
     ------
     InputError
-        If a name is no coordinate of the tree's joints, or something depends on it.
+        If a name is no coordinate of the tree's joints, or something depends on it, or all that turns at the start is a
+        body that no joint's angle belongs to.
     AnalysisError
         If there is no such motion.
     """
@@ -172,9 +173,21 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
         kept |= motion[i] != 0.0
     y = subject.y.copy()
     v = y[subject.nq : subject.nq + subject.nv]
+    _refuse_spins(subject, v, kept, driven=bool(np.any(e.by("positions", "t"))))
     v[~kept] = 0.0
     at, _, steps = settle(subject, y)
     return at, steps
+
+
+def _refuse_spins(subject: Subject, v: Array, kept: NDArray[np.bool_], driven: bool) -> None:
+    """Refuse a start whose only turning is that of bodies free to turn about any axis: no coordinate is its angle."""
+    names = subject.compiled.info.velocities
+    turns = np.array([q.unit == "rad/s" for q in names], dtype=np.bool_) & (np.abs(v) > 0.0)
+    spins = [first + k for _, first in subject.compiled.info.spins for k in range(3) if turns[first + k]]
+    if spins and not driven and not np.any(turns & kept):
+        expected = "joints whose angles or displacements turn on"
+        got = f"'{names[spins[0]].name}', the turning of a body about any axis, which no coordinate counts"
+        raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
 
 
 def _without_effect(subject: Subject) -> list[int]:

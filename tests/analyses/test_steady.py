@@ -178,6 +178,15 @@ def test_what_tumbles_is_not_steady(name):
         symgen.load(name).modes(at="start")
 
 
+@pytest.mark.parametrize("name", ["heavy-top", "free-rigid-body"])
+def test_what_spins_about_no_joint_s_axis_is_not_taken_to_be_at_rest(name):
+    """A fast top was said to hang at rest: no coordinate turns on where orientations are Euler parameters."""
+    with pytest.raises(InputError, match="the turning of a body about any axis"):
+        symgen.load(name).steady()
+    with pytest.raises(InputError, match="the turning of a body about any axis"):
+        symgen.load(name).modes(at="steady")
+
+
 def test_states_of_a_steady_motion_are_found():
     """Lean, steer and speed, and what depends on them alone; eigenvalues are those of the paper, and zeros."""
     found = symgen.load("bicycle").modes(at="start")
