@@ -78,6 +78,7 @@ def build_scene(
         up=up,
         unit=unit,
         frames=numbers.frames,
+        carried=tuple(pen.carried),
     )
 
 

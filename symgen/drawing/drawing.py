@@ -18,7 +18,7 @@ from symgen.describe.start import described_start
 from symgen.drawing.build import build_scene
 from symgen.drawing.paper import Drawn, View, axes, on_paper
 from symgen.drawing.paper import Path as Stroke
-from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Poses, Scene
+from symgen.drawing.scene import COLOURS, Array, Item, Look, Point, Scene
 from symgen.drawing.svg import svg
 from symgen.errors import InputError, nearest
 from symgen.files import check_writable, write_whole
@@ -126,8 +126,8 @@ class Drawing:
         scene = build_scene(mechanism, q, values)
         later = np.unique(np.linspace(0, len(q) - 1, POSES).round().astype(int))[1:]
         ghosts = tuple(tuple(q[k].tolist()) for k in reversed(later))
-        rows = [Poses(scene.frames, row, scene.spatial).centres for row in q[:: max(1, len(q) // PATH)]]
-        ways = np.stack(rows)[:, :-1].transpose(1, 0, 2)
+        rows = [scene.poses(row).centres for row in q[:: max(1, len(q) // PATH)]]
+        ways = np.stack(rows)[:, : len(scene.frames)].transpose(1, 0, 2)
         paths = tuple(tuple((float(x), float(y), float(z)) for x, y, z in way) for way in ways)
         return cls(scene, tuple(q[0].tolist()), view or ABOVE, ghosts, paths, labels=False)
 
@@ -181,7 +181,7 @@ _COUNTED = (("body", "bodies"), ("joint", "joints"), ("force", "forces"))
 
 def gaps(scene: Scene, q: Sequence[float] | Array) -> Iterator[tuple[Item, float]]:
     """Yield the joints that hold two points together, with how far these are apart [m]."""
-    poses = Poses(scene.frames, q, scene.spatial)
+    poses = scene.poses(q)
     for item in scene.items:
         if item.role == "joint" and item.kind in PINS and len(item.ends) == 2:
             a, b = (poses.out(body, [at])[0] for body, at in item.ends)

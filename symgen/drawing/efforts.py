@@ -7,13 +7,13 @@ from contextlib import suppress
 import numpy as np
 
 from symgen.describe.mechanism import Force
-from symgen.drawing.joint_parts import DRIVE, axis_of, ends_of
+from symgen.drawing.joint_parts import DRIVE, turned_about
 from symgen.drawing.markers import Place, parts
 from symgen.drawing.pen import PLAIN, Pen, across
-from symgen.drawing.scene import GROUNDED, INK, Item, Look, Mark
+from symgen.drawing.scene import GROUNDED, INK, Array, Frame, Item, Look, Mark, Poses
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import ZERO, Expr, Number, names
-from symgen.vocabulary.measures import Angle, Component, Distance, PointSpeed, Spin, Turn
+from symgen.vocabulary.measures import Angle, Component, Distance, Effort, PointSpeed, Spin, Turn
 
 PUSH = Look("#a0522d", "", 1.8)
 COIL = Look(INK, "", 1.2)
@@ -67,34 +67,103 @@ def _kind(pen: Pen, force: Force) -> str:
 
 
 def _turning(pen: Pen, force: Force) -> list[Mark]:
+    """Return an arrow about the axis of a torque, or a spiral about that of a torsional spring."""
     numbers = pen.numbers
     joints = [j for j in numbers.mechanism.joints if set(j.bodies) == set(force.bodies) and numbers.markers(j.rows)]
     body = next((b for b in force.bodies if b in numbers.index and b != "ground"), force.bodies[0])
-    at = ends_of(numbers, joints[0])[0] if joints else Place(numbers.index[body], (0.0, 0.0, 0.0))
-    axis = axis_of(numbers, joints[0]) if joints else np.array([0.0, 0.0, 1.0])
+    at, axis = Place(numbers.index[body], (0.0, 0.0, 0.0)), np.array([0.0, 0.0, 1.0])
+    if joints:
+        at, axis = turned_about(numbers, joints[0], force.efforts)
+    frame = at.body
+    if any(isinstance(m, Spin) for _, m in _components(force)):
+        axis, turned = _direction(pen, force)
+        frame = pen.carry(at, turned)
     if force.kind == "torque":
-        return pen.turning(at.body, numbers.out(at), axis, 1.6, DRIVE)
+        return pen.turning(frame, numbers.out(at), axis, 1.6, DRIVE)
     first, second = across(axis)
     turn = np.linspace(0.0, 5.0 * np.pi, 60)[:, None]
     reach = pen.unit * np.linspace(0.3, 1.5, 60)[:, None]
-    return [pen.line(at.body, numbers.out(at) + reach * (np.cos(turn) * first + np.sin(turn) * second), COIL)]
+    return [pen.line(frame, numbers.out(at) + reach * (np.cos(turn) * first + np.sin(turn) * second), COIL)]
 
 
 def _pushes(pen: Pen, force: Force) -> list[Mark]:
     """Return an arrow with its tip where the force acts, along what it is now or else along its components."""
-    numbers, total, at = pen.numbers, np.zeros(3), None
-    body = 0
-    for effort in force.efforts:
-        for measure in (m for m in parts(effort.measure) if isinstance(m, Component | PointSpeed)):
-            at = numbers.place(measure.b if isinstance(measure, Component) else measure.at)
-            body = at.body
-            size = 1.0
-            with suppress(InputError):
-                size = numbers.at(effort.magnitude, {"s": 0.0, "rate": 0.0})
-            total += (size if size else 1e-9) * numbers.direction(measure.along)
-    if at is None:
+    numbers = pen.numbers
+    pushed = [m.b if isinstance(m, Component) else m.at for _, m in _components(force) if not isinstance(m, Spin)]
+    if not pushed:
         return [pen.dot(place, 0.35, PLAIN) for place in numbers.markers(force)]
-    length = float(np.linalg.norm(total))
-    way = total / length if length else np.array([1.0, 0.0, 0.0])
+    at = numbers.place(pushed[-1])
+    way, turned = _direction(pen, force)
     tip = numbers.out(at)
-    return pen.arrow(body if body != GROUNDED else 0, np.array([tip - 4.0 * pen.unit * way, tip]), PUSH)
+    return pen.arrow(pen.carry(at, turned), np.array([tip - 4.0 * pen.unit * way, tip]), PUSH)
+
+
+def _components(force: Force) -> list[tuple[Effort, Component | PointSpeed | Spin]]:
+    """Return the efforts of a force or torque that is given by components, each with what it works along."""
+    return [(e, m) for e in force.efforts for m in parts(e.measure) if isinstance(m, Component | PointSpeed | Spin)]
+
+
+def _direction(pen: Pen, force: Force) -> tuple[Array, int]:
+    """Return the direction of a force or torque in the ground frame, and the body with which that turns."""
+    numbers, (turned, own) = pen.numbers, _turns_with(pen, force)
+    total, sizes = np.zeros(3), []
+    for effort, measure in _components(force):
+        size = 1.0
+        with suppress(InputError):
+            size = numbers.at(effort.magnitude, {"s": 0.0, "rate": 0.0})
+        sizes.append(size)
+        total += (size if size else 1e-9) * numbers.direction(measure.along)
+    if turned != GROUNDED and not any(sizes) and own.any():  # along its components in the axes of the body
+        total = numbers.now.turns[turned] @ np.where(np.abs(own) > 1e-9 * np.abs(own).max(), 1.0, 0.0)
+    length = float(np.linalg.norm(total))
+    return (total / length if length else np.array([1.0, 0.0, 0.0])), turned
+
+
+def _turns_with(pen: Pen, force: Force) -> tuple[int, Array]:
+    """Return the number of the body with which a force turns, and some force in its axes; else that of the ground.
+
+    Formulas decide: in the plane a force that turns with its body has components along the axes of the ground too.
+    """
+    numbers = pen.numbers
+    body = numbers.index[force.bodies[0]]
+    named = {numbers.index[m.along.body] for _, m in _components(force)}
+    fallback = body if named == {body} else GROUNDED
+    with suppress(InputError):
+        (first, of_first), (second, of_second) = _probed(pen, force, body)
+        if _parallel(first, second):
+            return GROUNDED, first
+        if _parallel(of_first.T @ first, of_second.T @ second):
+            return body, of_first.T @ first
+    return fallback, np.zeros(3)
+
+
+def _probed(pen: Pen, force: Force, body: int) -> list[tuple[Array, Array]]:
+    """Return a force with its body turned in two ways, and how it is turned, all else being the same and nothing 0."""
+    numbers, found = pen.numbers, []
+    known = {**numbers.values, **numbers.state, "s": 0.0, "rate": 0.0}
+    known |= dict.fromkeys(
+        (name for effort in force.efforts for name in names(effort.magnitude) if name not in known), 0.0
+    )
+    known = {name: x or 0.31 + 0.017 * k for k, (name, x) in enumerate(known.items())}
+    frame = numbers.frames[body]
+    for angle in (0.4, 1.3):
+        if numbers.spatial:
+            turn = np.array([np.cos(0.5 * angle), *np.sin(0.5 * angle) * np.array([0.48, -0.6, 0.64])])
+            changed = dict(zip((f"{frame.name}.e{k}" for k in range(4)), turn.tolist(), strict=True))
+        else:
+            turn, changed = np.array([angle]), {f"{frame.name}.theta": angle}
+        given = np.concatenate([np.zeros(3 if numbers.spatial else 2), turn])
+        turns = Poses([Frame(frame.name, 0, len(given))], given, numbers.spatial).turns[0]
+        total = np.zeros(3)
+        for effort, measure in _components(force):
+            own = numbers.vector(measure.along.vector)
+            along = turns @ own if numbers.index[measure.along.body] == body else numbers.direction(measure.along)
+            total += numbers.at(effort.magnitude, known | changed) * along
+        found.append((total, turns))
+    return found
+
+
+def _parallel(a: Array, b: Array) -> bool:
+    """Whether two directions lie along one line."""
+    size = float(np.linalg.norm(a) * np.linalg.norm(b))
+    return size > 0.0 and float(np.linalg.norm(np.cross(a, b))) <= 1e-9 * size

@@ -11,7 +11,7 @@ from symgen.describe.topology import articulation_of
 from symgen.drawing.markers import Numbers, Place, parts
 from symgen.drawing.pen import EARTH, FILLED, PLAIN, Pen, across
 from symgen.drawing.scene import COLOURS, GREY, GROUNDED, Array, Look, Mark
-from symgen.vocabulary.measures import Component, Turning
+from symgen.vocabulary.measures import Component, Sum, Turning
 
 DRIVE = Look("#a0522d", "", 1.6)
 PITCH = Look(GREY, "", 1.0, dashed=True)
@@ -51,6 +51,23 @@ def axis_of(numbers: Numbers, joint: Joint) -> Array:
         return np.cross(numbers.direction(turns[0].zero), numbers.direction(turns[0].quarter))
     directions = numbers.directions(joint.rows)
     return numbers.direction(directions[-1]) if directions else Z
+
+
+def turned_about(numbers: Numbers, joint: Joint, angle: object) -> tuple[Place, Array]:
+    """Return the point of a joint and the axis that one of its angles is about, both on the body that has the axis.
+
+    The second body turns forward about the axis where the angle grows.
+    """
+    ends = ends_of(numbers, joint)
+    for part in parts(angle):
+        sign, inner = 1.0, part
+        if isinstance(part, Sum) and len(part.terms) == 1:
+            sign, inner = float(np.sign(numbers.number(part.terms[0][0]))), part.terms[0][1]
+        if isinstance(inner, Turning):
+            sign *= 1.0 if inner.zero.body == joint.bodies[0] else -1.0
+            axis = sign * np.cross(numbers.direction(inner.zero), numbers.direction(inner.quarter))
+            return next((end for end in ends if end.body == numbers.index[inner.zero.body]), ends[0]), axis
+    return ends[0], axis_of(numbers, joint)
 
 
 def grounded(pen: Pen, places: tuple[Place, Place], swivel: bool = True) -> list[Mark]:

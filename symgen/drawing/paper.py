@@ -70,7 +70,7 @@ def on_paper(scene: Scene, q: Array, view: View | None = None, bodies: bool = Fa
         Whether bodies alone are drawn, bars in space as lines, for what stands behind.
     """
     eye = axes(scene, view or View())
-    poses = Poses(scene.frames, q, scene.spatial)
+    poses = scene.poses(q)
     items = [_plainly(item) for item in scene.items if item.role == "body"] if bodies else scene.items
     found = [_drawn(item, poses, eye) for item in items]
     if scene.spatial:  # faults stay in front

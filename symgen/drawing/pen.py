@@ -1,4 +1,4 @@
-"""Marks laid out in the ground frame and fixed to the bodies they belong to."""
+"""Marks laid out in the ground frame and fixed to the bodies they belong to, or to frames that bodies carry."""
 
 from __future__ import annotations
 
@@ -7,7 +7,22 @@ from collections.abc import Sequence
 import numpy as np
 
 from symgen.drawing.markers import Numbers, Place
-from symgen.drawing.scene import GREY, GROUNDED, INK, PAPER, Array, Dot, Line, Look, Mark, Point, Solid, Stretch, Tube
+from symgen.drawing.scene import (
+    GREY,
+    GROUNDED,
+    INK,
+    PAPER,
+    Array,
+    Carried,
+    Dot,
+    Line,
+    Look,
+    Mark,
+    Point,
+    Solid,
+    Stretch,
+    Tube,
+)
 
 #: How joints and the ground are drawn.
 PLAIN, FILLED, EARTH = Look(INK, "", 1.2), Look(INK, PAPER, 1.2), Look(GREY, "", 1.0)
@@ -25,14 +40,38 @@ class Pen:
         Size of a joint's symbol [m].
     up : Point
         Against gravity.
+
+    Attributes
+    ----------
+    carried : list of Carried
+        Frames beside those of the bodies that were asked for so far.
     """
 
     def __init__(self, numbers: Numbers, unit: float, up: Point) -> None:
         self.numbers, self.unit, self.up = numbers, unit, np.array(up)
+        self.carried: list[Carried] = []
+
+    def carry(self, place: Place, turned: int) -> int:
+        """Return the number of a frame that goes with a point and has the directions of a body, or of the ground.
+
+        That of the body itself where it has those directions in any position.
+        """
+        frames, still = self.numbers.frames, 3 if self.numbers.spatial else 2  # coordinates of a body that is a point
+        if place.body == turned or (turned == GROUNDED and frames[place.body].size == still):
+            return place.body
+        wanted = Carried(place.body, place.at, turned)
+        if wanted not in self.carried:
+            self.carried.append(wanted)
+        return len(frames) + self.carried.index(wanted)
 
     def points(self, body: int, points: Sequence[Array] | Array) -> tuple[Point, ...]:
-        """Return points of the ground frame as points of a body."""
-        found = self.numbers.now.inside(body, np.asarray(points, dtype=np.float64))
+        """Return points of the ground frame as points of a frame."""
+        now, given, frames = self.numbers.now, np.asarray(points, dtype=np.float64), self.numbers.frames
+        if body < len(frames):
+            found = now.inside(body, given)
+        else:
+            own = self.carried[body - len(frames)]
+            found = (given - now.out(own.body, [own.at])) @ now.turns[own.turned]
         return tuple((float(x), float(y), float(z)) for x, y, z in found)
 
     def line(self, body: int, points: Sequence[Array] | Array, look: Look = PLAIN, closed: bool = False) -> Line:
@@ -52,12 +91,11 @@ class Pen:
         """Return what reaches from one point to another."""
         return Stretch(kind, a.body, a.at, b.body, b.at, self.unit, look)
 
-    def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN, share: float = 1.0) -> Line:
-        """Return a circle about an axis, or a share of it; its radius is in metres."""
+    def ring(self, body: int, at: Array, axis: Array, radius: float, look: Look = PLAIN) -> Line:
+        """Return a circle about an axis; its radius is in metres."""
         first, second = across(axis)
-        turn = np.linspace(0.0, 2.0 * np.pi * share, 40 if share == 1.0 else 20, endpoint=share != 1.0)[:, None]
-        points = at + radius * (np.cos(turn) * first + np.sin(turn) * second)
-        return self.line(body, points, look, closed=share == 1.0)
+        turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)[:, None]
+        return self.line(body, at + radius * (np.cos(turn) * first + np.sin(turn) * second), look, closed=True)
 
     def arrow(self, body: int, points: Array, look: Look) -> list[Mark]:
         """Return a line with a head at its end."""
@@ -69,8 +107,9 @@ class Pen:
 
     def turning(self, body: int, at: Array, axis: Array, radius: float, look: Look) -> list[Mark]:
         """Return an arrow that turns about an axis; its radius is in units."""
-        ring = self.ring(body, at, axis, radius * self.unit, look, share=0.72)
-        points = self.numbers.now.out(body, ring.points)
+        first, second = across(axis)
+        turn = np.linspace(0.0, 2.0 * np.pi * 0.72, 20)[:, None]
+        points = at + radius * self.unit * (np.cos(turn) * first + np.sin(turn) * second)
         return self.arrow(body, points, look)
 
     def box(self, body: int, at: Array, frame: Array, size: Array, look: Look) -> Mark:

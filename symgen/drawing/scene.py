@@ -1,4 +1,4 @@
-"""The scene: what is drawn of a mechanism, fixed to its bodies, so that any positions can be drawn by it."""
+"""The scene: what is drawn of a mechanism, carried by its bodies, so that any positions can be drawn by it."""
 
 from __future__ import annotations
 
@@ -52,7 +52,8 @@ class Line:
     Attributes
     ----------
     body : int
-        Number of its frame, here and below; negative: the ground's.
+        Number of its frame, here and below: first those of the bodies, then those that are carried; negative: the
+        ground's.
     points : tuple of Point
         In that frame [m].
     closed : bool
@@ -166,6 +167,23 @@ class Frame:
     size: int
 
 
+@dataclass(frozen=True)
+class Carried:
+    """A frame that goes with a point of one body and turns with another one, or keeps the directions of the ground.
+
+    Attributes
+    ----------
+    body, at : int, Point
+        Number of the body that carries it, and where its origin is on that [m].
+    turned : int
+        Number of the body whose directions it has; negative: those of the ground.
+    """
+
+    body: int
+    at: Point
+    turned: int
+
+
 @dataclass(frozen=True, repr=False)
 class Scene:
     """What is drawn of a mechanism.
@@ -184,6 +202,8 @@ class Scene:
         Size of a joint's symbol [m].
     frames : tuple of Frame
         Of the bodies.
+    carried : tuple of Carried
+        Further frames, numbered on from those of the bodies.
     """
 
     name: str
@@ -193,13 +213,18 @@ class Scene:
     up: Point
     unit: float
     frames: tuple[Frame, ...]
+    carried: tuple[Carried, ...] = ()
+
+    def poses(self, q: Sequence[float] | Array) -> Poses:
+        """Return where all frames are for coordinates, shape (nq,)."""
+        return Poses(self.frames, q, self.spatial, self.carried)
 
     def __repr__(self) -> str:
         return f"<Scene of {self.name}: {len(self.items)} items>"
 
 
 class Poses:
-    """Where bodies are: rotations and centres of mass, those of the ground last.
+    """Where frames are: rotations and origins, those of bodies first, of what they carry next, of the ground last.
 
     Parameters
     ----------
@@ -209,10 +234,14 @@ class Poses:
         Coordinates.
     spatial : bool
         Whether the mechanism is.
+    carried : sequence of Carried
+        Frames beside those of the bodies.
     """
 
-    def __init__(self, frames: Sequence[Frame], q: Sequence[float] | Array, spatial: bool) -> None:
-        n = len(frames) + 1
+    def __init__(
+        self, frames: Sequence[Frame], q: Sequence[float] | Array, spatial: bool, carried: Sequence[Carried] = ()
+    ) -> None:
+        n = len(frames) + len(carried) + 1
         self.turns = np.tile(np.eye(3), (n, 1, 1))
         self.centres = np.zeros((n, 3))
         for i, frame in enumerate(frames):
@@ -224,6 +253,9 @@ class Poses:
             elif not spatial and frame.size == 3:
                 c, s = np.cos(own[2]), np.sin(own[2])
                 self.turns[i, :2, :2] = [[c, -s], [s, c]]
+        for i, own_frame in enumerate(carried, len(frames)):
+            self.centres[i] = self.out(own_frame.body, [own_frame.at])[0]
+            self.turns[i] = self.turns[own_frame.turned]
 
     def out(self, body: int, points: Sequence[Sequence[float]] | Array) -> Array:
         """Return points of a body in the ground frame, shape (k, 3)."""

@@ -7,7 +7,18 @@ from collections.abc import Callable
 import numpy as np
 
 from symgen.describe.mechanism import Joint
-from symgen.drawing.joint_parts import DRIVE, PITCH, Z, along_of, axis_of, ends_of, grounded, plain, wheel_marks
+from symgen.drawing.joint_parts import (
+    DRIVE,
+    PITCH,
+    Z,
+    along_of,
+    axis_of,
+    ends_of,
+    grounded,
+    plain,
+    turned_about,
+    wheel_marks,
+)
 from symgen.drawing.markers import Numbers, Place, parts
 from symgen.drawing.pen import RIGID, Pen, across
 from symgen.drawing.scene import GREY, GROUNDED, Array, Look, Mark
@@ -139,12 +150,11 @@ def driver(pen: Pen, joint: Joint) -> list[Mark]:
         start = at + 1.5 * u * side - 1.2 * u * along
         return pen.arrow(a.body, np.array([start, start + 2.6 * u * along]), DRIVE)
     if turning:
-        if driven:
-            a, b = ends_of(numbers, driven[0])
+        if not driven:
+            at, axis = Place(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0)), axis_of(numbers, joint)
         else:
-            a = b = Place(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0))
-        axis = axis_of(numbers, driven[0] if driven else joint)
-        return pen.turning(a.body, numbers.out(b), axis, 1.35, DRIVE)
+            at, axis = turned_about(numbers, driven[0], joint.rows)
+        return pen.turning(at.body, numbers.out(at), axis, 1.35, DRIVE)
     return plain(pen, joint)
 
 

@@ -18,7 +18,7 @@ from symgen.arguments import path as argument_path
 from symgen.describe.evaluate import evaluate
 from symgen.describe.mechanism import AnyBody
 from symgen.drawing.build import build_scene
-from symgen.drawing.scene import Array, Dot, Item, Line, Look, Mark, Point, Poses, Scene, Solid, Stretch, Tube
+from symgen.drawing.scene import Array, Dot, Item, Line, Look, Mark, Point, Scene, Solid, Stretch, Tube
 from symgen.errors import InputError
 from symgen.files import check_writable, write_whole
 from symgen.player.live import Live
@@ -97,7 +97,7 @@ def _gaps(scene: Scene, held: list[Item], q: Array) -> dict[str, Any]:
         return {}
     places = np.empty((2, len(q), len(held), 3))
     for row, coordinates in enumerate(q):
-        poses = Poses(scene.frames, coordinates, scene.spatial)
+        poses = scene.poses(coordinates)
         for side in (0, 1):
             bodies, points = zip(*(item.ends[side] for item in held), strict=True)
             turns, centres = poses.turns[list(bodies)], poses.centres[list(bodies)]
@@ -178,6 +178,7 @@ def scene_data(scene: Scene) -> dict[str, Any]:
         "up": list(scene.up),
         "unit": scene.unit,
         "frames": [[frame.name, frame.first, frame.size] for frame in scene.frames],
+        **({"carried": [[c.body, point(c.at), c.turned] for c in scene.carried]} if scene.carried else {}),
         "looks": [list(astuple(look)) for look in looks],
         "lists": [list(points) for points in shared],
         "items": items,

@@ -5,16 +5,19 @@ function rgba(colour, opacity) {
   return `rgba(${r},${g},${b},${opacity})`;
 }
 
+// Numbers of frames: first bodies, then what they carry, the ground's is the last one.
+const groundOf = (scene) => scene.frames.length + (scene.carried || []).length;
+
 // In space `solid` draws bodies, symbols and traces, on a canvas beneath; where there is none, this one draws them all.
 function makeScene(canvas, scene, solid = null) {
-  const { spatial, frames, unit } = scene;
+  const { spatial, frames, unit, carried = [] } = scene; // older scenes carry nothing
   const size = spatial ? 3 : 2;
   const context = canvas.getContext("2d");
   const looks = scene.looks.map(([ink, fill, width, opacity, dashed]) => ({
     ink, width: ink ? 1.25 * width : 0, dashed, fill: fill ? rgba(fill, opacity) : null, plain: fill, opacity,
   }));
-  const poses = new Float64Array(12 * (frames.length + 1)); // rotation by rows, then the centre; the ground's last
-  const ground = frames.length;
+  const ground = groundOf(scene);
+  const poses = new Float64Array(12 * (ground + 1)); // rotation by rows, then the centre; the ground's last
   // `at` is the point in the middle of the picture, x, y and z the same as the eye has it, all in metres.
   const camera = { turn: 0.6, tilt: 0.42, scale: 1, at: [0, 0, 0], x: 0, y: 0, z: 0, reach: 1, width: 1, height: 1, ratio: 1 };
   const eye = new Float64Array(9);
@@ -24,7 +27,7 @@ function makeScene(canvas, scene, solid = null) {
     for (let i = 0; i <= ground; i++) {
       const o = 12 * i;
       poses[o] = poses[o + 4] = poses[o + 8] = 1;
-      if (i === ground) continue;
+      if (i >= frames.length) continue;
       const [, first, n] = frames[i];
       for (let k = 0; k < size; k++) poses[o + 9 + k] = q[first + k];
       if (!spatial && n === 3) {
@@ -41,6 +44,23 @@ function makeScene(canvas, scene, solid = null) {
         poses[o + 6] = 2 * (b * d - a * c); poses[o + 7] = 2 * (c * d + a * b); poses[o + 8] = a * a - b * b - c * c + d * d;
       }
     }
+    carry();
+  }
+
+  // Where frames are that go with a point of one body and have the directions of another one, or of the ground.
+  function carry() {
+    carried.forEach(([body, at, turned], k) => {
+      const o = 12 * (frames.length + k), from = 12 * (turned < 0 ? ground : turned);
+      const origin = out(body, at);
+      for (let i = 0; i < 9; i++) poses[o + i] = poses[from + i];
+      for (let i = 0; i < 3; i++) poses[o + 9 + i] = origin[i];
+    });
+  }
+
+  // A point of a body in the ground frame.
+  function out(body, at) {
+    const o = 12 * (body < 0 ? ground : body), z = spatial ? at[2] : 0;
+    return [0, 1, 2].map((k) => poses[o + 3 * k] * at[0] + poses[o + 3 * k + 1] * at[1] + poses[o + 3 * k + 2] * z + poses[o + 9 + k]);
   }
 
   // A point of a body as the eye has it: to the right, upwards, towards the eye [m].
@@ -294,8 +314,7 @@ function makeScene(canvas, scene, solid = null) {
 
   function where(q, body, at) {
     place(q);
-    const o = 12 * body, z = spatial ? at[2] : 0;
-    return [0, 1, 2].map((k) => poses[o + 3 * k] * at[0] + poses[o + 3 * k + 1] * at[1] + poses[o + 3 * k + 2] * z + poses[o + 9 + k]);
+    return out(body, at);
   }
 
   // Between two points that ought to be one: a ring, and the gap magnified.

@@ -199,7 +199,7 @@ function meshes(scene, ground) {
 function makeSolid(canvas, scene) {
   const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
   if (!gl) return null;
-  const ground = scene.frames.length, { first, rest, stretches } = meshes(scene, ground);
+  const ground = groundOf(scene), { first, rest, stretches } = meshes(scene, ground);
   const parts = ground + 1 + stretches.length, rows = Math.min(parts, 1024), wide = 3 * Math.ceil(parts / 1024);
   const poses = new Float32Array(4 * rows * wide), traces = new Map();
 
