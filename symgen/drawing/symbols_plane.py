@@ -151,10 +151,10 @@ def driver(pen: Pen, joint: Joint) -> list[Mark]:
         return pen.arrow(a.body, np.array([start, start + 2.6 * u * along]), DRIVE)
     if turning:
         if not driven:
-            at, axis = Place(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0)), axis_of(numbers, joint)
+            pivot, axis = Place(numbers.index[joint.bodies[-1]], (0.0, 0.0, 0.0)), axis_of(numbers, joint)
         else:
-            at, axis = turned_about(numbers, driven[0], joint.rows)
-        return pen.turning(at.body, numbers.out(at), axis, 1.35, DRIVE)
+            pivot, axis = turned_about(numbers, driven[0], joint.rows)
+        return pen.turning(pivot.body, numbers.out(pivot), axis, 1.35, DRIVE)
     return plain(pen, joint)
 
 

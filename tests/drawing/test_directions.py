@@ -31,19 +31,19 @@ def planar(**force: Any) -> Scene:
     return build_scene(validate(raw, "here"))
 
 
-def spatial(pair: dict[str, Any] | None = None, **force: Any) -> Scene:
+def spatial(pair: dict[str, Any] | None = None, driver: dict[str, Any] | None = None, **force: Any) -> Scene:
     raw = {
         "mechanism": {"name": "arm", "space": "spatial"},
         "bodies": {"a": {"mass": 1.0, "inertia": [1.0, 1.0, 1.0], "points": {"tip": [0.0, 1.0, 0.5]}}},
-        "joints": {} if pair is None else {"j": {"between": ["ground", "a"], **pair}},
-        "forces": {"f": force},
+        "joints": ({"j": {"between": ["ground", "a"], **pair}} if pair else {}) | ({"f": driver} if driver else {}),
+        "forces": {"f": force} if force else {},
     }
     return build_scene(validate(raw, "here"))
 
 
 def strokes(scene: Scene, q: list[float]) -> list[np.ndarray]:
     """Return the points on paper of what is drawn of the force: a line, and a head that begins at its tip."""
-    (drawn,) = (d for d in on_paper(scene, np.array(q), ASIDE) if d.item.role == "force")
+    (drawn,) = (d for d in on_paper(scene, np.array(q), ASIDE) if d.item.name == "f")
     return [part.points for part in drawn.parts if isinstance(part, Path)]
 
 
@@ -126,13 +126,17 @@ def test_torques_about_axes_of_the_body() -> None:
     assert np.ptp(flat[:, 1]) < 1e-12
 
 
-def test_torques_along_either_angle_of_a_universal_joint() -> None:
+@pytest.mark.parametrize("kind", ["torque", "driver"])
+def test_either_angle_of_a_universal_joint(kind: str) -> None:
     """The first angle is about z of the ground, the second about y of the body, turned to the opposite of x."""
     pair = {"type": "universal", "at": [[0.0, 0.0, 0.0], "centre"], "axes": [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]}
     turned = [0.0, 0.0, 0.0, math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]
-    first, second = (
-        strokes(spatial(pair, type="torque", joint="j", coordinate=name, torque=2.0), turned)[0]
+    scenes = [
+        spatial(pair, type="torque", joint="j", coordinate=name, torque=2.0)
+        if kind == "torque"
+        else spatial(pair, {"type": "driver", "joint": "j", "coordinate": name, "value": "0.1*t"})
         for name in ("angle1", "angle2")
-    )
+    ]
+    first, second = (strokes(scene, turned)[0] for scene in scenes)
     assert np.ptp(first[:, 1]) < 1e-12 < np.ptp(first[:, 0])
     assert turning(second, (0.0, 0.0)) == -1.0
