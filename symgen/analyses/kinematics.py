@@ -113,13 +113,13 @@ class Kinematics(Derived, Tables):
         places = [rows[name] for name in self.drivers]
         return Labelled(-self.lam.values[:, places], self.drivers, tuple(self.lam.units[i] for i in places))
 
-    @property
+    @cached_property
     def energy(self) -> Labelled:
         """Kinetic and potential energy [J]."""
         status = self.motion.status_columns
         return Labelled(status[:, [abi.KINETIC, abi.POTENTIAL]], ("kinetic", "potential"), ("J", "J"))
 
-    @property
+    @cached_property
     def violations(self) -> Labelled:
         """Norms of Phi and ``D v - nu``: ``position``, ``velocity``."""
         status = self.motion.status_columns

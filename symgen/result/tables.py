@@ -23,12 +23,18 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+#: What tables are worked out from: compiled code among it, which is no data.
+_OF_THE_PROCESS = ("motion", "forces", "measured")
 #: Endings of data files.
 SAVED: Mapping[str, tuple[str, ...]] = {".csv": ("pandas",), ".parquet": ("pandas", "pyarrow")}
 
 
 class Tables(ABC):
-    """Tables over time; columns have the names that data frames of runs give them."""
+    """Tables over time; columns have the names that data frames of runs give them.
+
+    What was pickled or copied holds all of its tables, worked out when that was done, but not what they are worked out
+    from, which belongs to the process that found the motion.
+    """
 
     t: Array
     mechanism: str
@@ -42,6 +48,19 @@ class Tables(ABC):
     def title(self) -> str:
         """What stands above a plot."""
         return self.mechanism
+
+    def __getstate__(self) -> dict[str, Any]:
+        for name in (*self.names, "non_unique_reactions"):
+            getattr(self, name)  # kept by the instance
+        return {name: value for name, value in self.__dict__.items() if name not in _OF_THE_PROCESS}
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            if name in _OF_THE_PROCESS and "mechanism" in self.__dict__:
+                got = "one that was pickled or copied: it has its tables only"
+                raise InputError(f"result.{name}", "a result of this process", got)
+            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
 
     def tables(self) -> dict[str, Labelled]:
         """Return all tables by name."""

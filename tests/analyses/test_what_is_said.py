@@ -1,6 +1,7 @@
 """What analyses say is so, or they refuse: closed forms, and what a run of the same mechanism has."""
 
 import copy
+import pickle
 import tomllib
 
 import numpy as np
@@ -180,6 +181,21 @@ def test_no_actuator_stands_twice():
     model = Model(validate(copy.deepcopy(catalogue.raw("driven-four-bar")), "test"))
     with pytest.raises(InputError, match="each name once"):
         model.inverse(times=[0.0, 0.1], actuators=["motor", "motor"])
+    for names in (["A", "A.angle"], ["motor", "A"]):
+        with pytest.raises(InputError, match=f"'{names[0]}' and '{names[1]}', which are one"):
+            model.inverse(times=[0.0, 0.1], actuators=names)
+
+
+@pytest.mark.parametrize("duplicate", [lambda r: pickle.loads(pickle.dumps(r)), copy.deepcopy], ids=["pickle", "copy"])
+def test_prescribed_motions_travel(duplicate):
+    model = Model(validate(copy.deepcopy(catalogue.raw("driven-four-bar")), "test"))
+    for found in (model.kinematics([0.0, 0.1], transmission="C"), model.inverse(times=[0.0, 0.1])):
+        again = duplicate(found)
+        assert again.to_json() == found.to_json()
+        for name, table in found.tables().items():
+            np.testing.assert_array_equal(again.tables()[name].values, table.values)
+        with pytest.raises(InputError, match="it has its tables only"):
+            _ = again.forces
 
 
 def test_single_settings_that_count_for_nothing_are_refused():
