@@ -44,10 +44,10 @@ def seconds(x: float | None) -> str:
     """Return a duration with its unit: 85 µs, 1.27 ms, 3.4 s."""
     if x is None or not math.isfinite(x):
         return NONE
-    for unit, size in (("s", 1.0), ("ms", 1e-3)):
-        if x >= size:
-            return f"{x / size:.3g} {unit}"
-    return f"{x / 1e-6:.3g} µs"
+    for unit, size in (("µs", 1e-6), ("ms", 1e-3)):
+        if float(told := f"{x / size:.3g}") < 1000.0:  # as rounded: 999.6 µs are 1 ms
+            return f"{told} {unit}"
+    return f"{x:.3g} s"
 
 
 def percent(x: float | None) -> str:

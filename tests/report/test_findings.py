@@ -20,6 +20,14 @@ def test_every_sentence_is_one():
         assert text.endswith(".") and "None" not in text and "nan" not in text
 
 
+@pytest.mark.parametrize(
+    ("duration", "told"),
+    [(0.9996, "1 s"), (0.9994, "999 ms"), (9.996e-4, "1 ms"), (9.994e-4, "999 µs"), (3.4, "3.4 s")],
+)
+def test_durations_are_told_in_the_unit_that_they_round_to(duration, told):
+    assert words.seconds(duration) == told
+
+
 def test_the_reference_and_the_rows_below_it():
     text = one(findings(study()), "errors are distances")
     assert "a formula at 3×10⁻¹⁴" in text and "off by about 10⁻¹² m" in text
