@@ -73,7 +73,7 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> Actuated:
     Raises
     ------
     InputError
-        If a name is none of these, or stands twice.
+        If a name is none of these, stands twice, or means what another one does.
     """
     whole = instantaneous(mechanism)
     drivers = drivers_of(whole)
@@ -81,7 +81,7 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> Actuated:
         hint = "drivers, joints, forces and inputs may be named"
         raise InputError(WHERE, "names of what exerts the motion", "none, and no driver", hint)
     forces = {force.name: force for force in whole.forces}
-    found, added = list[Actuator](), list[Force]()
+    found, added, along = list[Actuator](), list[Force](), dict[object, str]()
     for name in names:
         if name in forces or name.rpartition(".")[0] in forces:
             force = name if name in forces else name.rpartition(".")[0]
@@ -91,6 +91,8 @@ def actuated(mechanism: Mechanism, names: Sequence[str]) -> Actuated:
             found.append(Actuator(name, _unit(whole, name), name, None))
         else:
             effort, unit = _of_joint(whole, name)
+            if (other := along.setdefault(effort.measure, name)) != name:
+                raise InputError(WHERE, "each actuator once", f"{quoted(other)} and {quoted(name)}, which are one")
             added.append(Force(f"{name}{_MARK}", "torque" if unit == "N m" else "force", (), (effort,)))
             found.append(Actuator(name, unit, _parameter(name), _rate(name, effort)))
     if len({a.parameter for a in found}) < len(found):
