@@ -61,12 +61,12 @@ class _Angle:
     def __init__(self, mechanism: Mechanism, motion: Motion, parameters: Mapping[str, float], name: str) -> None:
         self.mechanism, self.motion, self.parameters, self.name = mechanism, motion, parameters, name
         self.places = {c.name: i for i, c in enumerate(motion.compiled.info.coordinates)}
-        pin, _, rest = name.partition("(")
+        pin, bracket, rest = name.partition("(")
         self.pin = self._joint(pin.strip())
         if self.pin.kind != PIN or GROUND in self.pin.bodies:
             raise InputError(WHERE, "a pin between two moving bodies", quoted(self.pin.name))
-        self.asked = [part.strip() for part in rest.removesuffix(")").split(",")] if rest else []
-        if rest and len(self.asked) != 2:
+        self.asked = [part.strip() for part in rest.rstrip().removesuffix(")").split(",")] if bracket else []
+        if bracket and (len(self.asked) != 2 or not all(self.asked) or not rest.rstrip().endswith(")")):
             raise InputError(WHERE, "a pin with the further joints of its bodies, such as C(B, D)", quoted(name))
 
     def values(self) -> Array:

@@ -362,7 +362,7 @@ def test_bad_arguments_are_refused(driven):
     for times, match in (([0.0, 0.0], "increase"), ([], "list of finite"), ([math.nan], "finite"), ("x", "finite")):
         with pytest.raises(InputError, match=match):
             driven.kinematics(times)
-    for pin in ("E", "A", "C(B)", "C(A, D)"):
+    for pin in ("E", "A", "C(B)", "C(A, D)", "C(", "C()", "C(B,)", "C(B, D"):
         with pytest.raises(InputError, match="transmission"):
             driven.kinematics([0.0], transmission=[pin])
 
