@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
@@ -45,11 +45,17 @@ class Box:
     width: float = 0.0
 
 
-def name(text: str) -> Box:
-    """Return a name of the file, a letter of the notation or a shared term as it is typeset."""
-    letter, index = letter_of(text)
+def name(text: str, whole: bool = False) -> Box:
+    """Return a name of the file, a letter of the notation or a shared term as it is typeset; `whole`: without index."""
+    letter, index = (text, "") if whole else letter_of(text)
     wide = _LETTER * (1 if letter in GREEK or len(letter) == 1 else 0.9 * len(letter))
     return Box("name", text=letter, index=index, width=wide + _SMALL * len(index) + 0.1)
+
+
+def apart(names: Iterable[str]) -> dict[str, Box]:
+    """Return names of one kind as they are typeset: where both ``l1`` and ``l_1`` are names, the first stands as it is."""
+    known = set(names)
+    return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in known - {text}) for text in known}
 
 
 def letter_of(text: str) -> tuple[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from symgen.errors import InputError, nearest
-from symgen.reading.boxes import escaped, latex, name
+from symgen.reading.boxes import escaped, latex
 from symgen.reading.sheet import LINE, Block, Line, Sheet
 from symgen.reading.typeset import broken
 
@@ -191,7 +191,7 @@ def _nomenclature(sheet: Sheet, values: Mapping[str, float]) -> list[str]:
         ]
         for quantity in quantities:
             value = f"{values[quantity.name]:.6g}" if title in ("Parameters", "Inputs") else ""
-            symbol = latex(name(quantity.name))
+            symbol = latex(sheet.writer.symbol(quantity.name))
             told = _words(quantity.name + notes.get(quantity.name, ""))
             found.append(rf"${symbol}$ & \raggedright {told} & {_words(quantity.unit)} & {value} \\")
         found.append(r"\end{longtable}")

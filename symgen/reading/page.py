@@ -17,7 +17,7 @@ from symgen.lower.law import lower_law
 from symgen.lower.model import lower_model
 from symgen.player.live import rates_parts
 from symgen.player.page import rates_script
-from symgen.reading.boxes import Box, name, row, sign
+from symgen.reading.boxes import Box, row, sign
 from symgen.reading.html import attribute, equation, equations, fold, math, matrix, section, short, small, table
 from symgen.reading.law import Law
 from symgen.reading.listing import code_listing, file_listing
@@ -251,7 +251,7 @@ class _Page:
                 numbers = title in ("Parameters", "Inputs")
                 lines = [["symbol", "name", "unit", *(["value"] if numbers else [])]]
                 for quantity in quantities:
-                    letter = math(name(quantity.name))
+                    letter = math(self.sheet.writer.symbol(quantity.name))
                     value = [f"{self.subject.values[quantity.name]:.6g}"] if numbers else []
                     lines.append([letter, escape(quantity.name), escape(quantity.unit), *value])
                 found.append(fold(f"{len(quantities)} {title.lower()}", table(lines)))

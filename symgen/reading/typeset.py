@@ -11,7 +11,21 @@ from itertools import pairwise
 
 from symgen.formulate.equations import Equations
 from symgen.ir.program import of_table
-from symgen.reading.boxes import Box, atoms, bracket, call, cases, is_number, name, number, over, power, row, sign
+from symgen.reading.boxes import (
+    Box,
+    apart,
+    atoms,
+    bracket,
+    call,
+    cases,
+    is_number,
+    name,
+    number,
+    over,
+    power,
+    row,
+    sign,
+)
 
 #: Widest term, in units of the type's size; a line of a document has 44 of them.
 TERM = 30.0
@@ -102,6 +116,7 @@ class Typesetter:
         ):
             self.inputs.update({(space, i): quantity.name for i, quantity in enumerate(quantities)})
         self.definitions: dict[int, tuple[Box, Sum]] = {}
+        self._parameters = apart(quantity.name for quantity in equations.parameters)
         self._written: dict[int, Sum] = {}
         self._full: dict[int, Sum] = {}
         self._number = 0
@@ -112,6 +127,10 @@ class Typesetter:
             uses[node] = uses.get(node, 0) + 1
         for node in needed:
             self._write(node, uses[node], named.get(node))
+
+    def symbol(self, text: str) -> Box:
+        """Return the name of a quantity as it is typeset: no two parameters alike."""
+        return self._parameters.get(text) or name(text)
 
     def sum(self, node: int) -> Sum:
         """Return a node as it is used: its name where it has one."""
@@ -165,7 +184,7 @@ class Typesetter:
         if op == "input":
             assert isinstance(payload, tuple), "an input's payload is its key"
             space, index = payload
-            return atom(name(self.inputs.get(payload, f"{space}{index}")))
+            return atom(self.symbol(self.inputs.get(payload, f"{space}{index}")))
         sums = [self._written[a] for a in args]
         if op in ("add", "sub"):
             return sums[0] + (sums[1] if op == "add" else _turned(sums[1]))

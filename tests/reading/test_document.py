@@ -11,6 +11,8 @@ from symgen.cli import main
 from symgen.describe.load import read_raw
 from symgen.describe.validate import validate
 from symgen.formulate.formulate import formulate
+from symgen.reading.document import document as whole_document
+from symgen.reading.law import law
 from symgen.reading.lengths import with_symbols
 
 
@@ -34,6 +36,24 @@ def test_sections_and_joints_are_selected(capsys):
     text = document(capsys, "four-bar", "--select", "Phi,joints.D")
     assert r"\Phi_{\mathrm{D.x}}" in text and r"\Phi_{\mathrm{A.x}}" not in text
     assert "gamma" not in text.partition("Numbers")[2]
+
+
+def test_no_two_parameters_are_typeset_alike():
+    raw = {
+        "mechanism": {"name": "alike"},
+        "parameters": {"l1": 1.0, "l_1": 2.0, "m2": 3.0},
+        "bodies": {"a": {"mass": "m2", "inertia": 1.0, "points": {"P": ["l1", 0.0], "Q": ["l_1", 0.0]}}},
+        "joints": {
+            "A": {"type": "distance", "between": ["ground", "a"], "at": [[0.0, 0.0], "P"], "length": 1.0},
+            "B": {"type": "distance", "between": ["ground", "a"], "at": [[5.0, 0.0], "Q"], "length": 3.0},
+        },
+    }
+    mechanism = validate(raw, "test")
+    values = {"l1": 1.0, "l_1": 2.0, "m2": 3.0}
+    text = whole_document(mechanism, formulate(mechanism), law("lagrange"), values)
+    assert r"$\mathrm{l1}$ & \raggedright l1" in text and r"$l_{1}$ & \raggedright l\_\allowbreak 1" in text
+    assert r"$m_{2}$" in text  # no other is called so
+    assert text.count(r"\mathrm{l1}") > 1 and text.count("l_{1}") > 1
 
 
 def test_lengths_become_symbols(capsys):
