@@ -19,6 +19,7 @@ from symgen.describe.events import RECORD
 from symgen.describe.kinks import kinks_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving
+from symgen.ensemble.jumps import read_by_motions
 from symgen.ensemble.kernel import integrator_of_rows, kernel_of
 from symgen.ensemble.lanes import check_lanes
 from symgen.ensemble.made import Made
@@ -131,11 +132,14 @@ class Ensemble:
 
     def rows(self, first: int, last: int) -> Rows:
         """Return what distinguishes the runs from `first` to `last` (exclusive)."""
+        return self.driving.put(self.settled(first, last), tuple(self.parameters))
+
+    def settled(self, first: int, last: int) -> Rows:
+        """Return the same without the pieces of runs."""
         varied, held = self.grid.values(first, last), self.held
         settled = self.settings.parameters
         places = held.coordinates, held.velocities, tuple(held.joints)
-        rows = make_rows(self.model.mechanism, self.parameters, varied, *places, settled, held.constant)
-        return self.driving.put(rows, tuple(self.parameters))
+        return make_rows(self.model.mechanism, self.parameters, varied, *places, settled, held.constant)
 
     @cached_property
     def description(self) -> dict[str, Any]:
@@ -209,10 +213,11 @@ def make_ensemble(
         chosen = replace(chosen, coordinates="absolute")
         refuse_events(f"target '{target}'", mechanism, chosen)
     plan = make_plan(mechanism, chosen)
-    # before anything is derived
-    refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
+    # before anything is derived; where it depends on what varies, rows are told apart behind their runs
+    if not read_by_motions(mechanism, grid.names):
+        refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
     # lanes and devices have nothing between two parts of a run: they go across kinks, as the error estimate lets them
     kinks = kinks_of(mechanism) if target == "cpu" and plan.spec.adaptive else ()
     plan = replace(plan, spec=replace(plan.spec, pieces=()))

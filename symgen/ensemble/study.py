@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
+from symgen.ensemble.jumps import rows_that_jump
 from symgen.ensemble.lines import SAVED, csv_of
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
@@ -99,7 +100,10 @@ class Sweep:
     def _verdicts(self) -> tuple[NDArray[np.str_], NDArray[np.object_]]:
         compiled = self.ensemble.compiled
         recipe, events = self.ensemble.recipe, self.ensemble.events
-        return judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
+        status, reason = judge_all(self.summary, self.done, compiled.info, compiled.law, recipe.spec, events)
+        for rows, told in rows_that_jump(self.ensemble, self.done):
+            status[rows], reason[rows] = FAILED, told
+        return status, reason
 
     @cached_property
     def events(self) -> dict[str, tuple[int, str]]:

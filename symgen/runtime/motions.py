@@ -49,9 +49,28 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
     InputError
         With the driver, and when and by how much its value or rate jumps.
     """
-    if not (moved := _moved(mechanism)):
-        return
-    values, tables = parameter_values(mechanism, parameters), {table.name: table for table in mechanism.tables}
+    if _moved(mechanism) and (told := jump_of(mechanism, parameter_values(mechanism, parameters), until)) is not None:
+        raise told
+
+
+def names_of_motions(mechanism: Mechanism) -> frozenset[str]:
+    """Return what the motions of drivers read that may jump; nothing where none may."""
+    return frozenset(name for *_, formula, _ in _moved(mechanism) for name in names(formula))
+
+
+def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> InputError | None:
+    """Return which motion of a driver jumps within a run, when and by how much, None where none does.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    values : mapping of str to float
+        Of all parameters that these motions read.
+    until : float
+        End of the run [s].
+    """
+    tables = {table.name: table for table in mechanism.tables}
 
     def at(e: Expr, t: float) -> float:
         try:
@@ -59,7 +78,7 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
         except InputError:
             return math.nan
 
-    for joint, unit, formula, changes in moved:
+    for joint, unit, formula, changes in _moved(mechanism):
         found = set[float]()
         for change in changes:
             try:
@@ -67,30 +86,34 @@ def refuse_jumps(mechanism: Mechanism, parameters: Mapping[str, float], until: f
             except InputError:  # more often than can be told
                 continue
         times = [0.0, *sorted(t for t in found if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
-        samples = [x for i in range(33) if math.isfinite(x := at(formula, until * i / 32))]
-        extent = max(samples, default=0.0) - min(samples, default=0.0) + 1e-9 * max(map(abs, samples), default=0.0)
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
             h = min(_NEAR * until, _APART * (t - before), _APART * (after - t))
-            kind, size = _jump(partial(at, formula), t, h, extent, until)
+            kind, size = _jump(partial(at, formula), t, h, until)
             if kind:
-                raise InputError(
+                return InputError(
                     f"{mechanism.name}: joints.{joint}.value",
                     "a motion whose value and rate do not jump",
                     f"a {kind} that jumps by {size:.6g} {unit if kind == 'value' else f'{unit}/s'} at t = {t:.6g} s",
                     "it would take an impulse; a ramp such as a cubic table takes forces",
                 )
+    return None
 
 
-def _jump(f: Callable[[float], float], t: float, h: float, extent: float, until: float) -> tuple[str, float]:
+def _jump(f: Callable[[float], float], t: float, h: float, until: float) -> tuple[str, float]:
     """Return what of a function jumps at a time, and by how much; nothing where neither value nor slope does."""
     (value, slope, speed), (far_value, far_slope, _) = _sides(f, t, h / _NEARER), _sides(f, t, h)
-    for kind, near, far, least in (
-        ("value", value, far_value, _ROUNDING * extent),
-        ("rate", slope, far_slope, _SMALL * max(speed, extent / until)),
-    ):
-        if abs(near) > least and abs(near - far) <= _STAYS * abs(near):
-            return kind, near
+    for kind, near, far in (("value", value, far_value), ("rate", slope, far_slope)):
+        if near != 0.0 and abs(near - far) <= _STAYS * abs(near):
+            extent = _extent(f, until)
+            if abs(near) > (_ROUNDING * extent if kind == "value" else _SMALL * max(speed, extent / until)):
+                return kind, near
     return "", 0.0
+
+
+def _extent(f: Callable[[float], float], until: float) -> float:
+    """Return about the range of a function."""
+    samples = [x for i in range(33) if math.isfinite(x := f(until * i / 32))]
+    return max(samples, default=0.0) - min(samples, default=0.0) + 1e-9 * max(map(abs, samples), default=0.0)
 
 
 def _sides(f: Callable[[float], float], t: float, h: float) -> tuple[float, float, float]:

@@ -10,6 +10,8 @@ from support.emitted import mechanism_of
 import symgen
 from symgen.errors import InputError
 from symgen.runtime.motions import refuse_jumps
+from symgen.study.stress.bench import Level
+from symgen.study.stress.cells import ReferenceTask, RunTask, compute
 
 MASS, ARM, INERTIA, G = 1.0, 0.5, 0.1, 9.81
 
@@ -56,7 +58,10 @@ def test_motions_that_jump_are_refused(value, said):
             symgen.simulate(mechanism, until=1.0, coordinates=coordinates)
         assert said in str(caught.value)
     with pytest.raises(InputError, match=r"joints\.motor\.value"):
-        symgen.sweep(mechanism, {"late": [0.4, 0.5]}, until=1.0)
+        symgen.compare(mechanism, ["lagrange"], ["rk4"], [0.01], until=1.0)
+    if "late" not in value:
+        with pytest.raises(InputError, match=r"joints\.motor\.value"):
+            symgen.sweep(mechanism, {"late": [0.4, 0.5]}, until=1.0)
     assert refuse_jumps(mechanism, {}, 0.1) is None
 
 
@@ -76,6 +81,24 @@ def test_motions_that_jump_are_refused(value, said):
 )
 def test_motions_that_change_smoothly_are_not(value):
     assert refuse_jumps(mechanism_of(cart(value)), {}, 1.0) is None
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_rows_whose_own_motion_jumps_fail(coordinates):
+    raw = cart("speed*max(0, t - late)")
+    raw["parameters"] |= {"quick": 0.0, "speed": "2*sqrt(quick)**2"}
+    vary = {"quick": [0.0, 0.25, -1.0], "late": [0.4, 1.5]}
+    found = symgen.sweep(mechanism_of(raw), vary, until=1.0, coordinates=coordinates)
+    assert found.status.tolist() == ["ok", "ok", "failed", "ok", "failed", "failed"]
+    assert "a rate that jumps by 0.5 m/s at t = 0.4 s" in found.reason[2]
+    assert "values for which every formula is finite" in found.reason[4]
+
+
+def test_rows_of_stress_whose_motion_jumps_are_refused():
+    mechanism = mechanism_of(cart("0 if t < late else 0.1"))
+    level = Level("late", "at half the time", (0.5,), mechanism, until=1.0, step=1e-2)
+    found = compute(RunTask(level, "lagrange", "rk4", compute(ReferenceTask(level))))
+    assert found["outcome"] == "refused" and "a value that jumps by 0.1 m at t = 0.5 s" in found["reason"]
 
 
 def test_a_motion_that_is_not_refused_swings_as_the_cart_accelerates():

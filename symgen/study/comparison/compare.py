@@ -18,6 +18,7 @@ from symgen.plan import Plan, make_plan, multiples, output_size, refuse_events, 
 from symgen.result.points import Points
 from symgen.run_setup import stopping
 from symgen.runtime import abi
+from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.timing import timed
 from symgen.settings import Settings, default
 from symgen.study.comparison.combinations import Combinations
@@ -228,6 +229,7 @@ def compare_all(
         plans = [make_plan(chosen.mechanism, s) for s in settings]  # refuses what is wrong before anything is run
         refuse_events("compare", chosen.mechanism, asked)
         refuse_weightless(chosen.mechanism)
+        refuse_jumps(chosen.mechanism, asked.parameters, end)
         works.append(
             _Work(chosen, end, times, settings, plans, Kept(chosen.mechanism, journal, reference_by), reference_by)
         )

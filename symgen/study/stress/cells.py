@@ -25,6 +25,7 @@ from symgen.result.judge import judge
 from symgen.result.points import Points
 from symgen.result.result import INTERRUPTED
 from symgen.runtime import abi
+from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.run import integrate
 from symgen.settings import Settings, default
@@ -131,6 +132,10 @@ def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") 
 def _run(task: RunTask) -> RunFields:
     """Run a case and judge it against its reference; without one it would say nothing, and is not run."""
     level, method, integrator, known, limits = task.level, task.method, task.integrator, task.reference, task.limits
+    try:  # its reference would be that of another motion, or was refused
+        refuse_jumps(level.mechanism, level.parameters, level.until)
+    except InputError as error:
+        return _nothing(judged.REFUSED, str(error))
     why = without_reference(known)
     if why is not None:
         return _nothing(judged.UNJUDGED, why)

@@ -15,6 +15,7 @@ from symgen.describe.load import load as load_mechanism
 from symgen.errors import AssemblyError, InputError, SimulationError
 from symgen.plan import make_plan
 from symgen.result.points import Points
+from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
 from symgen.study.references.reference import closed_form
 from symgen.study.stress.bench import FREE_LENGTH, Level
@@ -36,6 +37,7 @@ CONSISTENT = 1e-8
 def reference_of(level: Level) -> Fields:
     """Return the motion at the outputs, or why there is none."""
     try:
+        refuse_jumps(level.mechanism, level.parameters, level.until)
         return _moved(level)
     except (AssemblyError, InputError, SimulationError) as error:
         return {"unusable": str(error)}
