@@ -20,7 +20,7 @@ from symgen.describe.kinks import knots_of
 from symgen.describe.moved import moved
 from symgen.describe.sides import wrong_sides
 from symgen.describe.start import described_start
-from symgen.errors import AssemblyError, InputError
+from symgen.errors import InputError
 from symgen.integrators._tableau import Tableau
 from symgen.ir.program import FORMAT
 from symgen.lower.windings import winding_order
@@ -28,6 +28,7 @@ from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
 from symgen.runtime.pieces import Piece, pieces_of
+from symgen.runtime.start_words import half_turn
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -134,19 +135,15 @@ def start_of(
         held = held_of(compiled.info, holds_of(mechanism) if held is None else held, numbers, v)
     p = compiled.parameter_array(values, method_parameters or {})
     told = partial(moved, mechanism, numbers)
-    return _sided(mechanism, assemble(compiled, np.array(q), v, p, strict, held, ask_light, told))
+    return _sided(mechanism, compiled.info, assemble(compiled, np.array(q), v, p, strict, held, ask_light, told))
 
 
-def _sided(mechanism: Mechanism, start: Start) -> Start:
+def _sided(mechanism: Mechanism, info: ModelInfo, start: Start) -> Start:
     """Return a start with warnings where axes point opposite ways; refuse one that holds a body the wrong way round."""
     lines = list[str]()
     for joint, held in wrong_sides(mechanism, start.y.tolist()):
         if held:
-            raise AssemblyError(
-                f"{mechanism.name}: joint '{joint}' closes half a turn from where its directions coincide, as that is "
-                "nearer to the described start; describe how the bodies that it joins are turned",
-                (joint,),
-            ).stopped_at(start.y.tolist())
+            raise half_turn(info, joint).stopped_at(start.y.tolist())
         lines.append(f"the axes of joint '{joint}' point opposite ways at the start: they are taken for one line")
     return replace(start, warnings=(*start.warnings, *lines)) if lines else start
 

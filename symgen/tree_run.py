@@ -27,7 +27,8 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.joint_starts import joint_values
 from symgen.runtime.outcome import Outcome
 from symgen.runtime.probe import Ready
-from symgen.runtime.tree_start import Carrying, check_sides, settle_tree
+from symgen.runtime.start_words import turned_over
+from symgen.runtime.tree_start import Carrying, settle_tree, turned_by_tree
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -202,6 +203,12 @@ class TreeRun:
         found[: self.bodies.info.nq] *= self._signs
         return found
 
+    @cached_property
+    def over(self) -> int:
+        """Which of the bodies that turn in space would start turned over, -1 where none."""
+        info, began = self.bodies.info, self.start
+        return turned_by_tree(info, self.body_start.y, self._raw(began.t, began.y, began.p)) if info.spins else -1
+
     def _raw(self, t: float, y: Array, p: Array) -> Array:
         own, info = self.compiled.info, self.bodies.info
         state, out = np.zeros(own.ny), np.zeros(info.nq + 2 * info.nv)
@@ -265,7 +272,10 @@ def tree_run(
         return kept
     bodies, start = ready(mechanism, plan, parameters, strict)
     carried = tree_code(mechanism, plan.choice, bodies)
-    return begin_on_tree(mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+    run = begin_on_tree(mechanism, *carried, bodies, start, plan.method_parameters, plan.events)
+    if run.over >= 0:
+        raise turned_over(bodies.info, run.over)
+    return run
 
 
 def begun(
@@ -341,10 +351,7 @@ def begin_on_tree(
     w, rank, redundant = settle_tree(compiled, y, p, start.t, start.w[at.windings], scales)
     notes = start.notes, start.changes, start.light, start.warnings
     found = Start(y, p, w, rank, redundant, *notes, t=start.t, work=start.work)
-    run = TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
-    if info.spins:
-        check_sides(info, start.y, run._raw(start.t, y, p))
-    return run
+    return TreeRun(mechanism, carried, compiled, found, bodies, start, events, watched)
 
 
 def _made(compiled: CompiledModel, plan: Plan, parameters: Mapping[str, float]) -> dict[str, Any]:

@@ -6,18 +6,40 @@ what is nearest, so that a body that is described turned too far is held the wro
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
 
 from symgen.describe.mechanism import Joint, Mechanism, SpatialBody
-from symgen.describe.orientation import Matrix, matrix, rotate
+from symgen.describe.orientation import matrix, rotate
 from symgen.describe.remembered import remembered
 from symgen.describe.topology import articulation_of
 from symgen.vocabulary.expressions import Number
-from symgen.vocabulary.measures import GROUND, Direction, Dot, Holonomic, Sum
+from symgen.vocabulary.measures import Direction, Dot, Holonomic, Sum
 
-#: Directions of two bodies.
-_Pair = tuple[Direction, Direction]
+
+class Arm(NamedTuple):
+    """A direction that is fixed in a body: where its Euler parameters stand, -1 where there are none, and a vector."""
+
+    first: int
+    vector: tuple[float, float, float]
+
+
+class Side(NamedTuple):
+    """A joint whose directions point the same way, whether they keep bodies from turning, and which they are."""
+
+    joint: str
+    held: bool
+    pairs: tuple[tuple[Arm, Arm], ...]
+
+    def cosine(self, q: Any) -> Any:
+        """Return the sum of the products of the directions: below 0 where they point opposite ways.
+
+        Parameters
+        ----------
+        q : sequence of float, or Array of shape (nq, k)
+            Coordinates of all bodies, closed: numbers, or those of many starts.
+        """
+        return sum(x * y for a, b in self.pairs for x, y in zip(_in_ground(a, q), _in_ground(b, q), strict=True))
 
 
 def wrong_sides(mechanism: Mechanism, q: Sequence[float]) -> Iterator[tuple[str, bool]]:
@@ -33,25 +55,34 @@ def wrong_sides(mechanism: Mechanism, q: Sequence[float]) -> Iterator[tuple[str,
     q : sequence of float
         Coordinates of all bodies, closed.
     """
-    sided, first = _sided(mechanism), 0
-    axes: dict[str, Matrix | None] = {GROUND: None}
-    for body in mechanism.bodies if sided else ():
-        turned = isinstance(body, SpatialBody) and not body.is_point
-        axes[body.name] = _matrix(q[first + 3 : first + 7]) if turned else None
-        first += len(body.coordinates)
-    for name, held, pairs in sided:
-        if sum(_cosine(axes, *pair) for pair in pairs) < 0.0:
-            yield name, held
+    for side in sides_of(mechanism):
+        if side.cosine(q) < 0.0:
+            yield side.joint, side.held
 
 
 @remembered
-def _sided(mechanism: Mechanism) -> tuple[tuple[str, bool, tuple[_Pair, ...]], ...]:
-    """Return the joints with directions that point the same way, and whether these keep bodies from turning."""
-    spatial = mechanism.space == "spatial"
-    return tuple((j.name, held, pairs) for j in (mechanism.joints if spatial else ()) for held, pairs in _of_joint(j))
+def sides_of(mechanism: Mechanism) -> tuple[Side, ...]:
+    """Return the joints with directions that point the same way; none in the plane."""
+    if mechanism.space != "spatial":
+        return ()
+    places, first = dict[str, int](), 0
+    for body in mechanism.bodies:
+        if isinstance(body, SpatialBody) and not body.is_point:
+            places[body.name] = first + 3
+        first += len(body.coordinates)
+
+    def arm(direction: Direction) -> Arm:
+        x, y, z = (e.value if isinstance(e, Number) else 0.0 for e in direction.vector)  # in space they are numbers
+        return Arm(places.get(direction.body, -1), (x, y, z))
+
+    return tuple(
+        Side(joint.name, held, tuple((arm(a), arm(b)) for a, b in pairs))
+        for joint in mechanism.joints
+        for held, pairs in _of_joint(joint)
+    )
 
 
-def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[_Pair, ...]]]:
+def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[tuple[Direction, Direction], ...]]]:
     found = articulation_of(joint)
     row = joint.rows[-1] if joint.kind == "constant-velocity" else None
     if isinstance(row, Holonomic) and isinstance(row.measure, Sum):
@@ -65,18 +96,11 @@ def _of_joint(joint: Joint) -> Iterator[tuple[bool, tuple[_Pair, ...]]]:
             yield True, ((found.of_a[0], found.of_b[0]),)
 
 
-def _matrix(e: Sequence[float]) -> Matrix:
-    length = math.sqrt(sum(x * x for x in e))
-    a, b, c, d = (float(x) / length for x in e)
-    return matrix((a, b, c, d))
-
-
-def _cosine(axes: dict[str, Matrix | None], a: Direction, b: Direction) -> float:
-    """Return the product of two directions, each turned as its body is."""
-
-    def in_ground(direction: Direction) -> tuple[float, float, float]:
-        x, y, z = (e.value if isinstance(e, Number) else 0.0 for e in direction.vector)  # in space they are numbers
-        turned = axes[direction.body]
-        return (x, y, z) if turned is None else rotate(turned, (x, y, z))
-
-    return sum(x * y for x, y in zip(in_ground(a), in_ground(b), strict=True))
+def _in_ground(arm: Arm, q: Any) -> tuple[Any, ...]:
+    """Return a direction, turned as its body is."""
+    if arm.first < 0:
+        return arm.vector
+    e = q[arm.first : arm.first + 4]
+    length = sum(x * x for x in e) ** 0.5
+    a, b, c, d = (x / length for x in e)
+    return rotate(matrix((a, b, c, d)), arm.vector)

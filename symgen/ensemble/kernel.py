@@ -20,6 +20,7 @@ from symgen.runtime.assembler import Assembly
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.held import Held
 from symgen.runtime.integrator import Integrator, Setup
+from symgen.runtime.model_arrays import joints_of
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
 from symgen.runtime.run import RunSpec
@@ -177,13 +178,14 @@ class Kernel:
         now.p[:k, : len(info.parameters)], now.y[:k, : info.nq] = rows.parameters, rows.q
         if not self._close(model, rows, now, selected, out.summary, control):
             return False
+        self._look_at_sides(info, now.y, selected, out.summary)
         ready = out.summary[selected, e.START] == e.ASSEMBLED
         if model is self.first and recipe.spare is not None:
             ready &= out.summary[selected, e.LIGHT] == 0.0
         selected = selected[ready]
         if model.tree is not None and model.on_tree is not None:
             starts, apart = model.tree.settle(now, selected, control)
-            plain, selected = selected[apart], selected[~apart]
+            plain, selected = model.tree.upright(starts, selected[apart], now.y, out.summary), selected[~apart]
             if not self._advance(model.on_tree, starts, plain, out, control):
                 return False
             model.tree.turn(recipe.quantities, plain, now.y, out.values)
@@ -211,6 +213,16 @@ class Kernel:
                 return False
             now.w[r], summary[r] = self._closed(model, rows, r).close(now.y[r], rows.v[r], now.p[r])
         return True
+
+    def _look_at_sides(self, info: ModelInfo, ys: Array, selected: Integers, summary: Array) -> None:
+        """Refuse starts in which joints hold bodies the wrong way round, as single runs do."""
+        if not self.recipe.sides:
+            return
+        closed = selected[summary[selected, e.START] == e.ASSEMBLED]
+        q, joints = ys[closed, : info.nq].T, joints_of(info)
+        for side in reversed(self.recipe.sides):  # the first one is told
+            rows = closed[side.cosine(q) < 0.0]
+            summary[rows, e.START], summary[rows, e.START_WHERE] = e.HALF_TURN, joints.index(side.joint)
 
     def _closed(self, model: _Prepared, rows: Rows, r: int) -> Assembly:
         """Return the start of a row that holds joint coordinates."""

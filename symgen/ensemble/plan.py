@@ -17,6 +17,7 @@ from symgen.describe.derived import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD
 from symgen.describe.kinks import kinks_of
+from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving
 from symgen.ensemble.jumps import read_by_motions
@@ -254,6 +255,7 @@ def make_ensemble(
         target=target,
         singly=singly,
         joints=tuple(held.joints.values()),
+        sides=tuple(side for side in sides_of(mechanism) if side.held),
     )
     if target == "cuda":  # before anything runs: whether a thread of the device can hold a run
         _ = kernel_of(recipe).first

@@ -20,6 +20,7 @@ from symgen import __version__
 from symgen.compiling.straight_model import load_compiled
 from symgen.describe.digest import identity
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.sides import Side
 from symgen.ensemble.measures import Measures, stored
 from symgen.ensemble.quantities import Quantity
 from symgen.ensemble.singly import Singly
@@ -157,6 +158,8 @@ class Recipe:
         What runs need that are done one by one.
     joints : tuple of (int, int)
         Joint coordinates that rows hold, each with 1 where it is the rate that they hold.
+    sides : tuple of Side
+        Joints that may hold bodies the wrong way round.
     held : tuple of int
         Coordinates that rows hold.
     kept, fixed : tuple of int
@@ -184,6 +187,7 @@ class Recipe:
     tree: Tree | None = None
     singly: Singly | None = None
     joints: tuple[tuple[int, int], ...] = ()
+    sides: tuple[Side, ...] = ()
 
     @property
     def times(self) -> Array:
@@ -243,7 +247,7 @@ class Recipe:
             [
                 *(self.integrator, {**spec, "integrator_parameters": dict(self.spec.integrator_parameters)}),
                 *(dict(self.method_parameters), [q.name for q in self.quantities], self.held, self.kept, self.fixed),
-                *(self.strict, self.code, self.joints),
+                *(self.strict, self.code, self.joints, *([self.sides] if self.sides else [])),
                 *(x if x is None else x.described for x in (self.first, self.spare, self.tree, self.singly)),
             ],
             sort_keys=True,

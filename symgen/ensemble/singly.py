@@ -157,6 +157,9 @@ class SingleRuns:
             if control[abi.STOP] != 0:
                 return False
             began = self._begun(int(r), starts)
+            if isinstance(began, TreeRun) and began.over >= 0:
+                out.summary[r, [e.START, e.START_WHERE]] = e.TURNED_OVER, began.over
+                continue
             if not self._run(int(r), rows, began, out, control):
                 return False
             control[e.RUNS_DONE] += 1

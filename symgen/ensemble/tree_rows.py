@@ -13,11 +13,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.describe.sides import Side, sides_of
+from symgen.describe.topology import edges_of
+from symgen.runtime import abi
 from symgen.runtime import ensemble_abi as e
 from symgen.runtime.exact import compiled_form
+from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant
 from symgen.runtime.starting import prepare_rows
-from symgen.runtime.tree_start import Carrying, settle_rows
+from symgen.runtime.tree_start import Carrying, settle_rows, turned_by_tree
 from symgen.tree_run import carrying_of
 
 if TYPE_CHECKING:
@@ -57,6 +61,8 @@ class TreeRows:
         In the bodies' own coordinates, and in those of joints.
     p : Array
         Parameters of the second, those of a row left out.
+    sides : tuple of Side or None
+        Joints that turn a body over where their directions point opposite ways; None where others may as well.
     carrying : Carrying
         Where what stands.
     """
@@ -64,6 +70,7 @@ class TreeRows:
     bodies: CompiledModel
     compiled: CompiledModel
     p: Array
+    sides: tuple[Side, ...] | None
     carrying: Carrying
 
     @classmethod
@@ -79,7 +86,8 @@ class TreeRows:
         bodies, compiled, p
             See the class.
         """
-        return cls(bodies, compiled, p, carrying_of(whole, carried, bodies, compiled))
+        sides = None if any(edge.turn == "cross" for edge in edges_of(whole).values()) else sides_of(whole)
+        return cls(bodies, compiled, p, sides, carrying_of(whole, carried, bodies, compiled))
 
     @property
     def width(self) -> int:
@@ -122,6 +130,34 @@ class TreeRows:
         functions = self.bodies.model.observe, model.geometry
         compiled_form(settle_rows)(*functions, self.compiled.layout, of_bodies, flat, places, room, selected, control)
         return Instant(ys, ps, ws), places.dependent[selected] == 0
+
+    def upright(self, starts: Instant, selected: Integers, closed: Array, summary: Array) -> Integers:
+        """Return those of selected rows in which the tree turns no body over; the others are told why they end.
+
+        Parameters
+        ----------
+        starts : Instant
+            Of the tree, from `settle`.
+        selected : Array of int
+            Rows to look at.
+        closed : Array, shape (runs, ny)
+            States of bodies.
+        summary : Array
+            See `symgen.runtime.ensemble_abi`; written.
+        """
+        info, own = self.bodies.info, self.compiled.info
+        if not info.spins:
+            return selected
+        q, doubtful = closed[selected, : info.nq].T, np.full(len(selected), self.sides is None)
+        for side in self.sides or ():
+            doubtful |= side.cosine(q) < 0.0
+        observe, rate, out = Ready(self.compiled.model.bodies, abi.OBSERVE), np.zeros(own.ny), np.zeros(self.width)
+        for r in selected[doubtful]:
+            y, p, w = (array[r].copy() for array in starts)
+            observe(self.compiled.layout.t, y, p, w, rate, out)
+            if (over := turned_by_tree(info, closed[r], out)) >= 0:
+                summary[r, [e.START, e.START_WHERE]] = e.TURNED_OVER, over
+        return np.asarray(selected[summary[selected, e.START] == e.ASSEMBLED])
 
     def turn(self, quantities: Sequence[Quantity], selected: Integers, starts: Array, values: Array) -> None:
         """Give Euler parameters the signs that they have at the start.

@@ -24,7 +24,7 @@ SUMMARY = (
     "start",  # how the assembly ended: below
     "start_moved",  # by how much closing moved a coordinate
     "start_velocities",  # 1 where given velocities contradicted the constraints and were projected
-    "start_where",  # index of the joint that stays open or of the velocity without mass
+    "start_where",  # index of the joint that stays open or is half a turn off, of the velocity without mass, ...
     "start_size",  # by how much it stays open
     "redundant_rows",  # rows that depend on others, at the start and near it
     "light",  # 1 where the law's solver had to be replaced
@@ -68,6 +68,8 @@ OF_EVENT = len(EVENT_COLUMNS)
 
 #: How an assembly ended.
 ASSEMBLED, UNDEFINED, NO_MASS, OPEN, CONTRADICTION, MOVED, PROJECTED, UNDETERMINED = range(8)
+#: Where a joint is closed half a turn off, and where a tree of joints would turn a body over.
+HALF_TURN, TURNED_OVER = 8, 9
 
 #: In the integers shared with the thread that watches, behind those of single runs: runs that are done.
 RUNS_DONE = abi.N_CONTROL

@@ -144,10 +144,33 @@ def refusal(summary: Array, info: ModelInfo) -> AssemblyError | InputError:
         return AssemblyError(
             f"{info.name}: no velocities satisfy the constraints; drivers or conditions contradict each other"
         )
+    if code == e.HALF_TURN:
+        return half_turn(info, joints_of(info)[where])
+    if code == e.TURNED_OVER:
+        return turned_over(info, where)
     found = "given velocities contradicted by the constraints"
     if code == e.MOVED:
         found = f"positions that closing moves by up to {float(summary[e.START_MOVED]):.3g}"
     return InputError("initial state", "a consistent start (--strict)", found)
+
+
+def half_turn(info: ModelInfo, joint: str) -> AssemblyError:
+    """Return why there is no start where a joint holds a body the wrong way round."""
+    return AssemblyError(
+        f"{info.name}: joint '{joint}' closes half a turn from where its directions coincide, as that is "
+        "nearer to the described start; describe how the bodies that it joins are turned",
+        (joint,),
+    )
+
+
+def turned_over(info: ModelInfo, spin: int) -> AssemblyError:
+    """Return why there is no start in joint coordinates where these turn a body over, one of those in `info.spins`."""
+    body = info.coordinates[info.spins[spin][0]].name.partition(".")[0]
+    return AssemblyError(
+        f"{info.name}: in joint coordinates '{body}' would start turned over, as directions of a joint that "
+        "shall coincide point opposite ways there; describe how bodies are turned at the start, give one of "
+        "the directions the opposite sign, or use absolute coordinates"
+    )
 
 
 def without_derivative(compiled: CompiledModel, q: Array, p: Array) -> AssemblyError | None:

@@ -14,7 +14,6 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.errors import AssemblyError
 from symgen.ir.numerics import SKIP, WARN
 from symgen.runtime import abi, decisions
 from symgen.runtime.bare import bare, part
@@ -70,8 +69,8 @@ def settle_tree(
     return w, rank, compiled.redundant(w)
 
 
-def check_sides(info: ModelInfo, closed: Array, carried: Array) -> None:
-    """Refuse a start from which joints of a tree turn a body over.
+def turned_by_tree(info: ModelInfo, closed: Array, carried: Array) -> int:
+    """Return which of the bodies that turn in space the joints of a tree turn over at a start, -1 where none.
 
     Rows of absolute coordinates leave open to which side the axis of a joint points, a tree does not.
 
@@ -81,20 +80,11 @@ def check_sides(info: ModelInfo, closed: Array, carried: Array) -> None:
         Of bodies.
     closed, carried : Array, shapes (>= nq,)
         Coordinates of bodies as they were closed, and as the tree carries them.
-
-    Raises
-    ------
-    AssemblyError
-        With the body that is turned over.
     """
-    for first, _ in info.spins:
+    for k, (first, _) in enumerate(info.spins):
         if abs(carried[first : first + 4] @ closed[first : first + 4]) < 0.5:  # of Euler parameters: 120 degrees apart
-            body = info.coordinates[first].name.partition(".")[0]
-            raise AssemblyError(
-                f"{info.name}: in joint coordinates '{body}' would start turned over, as directions of a joint that "
-                "shall coincide point opposite ways there; describe how bodies are turned at the start, give one of "
-                "the directions the opposite sign, or use absolute coordinates"
-            )
+            return k
+    return -1
 
 
 class Carrying(NamedTuple):

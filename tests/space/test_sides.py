@@ -39,6 +39,11 @@ def run(raw: dict, coordinates: str, **changes):
     )
 
 
+def sweep(raw: dict, coordinates: str, leans, **changes):
+    asked = {"method": "lagrange", "integrator": "rk4", "step": 5e-3, "until": 0.05} | changes
+    return symgen.sweep(mechanism_of(raw), {"lean": leans}, coordinates=coordinates, **asked)
+
+
 @pytest.mark.parametrize("kind", ["revolute", "cylindrical"])
 def test_axes_that_point_opposite_ways_are_one_line_and_said(kind):
     raw = hung({"type": kind, "axis": [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0]], "reference": [[1.0, 0.0, 0.0]] * 2})
@@ -66,6 +71,28 @@ def test_directions_that_are_held_together_and_start_apart_are_refused(joint):
     for coordinates in ("absolute", "joint"):
         with pytest.raises(AssemblyError, match="joint 'pin' closes half a turn from where its directions coincide"):
             run(hung(joint), coordinates)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("further", [{}, {"stop_when": "a.z < -9"}])
+def test_rows_that_close_half_a_turn_off_fail(coordinates, further):
+    joint = {"type": "rigid", "axis": [[0.0, 0.0, 1.0]] * 2, "reference": [[1.0, 0.0, 0.0]] * 2}
+    raw = hung(joint, orientation={"rotation_vector": [0.0, 0.0, "lean"]})
+    found = sweep(raw, coordinates, [0.0, 3.1, 0.1], **further)
+    assert found.status.tolist() == ["ok", "failed", "ok"]
+    assert "joint 'pin' closes half a turn from where its directions coincide" in found.reason[1]
+
+
+@pytest.mark.parametrize("further", [{}, {"stop_when": "a.z < -9"}])
+def test_rows_that_joint_coordinates_would_turn_over_fail(further):
+    raw = hung(
+        {"type": "revolute", "axis": [[0.0, 1.0, 0.0]] * 2, "reference": [[1.0, 0.0, 0.0]] * 2},
+        orientation={"rotation_vector": ["lean", 0.0, 0.0]},
+    )
+    assert sweep(raw, "absolute", [3.1], **further).counts["ok"] == 1
+    found = sweep(raw, "joint", [0.0, 3.1, 0.1], **further)
+    assert found.status.tolist() == ["ok", "failed", "ok"]
+    assert "'a' would start turned over" in found.reason[1]
 
 
 def test_shafts_of_a_homokinetic_joint_may_lean_by_more_than_a_right_angle():
