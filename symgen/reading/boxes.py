@@ -53,7 +53,7 @@ def name(text: str, whole: bool = False) -> Box:
 
 
 def apart(names: Iterable[str]) -> dict[str, Box]:
-    """Return names of one kind as they are typeset: where both ``l1`` and ``l_1`` are names, the first stands as it is."""
+    """Return names of one kind as they are typeset; where both ``l1`` and ``l_1`` are names, the first is whole."""
     known = set(names)
     return {text: name(text, whole=re.sub(r"^([A-Za-z])(\d+)$", r"\1_\2", text) in known - {text}) for text in known}
 
