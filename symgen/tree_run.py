@@ -7,19 +7,19 @@ violations and outputs are read as of any other run.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.carrying import carrying_of
 from symgen.compiling.choose_tree import on_tree
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import Topology
-from symgen.describe.topology import known_coordinates, state_names
+from symgen.describe.topology import known_coordinates
 from symgen.lower.windings import winding_order
 from symgen.run_setup import choice_of, compiled_for, made_of, ready, stopping, taken_up, watching
 from symgen.runtime import abi
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
     from symgen.describe.mechanism import Event, Mechanism
     from symgen.plan import Plan
-    from symgen.runtime.compiled import CompiledModel, ModelInfo
+    from symgen.runtime.compiled import CompiledModel
     from symgen.runtime.events import Happening, Watched
     from symgen.runtime.last_state import LastState
 
@@ -373,37 +373,3 @@ def _going_on(
     y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
     of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
     return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)
-
-
-def carrying_of(mechanism: Mechanism, carried: Mechanism, bodies: CompiledModel, compiled: CompiledModel) -> Carrying:
-    """Return where what stands in rows of bodies and of a tree."""
-    assert carried.topology is not None, "it was put on a tree"
-    info, own = bodies.info, compiled.info
-    known = {x.name: (0, i) for i, x in enumerate((*info.coordinates, *info.velocities))}
-    for k, x in enumerate(info.joint_coordinates):
-        known |= {x.name: (1, info.m + 2 * k), f"{x.name}.rate": (1, info.m + 2 * k + 1)}
-    names, speeds = state_names(carried, carried.topology)
-    turned = {m: abi.WINDING + i for i, m in enumerate(winding_order(mechanism, bodies.shape))}
-    first = info.sections["gauge"][0]
-
-    def integers(found: Iterable[int]) -> NDArray[np.int64]:
-        return np.array(list(found), dtype=np.int64)
-
-    return Carrying(
-        *(0, own.work, info.observed),
-        places=integers(x for name, _ in (*names, *speeds) for x in known[name]),
-        windings=integers(turned[m] for m in winding_order(carried, "straight")),
-        gauges=integers(-1 if j is None else first + j for j in _levers(carried, info)),
-        dependent=integers(()),
-    )
-
-
-def _levers(carried: Mechanism, info: ModelInfo) -> list[int | None]:
-    """Return the velocity whose length each velocity of a tree has, None for those that are no angles."""
-    assert carried.topology is not None, "it has a tree"
-    found = list[int | None]()
-    for link in carried.topology.links:
-        alone = msgspec.structs.replace(carried.topology, links=(link,))
-        own = [j for j, x in enumerate(info.velocities) if x.name.startswith(f"{link.body}.") and x.unit == "rad/s"]
-        found += [own[0] if unit == "rad/s" else None for _, unit in state_names(carried, alone)[1]]
-    return found

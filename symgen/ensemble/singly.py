@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
 from symgen.compiling.knots import compile_knots
 from symgen.compiling.side import compile_side
@@ -31,7 +32,7 @@ from symgen.runtime.assembly import Start
 from symgen.runtime.rows import summarise
 from symgen.runtime.run import outcome_of
 from symgen.runtime.simulation import Simulation
-from symgen.tree_run import TreeRun, begin_on_tree, carrying_of
+from symgen.tree_run import TreeRun, begin_on_tree
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Mechanism

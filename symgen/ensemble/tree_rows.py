@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from symgen.compiling.carrying import carrying_of
 from symgen.describe.sides import Side, sides_of
 from symgen.describe.topology import edges_of
 from symgen.runtime import abi
@@ -22,7 +23,6 @@ from symgen.runtime.probe import Ready
 from symgen.runtime.start_records import Instant
 from symgen.runtime.starting import prepare_rows
 from symgen.runtime.tree_start import Carrying, settle_rows, turned_by_tree
-from symgen.tree_run import carrying_of
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
