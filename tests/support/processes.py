@@ -29,8 +29,8 @@ from typing import NoReturn
 
 #: Runs the command line, as the program that an installation puts beside Python does.
 COMMAND = "import sys; from symgen.cli import main; sys.exit(main())"
-#: A process that does not end within this hangs [s].
-PATIENCE = 600
+#: A process that does not end within this hangs [s]. The longest of the slow tests take ten minutes on a busy machine.
+PATIENCE = 3600
 #: The most that one request may hold [bytes].
 _ROOM = 1 << 18
 #: Beginnings of variables that an interpreter or a library reads where it is started or imported.
