@@ -22,6 +22,9 @@ settings.load_profile("any machine")
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.
 COLLECTIONS = (10_000, 20, 50)
 
+#: Tests of many minutes, which come first: last, they would leave all workers but one idle.
+LONGEST = ("test_many_random_mechanisms", "test_random_mechanisms_by_every_method")
+
 _made: list[Path] = []
 
 
@@ -39,6 +42,11 @@ def pytest_configure(config: pytest.Config) -> None:
         return
     _made.append(Path(tempfile.mkdtemp(prefix="symgen-tests-")))
     os.environ["SYMGEN_CACHE_DIR"] = str(_made[0])
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put the longest tests in front."""
+    items.sort(key=lambda item: item.name not in LONGEST)
 
 
 def pytest_collection_finish() -> None:
