@@ -25,7 +25,7 @@ from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
-from symgen.settings import SHAPES, Settings, changed, default
+from symgen.settings import SHAPES, Settings, changed, is_given
 from symgen.tree_run import begun, tree_run
 
 if TYPE_CHECKING:
@@ -362,8 +362,7 @@ class Model(Analysed):
 
         asked = changed(settings, changes)
         for name in ("output_step", "times", "verify", "repeat"):
-            value, usual = getattr(asked, name), default(name)
-            if (value is not None) if usual is None else (value != usual):  # an array of times has no one truth
+            if is_given(asked, name):
                 raise InputError(f"start: {name}", "settings of a run without outputs", f"one with {name}")
         given = give_inputs(self.mechanism, asked)
         mechanism = given.mechanism

@@ -237,6 +237,12 @@ def default(name: str) -> Any:
     return getattr(Settings(), name)
 
 
+def is_given(settings: Settings, name: str) -> bool:
+    """Whether a setting is another than where it is not given."""
+    value, usual = getattr(settings, name), default(name)
+    return bool(value is not None if usual is None else value != usual)  # an array of times has no one truth
+
+
 def flag(name: str) -> str:
     """Return the option of commands that is the setting called `name`."""
     return about(name).flag or f"--{name.replace('_', '-')}"

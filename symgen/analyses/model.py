@@ -49,6 +49,11 @@ def _settings(where: str, settings: Settings | None, changes: Mapping[str, objec
     return found
 
 
+def _at_place(where: str, settings: Settings | None, changes: Mapping[str, object], at: str | float) -> Settings:
+    """Return settings of an analysis about a place; those of a run count where one leads there."""
+    return _settings(where, settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
+
+
 class Analysed:
     """A model that can be analysed; who inherits it has a mechanism and runs it."""
 
@@ -159,13 +164,7 @@ class Analysed:
         """
         from symgen.analyses.asked import Asked, asked_modes
 
-        asked = Asked(
-            self.mechanism,
-            _settings("modes", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
-            at,
-            self.simulate,
-            cyclic,
-        )
+        asked = Asked(self.mechanism, _at_place("modes", settings, changes, at), at, self.simulate, cyclic)
         return asked_modes(asked, states, count)
 
     def view_mode(
@@ -199,7 +198,7 @@ class Analysed:
         """
         from symgen.analyses.shown import mode_page
 
-        asked = _settings("view_mode", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS)
+        asked = _at_place("view_mode", settings, changes, at)
         number = arguments.whole("number", number, 1, 10**6)
         return mode_page(self.mechanism, self.modes(asked, at=at), number, asked.parameters)
 
@@ -239,13 +238,7 @@ class Analysed:
         """
         from symgen.analyses.asked import Asked, asked_system
 
-        asked = Asked(
-            self.mechanism,
-            _settings("linearise", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
-            at,
-            self.simulate,
-            cyclic,
-        )
+        asked = Asked(self.mechanism, _at_place("linearise", settings, changes, at), at, self.simulate, cyclic)
         return asked_system(asked, states, instantaneous, by)
 
     def locus(
@@ -270,13 +263,7 @@ class Analysed:
         from symgen.analyses.asked import Asked
         from symgen.analyses.locus import locus
 
-        asked = Asked(
-            self.mechanism,
-            _settings("locus", settings, changes, OF_STATES if isinstance(at, str) else OF_RUNS),
-            at,
-            self.simulate,
-            cyclic,
-        )
+        asked = Asked(self.mechanism, _at_place("locus", settings, changes, at), at, self.simulate, cyclic)
         return locus(asked, over, states)
 
     def kinematics(
