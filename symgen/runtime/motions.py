@@ -13,12 +13,12 @@ from itertools import pairwise
 
 import msgspec
 
-from symgen.describe.evaluate import evaluate, parameter_values
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
-from symgen.runtime.pieces import crossings, line_of
+from symgen.runtime.pieces import crossings, line_of, values_at
 from symgen.vocabulary.expressions import Call, Expr, call, names
 from symgen.vocabulary.measures import Holonomic
 
@@ -70,19 +70,12 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
     until : float
         End of the run [s].
     """
-    tables = {table.name: table for table in mechanism.tables}
-
-    def at(e: Expr, t: float) -> float:
-        try:
-            return evaluate(e, {**values, "t": t}, tables=tables)
-        except InputError:
-            return math.nan
-
+    at = values_at(mechanism, values)
     for joint, unit, formula, changes in _moved(mechanism):
         found = set[float]()
         for change in changes:
             try:
-                found.update(crossings(lambda t, e=change.argument: at(e, t), line_of(change, values), (0.0,), until))  # type: ignore[misc]
+                found.update(crossings(partial(at, change.argument), line_of(change, values), change.levels, until))
             except InputError:  # more often than can be told
                 continue
         times = [0.0, *sorted(t for t in found if 1e-9 * until < t < (1.0 - 1e-9) * until), until]

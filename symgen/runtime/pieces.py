@@ -9,10 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.inputs import Driven, Jump
+from symgen.describe.mechanism import Mechanism
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
@@ -60,21 +62,15 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
     InputError
         If there are too many, or smooth data end before the run does.
     """
-    tables = {table.name: table for table in driven.mechanism.tables}
+    at = values_at(driven.mechanism, values)
     for name, data in driven.curves.items():
         if data.t[0] > 0.0 or data.t[-1] < until:
             got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
             raise InputError(f"input '{name}'", f"data from 0 to {until:g} s, as curves end where they do", got)
 
-    def at(e: Expr, t: float) -> float:
-        try:
-            return evaluate(e, {**values, "t": t}, tables=tables)
-        except InputError:  # undefined there: no comparison with it holds
-            return math.nan
-
     found = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
-        found.update(crossings(lambda t, e=jump.argument: at(e, t), line_of(jump, values), jump.levels, until))  # type: ignore[misc]
+        found.update(crossings(partial(at, jump.argument), line_of(jump, values), jump.levels, until))
     times = [0.0]
     for t in sorted(found):
         if t - times[-1] > _SAME * until and until - t > _SAME * until:
@@ -92,6 +88,27 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
         result.append(Piece(begin, {name: x for name, x in now.items() if before.get(name) != x}))
         before = now
     return tuple(result)
+
+
+def values_at(mechanism: Mechanism, values: Mapping[str, float]) -> Callable[[Expr, float], float]:
+    """Return what gives a formula of parameters and t at a time [s]; not a number where it is undefined.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose tables it may read.
+    values : mapping of str to float
+        Of the parameters.
+    """
+    tables = {table.name: table for table in mechanism.tables}
+
+    def at(e: Expr, t: float) -> float:
+        try:
+            return evaluate(e, {**values, "t": t}, tables=tables)
+        except InputError:  # no comparison with it holds
+            return math.nan
+
+    return at
 
 
 def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: float) -> tuple[float, ...]:
