@@ -25,7 +25,7 @@ import types
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import NoReturn
+from typing import Any, NoReturn
 
 #: Runs the command line, as the program that an installation puts beside Python does.
 COMMAND = "import sys; from symgen.cli import main; sys.exit(main())"
@@ -43,9 +43,9 @@ _LIBRARIES = (
 )
 
 
-def symgen(words: Sequence[object], **keys: object) -> subprocess.CompletedProcess[str]:
+def symgen(words: Sequence[object], **keys: Any) -> subprocess.CompletedProcess[str]:
     """Run ``symgen`` with words; keys are those of `python`."""
-    return python(COMMAND, *words, **keys)  # type: ignore[arg-type]  # handed on
+    return python(COMMAND, *words, **keys)
 
 
 def python(
@@ -185,23 +185,23 @@ def _import_all() -> None:
             importlib.import_module(module.name)
 
 
-def _run(ask: Mapping[str, object], files: Sequence[int]) -> NoReturn:
+def _run(ask: Mapping[str, Any], files: Sequence[int]) -> NoReturn:
     """Do in this process what was asked, and end it as an interpreter ends, but for the taking apart of modules."""
     nothing = os.open(os.devnull, os.O_RDONLY)
     for number, file in enumerate((nothing, *files)):
         os.dup2(file, number)
         os.close(file)
-    os.chdir(ask["folder"])  # type: ignore[arg-type]  # all from JSON
+    os.chdir(ask["folder"])
     os.environ.clear()
-    os.environ.update(ask["environment"])  # type: ignore[arg-type]
+    os.environ.update(ask["environment"])
     if path := ask["path"]:  # also for processes that this one starts
-        sys.path[:0] = path  # type: ignore[arg-type]
-        os.environ["PYTHONPATH"] = os.pathsep.join(p for p in (*path, os.environ.get("PYTHONPATH")) if p)  # type: ignore[misc]
-    sys.argv[:] = ["-c", *ask["words"]]  # type: ignore[misc]
+        sys.path[:0] = path
+        os.environ["PYTHONPATH"] = os.pathsep.join(p for p in (*path, os.environ.get("PYTHONPATH")) if p)
+    sys.argv[:] = ["-c", *ask["words"]]
     if ask["strict"]:
         warnings.simplefilter("error")
     main = sys.modules["__main__"] = types.ModuleType("__main__")
-    code = _code_of(lambda: exec(compile(ask["script"], "<string>", "exec"), vars(main)))  # type: ignore[arg-type]
+    code = _code_of(lambda: exec(compile(ask["script"], "<string>", "exec"), vars(main)))
     with suppress(BaseException):
         threading._shutdown()
     atexit._run_exitfuncs()
