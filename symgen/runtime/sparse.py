@@ -193,11 +193,8 @@ def factorise_again(plan: Any, numbers: Any) -> bool:
     """Factorise with the pivots and the pattern that `factorise_anew` found; return whether they are good enough."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, places = part(plan, plan[COLUMNS], n + 1), part(plan, plan[PLACES], size)
-    upper, lower, end = (
-        part(plan, work + _UPPER * n, n),
-        part(plan, work + _LOWER * n, n),
-        part(plan, work + _END * n, n),
-    )
+    upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
+    end = part(plan, work + _END * n, n)
     positions = part(plan, plan[POOL], room)
     values, inverse, x = part(numbers, 0, size), part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)
     pool = part(numbers, size + 4 * n, room)
@@ -231,11 +228,8 @@ def factorise_anew(plan: Any, numbers: Any) -> int:
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
     columns, rows = part(plan, plan[COLUMNS], n + 1), part(plan, plan[ROWS], size)
     order, places = part(plan, plan[ORDER], n), part(plan, plan[PLACES], size)
-    upper, lower, end = (
-        part(plan, work + _UPPER * n, n),
-        part(plan, work + _LOWER * n, n),
-        part(plan, work + _END * n, n),
-    )
+    upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
+    end = part(plan, work + _END * n, n)
     place, pivot_row = part(plan, work + _PLACE * n, n), part(plan, work + _PIVOT_ROW * n, n)
     found, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
     positions = part(plan, plan[POOL], room)
@@ -317,11 +311,8 @@ def reach(plan: Any, k: int) -> int:
     """
     n, work = plan[SIZE], plan[WORK]
     columns, rows, positions = plan[COLUMNS], plan[ROWS], plan[POOL]
-    place, lower, end = (
-        part(plan, work + _PLACE * n, n),
-        part(plan, work + _LOWER * n, n),
-        part(plan, work + _END * n, n),
-    )
+    place, lower = part(plan, work + _PLACE * n, n), part(plan, work + _LOWER * n, n)
+    end = part(plan, work + _END * n, n)
     found, mark = part(plan, work + _FOUND * n, n), part(plan, work + _MARK * n, n)
     stack, following = part(plan, work + _STACK * n, n), part(plan, work + _NEXT * n, n)
     top = n
@@ -358,12 +349,9 @@ def reach(plan: Any, k: int) -> int:
 def solve(plan: Any, numbers: Any, right: Any, x: Any) -> None:
     """Solve with the factors that `factorise` left; `right` and `x` are different arrays."""
     n, size, work, room = plan[SIZE], plan[ENTRIES], plan[WORK], plan[ROOM]
-    upper, lower, end = (
-        part(plan, work + _UPPER * n, n),
-        part(plan, work + _LOWER * n, n),
-        part(plan, work + _END * n, n),
-    )
-    pivot_row, order = part(plan, work + _PIVOT_ROW * n, n), part(plan, plan[ORDER], n)
+    upper, lower = part(plan, work + _UPPER * n, n), part(plan, work + _LOWER * n, n)
+    end, pivot_row = part(plan, work + _END * n, n), part(plan, work + _PIVOT_ROW * n, n)
+    order = part(plan, plan[ORDER], n)
     positions = part(plan, plan[POOL], room)
     row_scale, column_scale = part(numbers, size, n), part(numbers, size + n, n)
     inverse, y = part(numbers, size + 2 * n, n), part(numbers, size + 3 * n, n)

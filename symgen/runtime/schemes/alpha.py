@@ -24,6 +24,7 @@ from symgen.runtime.instances import called
 from symgen.runtime.manifold import advance
 from symgen.runtime.records import ALPHA
 from symgen.runtime.redundancy import leave_out_rest
+from symgen.runtime.schemes.implicit import is_converged
 from symgen.runtime.sparse import multiply, solve, turn_rows
 
 _MOST_ITERATIONS = 20
@@ -115,8 +116,8 @@ def attempt(
         moved = math.sqrt(moved) / (rate + math.sqrt(total))
         if not math.isfinite(moved):
             break
-        if moved < 1e-12 or (moved > 0.3 * last and (moved < 1e-7 or at_floor)):
-            converged = True
+        converged = is_converged(moved, last, 1e-12, 1e-7, at_floor)
+        if converged:
             break
         fresh = moved > 0.05 * last
         last = moved

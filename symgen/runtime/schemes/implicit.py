@@ -57,6 +57,21 @@ def stage_state(system: Any, scheme: Any, run: Any, h: float, stage: int, k: Any
                 run.trial[i] += factor * rates[j * (ny - first) + i - first]
 
 
+def is_converged(moved: float, last: float, least: float, poor: float, at_floor: bool) -> bool:
+    """Return whether a Newton iteration is at its end: its correction is small, or only rounding keeps it from it.
+
+    Parameters
+    ----------
+    moved, last : float
+        Length of this correction and of the one before.
+    least, poor : float
+        What is small; and what is small enough where corrections no longer shrink.
+    at_floor : bool
+        Whether the correction is rounding of positions.
+    """
+    return moved < least or (moved > 0.3 * last and (moved < poor or at_floor))
+
+
 @called
 def attempt(
     system: Any, scheme: Any, span: Any, run: Any, t: float, following: float, h: float, between: bool
@@ -126,8 +141,8 @@ def attempt(
             moved = math.sqrt(moved) / (run.w[abi.SPEED] / run.w[abi.LENGTH] + math.sqrt(size))
             if not math.isfinite(moved):
                 break
-            if moved < 1e-13 or (moved > 0.3 * last and (moved < 1e-9 or at_floor)):
-                converged = True
+            converged = is_converged(moved, last, 1e-13, 1e-9, at_floor)
+            if converged:
                 break
             fresh = moved > 0.05 * last
             last = moved

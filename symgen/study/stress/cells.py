@@ -125,6 +125,10 @@ class RunFields:
         return {k: None if isinstance(v, float) and not math.isfinite(v) else v for k, v in fields.items()}
 
 
+#: Of a run whose process died.
+CRASHED = RunFields(judged.DIVERGED, None, "failed", "its process died", 0, None, None, None, "", "")
+
+
 def _nothing(outcome: str, reason: str, evaluations: int = 0, chosen: str = "") -> RunFields:
     return RunFields(outcome, None, "not run", reason, evaluations, None, None, None, chosen, "")
 

@@ -20,7 +20,7 @@ from symgen.study.journal import Journal, Outcome, cell_key, code_identity, mech
 from symgen.study.runner import Cell, Status, run_cells
 from symgen.study.stress.bench import Base, Level, NotApplicable
 from symgen.study.stress.cases import CASES, Family
-from symgen.study.stress.cells import WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
+from symgen.study.stress.cells import CRASHED, WATCHED, Limits, LimitTask, ReferenceTask, RunTask, compute
 from symgen.study.stress.effort import BUDGET, LeftOut, left_out
 from symgen.study.stress.reference import without_reference
 from symgen.study.stress.rows import Limit, Row, Stress
@@ -289,18 +289,6 @@ class _Study:
 
     def _row(self, case: _Case, task: RunTask, outcome: Outcome) -> Row:
         level = case.level
-        crashed = {
-            "outcome": "diverged",
-            "error": None,
-            "status": "failed",
-            "reason": "its process died",
-            "evaluations": 0,
-            "position_violation_max": None,
-            "velocity_violation_max": None,
-            "energy_drift_max": None,
-            "chosen": "",
-            "note": "",
-        }
         constant = task.integrator != AUTO and not INTEGRATORS.get(task.integrator).adaptive
         return Row(
             model=case.model,
@@ -313,7 +301,7 @@ class _Study:
             until=level.until,
             reference_error=task.reference.get("estimated_error"),
             watched=level.watched,
-            **(crashed if outcome.get("crashed") else outcome),
+            **(CRASHED.to_json() if outcome.get("crashed") else outcome),
         )
 
 
