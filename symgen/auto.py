@@ -48,9 +48,9 @@ class Facts:
         Size of q.
     massless : bool
         Whether a body has no mass.
-    fastest_decay, fastest_oscillation : float
-        Largest negative real part and imaginary part of the eigenvalues of the linearised motion at the start [1/s]; 0
-        where no force depends on velocities and no joint is a condition on them.
+    fastest_decay : float
+        Largest negative real part of the eigenvalues of the linearised motion at the start [1/s]; 0 where no force
+        depends on velocities and no joint is a condition on them.
     slowest_change : float
         Rate at which the state changes by its own size [1/s].
     """
@@ -60,7 +60,6 @@ class Facts:
     coordinates: int
     massless: bool
     fastest_decay: float
-    fastest_oscillation: float
     slowest_change: float
 
     @property
@@ -159,7 +158,6 @@ def gather(
         coordinates=info.nq,
         massless=bool(info.massless),
         fastest_decay=float(max(0.0, -eigenvalues.real.min(initial=0.0))),
-        fastest_oscillation=float(np.abs(eigenvalues.imag).max(initial=0.0)),
         slowest_change=float(change),
     )
 

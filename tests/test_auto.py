@@ -28,7 +28,6 @@ CALM = Facts(
     coordinates=9,
     massless=False,
     fastest_decay=1.0,
-    fastest_oscillation=2.0,
     slowest_change=1.0,
 )
 

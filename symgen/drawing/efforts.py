@@ -12,7 +12,7 @@ from symgen.drawing.markers import Place, parts
 from symgen.drawing.pen import PLAIN, Pen, across
 from symgen.drawing.scene import GROUNDED, INK, Array, Frame, Item, Look, Mark, Poses
 from symgen.errors import InputError
-from symgen.vocabulary.expressions import ZERO, Expr, Number, names
+from symgen.vocabulary.expressions import ZERO, Number, names
 from symgen.vocabulary.measures import Angle, Component, Distance, Effort, PointSpeed, Spin, Turn
 
 PUSH = Look("#a0522d", "", 1.8)
@@ -35,15 +35,6 @@ def force_item(pen: Pen, force: Force) -> Item:
     else:
         marks = _pushes(pen, force)
     return Item("force", force.name, force.kind, tuple(marks))
-
-
-def _zero(pen: Pen, expression: Expr) -> bool:
-    """Whether a constant is 0 with the parameters of the run; formulas of the state are not."""
-    if expression == ZERO:
-        return True
-    with suppress(InputError):
-        return pen.numbers.number(expression) == 0.0
-    return False
 
 
 def _kind(pen: Pen, force: Force) -> str:
