@@ -142,6 +142,19 @@ def test_a_step_with_more_events_than_there_is_room_for_loses_none():
     np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
 
 
+@pytest.mark.parametrize("count", [101, 300])
+def test_a_step_with_events_at_very_many_times_loses_none(count):
+    """Each at a time of its own in one step, and behind them the impact; up to the room of notes the step stays one."""
+    times = np.linspace(0.1, 0.4, count)
+    noted = {f"at{k}": {"when": f"t > {t!r}"} for k, t in enumerate(times.tolist())}
+    result = ball(**noted, **BOUNCE).simulate(method="lagrange", integrator="rk4", step=0.5, until=0.5)
+    assert result.ok and result.steps <= (2 if count < 256 else 3)
+    np.testing.assert_allclose([event.t for event in result.events][:-1], times, rtol=0.0, atol=1e-12)
+    assert result.events[-1].name == "impact"
+    after = 0.5 - FIRST
+    np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
+
+
 def test_more_events_at_once_than_half_the_room_are_all_noted():
     many = {f"low{i}": {"when": "ball.y < 0.5"} for i in range(300)}
     result = ball(**many).simulate(method="lagrange", integrator="rk4", step=1e-2, until=0.4)
