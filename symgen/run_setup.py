@@ -27,6 +27,7 @@ from symgen.lower.windings import winding_order
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
+from symgen.runtime.new_state import is_as_kept
 from symgen.runtime.pieces import Piece, pieces_of
 from symgen.runtime.start_words import half_turn
 
@@ -262,6 +263,7 @@ def _going_on(
         other = other or ["the tree is another one"]
     elif (start := taken_up(compiled, plan, last, values, made_of(compiled, plan, values))) is not None:
         return compiled, start
+    other = other or ["another version of symgen kept what it knows otherwise"]
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
@@ -312,6 +314,9 @@ def taken_up(
         From `made_of`.
     """
     if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
+        return None
+    memory = plan.tableau.setup(compiled, plan.spec, compiled.scratch()).memory
+    if not is_as_kept(compiled, memory, last.arrays):
         return None
     other = last.other_than(made)
     y, p, w = (last.arrays[name] for name in ("y", "p", "w"))
