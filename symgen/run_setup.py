@@ -88,9 +88,11 @@ def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
     found = driven(mechanism, {**set_by_name, **settings.inputs})
     parameters = {**settings.parameters, **found.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
-    pieces = pieces_of(found, parameter_values(found.mechanism, parameters), until)
+    values = parameter_values(found.mechanism, parameters)
+    pieces = pieces_of(found, values, until)
     parameters |= pieces[0].values if pieces else {}
-    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, found.told, found)
+    told = {name: x if isinstance(x, str) else values[name] for name, x in found.told.items()}  # defaults follow others
+    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, told, found)
 
 
 def start_of(

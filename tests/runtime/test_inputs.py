@@ -421,6 +421,24 @@ def test_outputs_read_what_a_run_gives_an_input():
         assert shown[-1, 1] == pytest.approx(impulse, abs=1e-9) == result.v["block.vx"][-1]
 
 
+def test_a_default_that_follows_a_parameter_is_told_as_it_was():
+    """Whether another input is given or not, and by whom a result is read."""
+    mechanism = (
+        MechanismBuilder("pushed-point")
+        .run(until=0.1, step=0.01)
+        .parameter("strength", 1.0)
+        .input("push", "2*strength", unit="N")
+        .input("side", 0.0)
+        .body("block", type="point", mass=1.0, velocity=(0.0, 0.0))
+        .force("all", "force", body="block", force=("push", "side"))
+        .build()
+    )
+    for inputs in ({}, {"side": 1.0}, {"side": "t"}):
+        result = Model(mechanism).simulate(method="lagrange", parameters={"strength": 3.0}, inputs=inputs)
+        assert result.inputs["push"] == 6.0
+        assert result.v["block.vx"][-1] == pytest.approx(0.6, abs=1e-12)
+
+
 def test_sweeps_take_numbers_as_parameters(model):
     found = sweep(model, vary={"push": [1.0, 2.0]}, until=1.0, step=0.01, method="lagrange", quantities=["block.x"])
     for row, push in enumerate((1.0, 2.0)):
