@@ -276,6 +276,7 @@ def _going_on(
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence(last)} with its coordinates and velocities alone: {'; '.join(other)}"
+    note += "; integrals of outputs begin at 0" if info.integrals else ""
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
 
 

@@ -211,6 +211,17 @@ def test_events_that_another_version_kept_otherwise_are_looked_for_anew():
     np.testing.assert_array_equal(second.q.values, whole.q.values[-len(second.t) :])
 
 
+def test_integrals_that_are_not_gone_on_with_are_said_to_begin_anew():
+    tables = copy.deepcopy(TURNING) | {"outputs": {"swept": "integral(hub.rate)"}}
+    model = symgen.load(mechanism_of(tables))
+    asked = {"method": "lagrange", "integrator": "rk4", "step": 1e-2}
+    first = model.simulate(until=0.5, **asked)
+    same, other = (model.simulate(until=1.0, start=first, **(asked | more)) for more in ({}, {"step": 2e-2}))
+    assert same["swept"][-1] == pytest.approx(3.0, abs=1e-9) and "integrals" not in same.notes[0]
+    assert other["swept"][-1] == pytest.approx(1.5, abs=1e-9)
+    assert other.notes[0].endswith("; integrals of outputs begin at 0")
+
+
 @pytest.mark.parametrize(
     ("coordinates", "name"),
     [*(("absolute", name) for name in ("w", "p", "gauges", "memory")), ("joint", "w"), ("joint", "body_w")],
