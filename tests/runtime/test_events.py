@@ -20,6 +20,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.plan import make_plan
 from symgen.run_setup import watching
 from symgen.runtime.probe import rate_function
+from symgen.runtime.resets import strike
 from symgen.runtime.simulation import Simulation
 from symgen.settings import Settings
 from symgen.study.stress.study import stress
@@ -518,6 +519,18 @@ def test_a_reset_may_make_another_event_happen_at_once():
 def test_a_ball_that_does_not_come_up_again_gathers_at_once():
     result = ball(stuck={"when": "ball.y < 0", "reset": {"ball.vy": "0"}}).simulate(method="lagrange")
     assert result.status == "failed" and result.reason.startswith("events of 'stuck' accumulate at t = 0.45152364098")
+
+
+def test_rows_that_are_rounding_take_no_impulse():
+    """As those of a joint that is written twice are in joint coordinates."""
+    mass, v = np.diag([1.0, 2.0, 3.0]), np.array([0.3, -0.2, 0.1])
+    asked = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
+    noise = np.array([[0.0, 1e-17, -2e-17], [3e-17, 0.0, 1e-17]])
+    alone, _, _ = strike(mass, asked, np.array([0.5, 0.4]), v)
+    found, impulses, contradictory = strike(mass, np.vstack([noise, asked]), np.array([0.0, 0.0, 0.5, 0.4]), v)
+    np.testing.assert_allclose(found, alone, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(alone, [0.5, -0.1, 0.1], rtol=0.0, atol=1e-14)
+    assert not contradictory and not impulses[:2].any()
 
 
 def test_contradictory_velocities_are_refused_with_amounts():
