@@ -379,4 +379,4 @@ class Model(Analysed):
             compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
         plan = watching(mechanism, plan, compiled, chosen.parameters)
         start = replace(start, notes=(*reasons, *start.notes))
-        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None, given.told)
+        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None, given)

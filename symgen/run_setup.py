@@ -27,6 +27,7 @@ from symgen.lower.windings import winding_order
 from symgen.runtime.assembly import Start, assemble
 from symgen.runtime.held import Held
 from symgen.runtime.model_arrays import velocity_of
+from symgen.runtime.new_state import is_as_kept
 from symgen.runtime.pieces import Piece, pieces_of
 from symgen.runtime.start_words import half_turn
 
@@ -87,9 +88,11 @@ def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
     found = driven(mechanism, {**set_by_name, **settings.inputs})
     parameters = {**settings.parameters, **found.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
-    pieces = pieces_of(found, parameter_values(found.mechanism, parameters), until)
+    values = parameter_values(found.mechanism, parameters)
+    pieces = pieces_of(found, values, until)
     parameters |= pieces[0].values if pieces else {}
-    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, found.told, found)
+    told = {name: x if isinstance(x, str) else values[name] for name, x in found.told.items()}  # defaults follow others
+    return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, told, found)
 
 
 def start_of(
@@ -262,6 +265,7 @@ def _going_on(
         other = other or ["the tree is another one"]
     elif (start := taken_up(compiled, plan, last, values, made_of(compiled, plan, values))) is not None:
         return compiled, start
+    other = other or ["another version of symgen kept what it knows otherwise"]
     q = np.array([last.q[c.name] for c in info.coordinates])
     v = [last.v[c.name] for c in info.velocities]
     p = compiled.parameter_array(values, plan.method_parameters)
@@ -272,6 +276,7 @@ def _going_on(
         p = compiled.parameter_array(values, plan.method_parameters)
         start = assemble(compiled, q, v, p, strict, None, False, None, (last.t, windings))
     note = f"{whence(last)} with its coordinates and velocities alone: {'; '.join(other)}"
+    note += "; integrals of outputs begin at 0" if info.integrals else ""
     return compiled, replace(start, notes=(note, *start.notes), work=last.work)
 
 
@@ -312,6 +317,9 @@ def taken_up(
         From `made_of`.
     """
     if last.arrays is None or last.other_than({key: x for key, x in made.items() if key != "events"}):
+        return None
+    memory = plan.tableau.setup(compiled, plan.spec, compiled.scratch()).memory
+    if not is_as_kept(compiled, memory, last.arrays):
         return None
     other = last.other_than(made)
     y, p, w = (last.arrays[name] for name in ("y", "p", "w"))

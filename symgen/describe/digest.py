@@ -59,13 +59,13 @@ def digest(mechanism: Mechanism) -> str:
 def identity(mechanism: Mechanism) -> str:
     """Return the digest of all of a mechanism: equations, start, values of parameters and defaults.
 
-    Shapes stay outside, as nothing is computed with them.
+    Shapes stay outside, as nothing is computed with them, and so does what inputs are given, which stands in forces.
     """
     import hashlib
 
-    plain = msgspec.structs.replace(mechanism, shapes=())
+    plain = msgspec.structs.replace(mechanism, shapes=(), given=())
     # the text of structs, which older folders of sweeps and journals were named by
-    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "")
+    text = msgspec.Struct.__repr__(plain).replace(", shapes=()", "").replace(", given=()", "")
     return hashlib.sha256(text.encode()).hexdigest()
 
 

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import msgspec
 
 from symgen.describe.fields import Condition, NewVelocities, found, read
+from symgen.describe.inputs import put
 from symgen.describe.mechanism import Event, Mechanism
 from symgen.describe.names import check_identifier
 from symgen.describe.printer import to_text
@@ -92,7 +93,7 @@ def watched(mechanism: Mechanism, settings: str, when: str, action: str) -> Even
     """
     switching, condition = _switching(Scope(Model.of(mechanism), settings), "", when)
     text = " ".join(when.split())
-    return Event(text, switching, RISING if condition else ANY, action, (), text)
+    return put(Event(text, switching, RISING if condition else ANY, action, (), text), dict(mechanism.given))
 
 
 def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, ...]:
@@ -103,7 +104,8 @@ def events_of(mechanism: Mechanism, tables: Mapping[str, Any]) -> tuple[Event, .
         if any(name == event.name for event in mechanism.events):
             where = f"{mechanism.name}: events.{name}"
             raise InputError(where, "a name that no event of the mechanism has", f"'{name}' again")
-        result.append(read_event(Scope(Model.of(mechanism), f"events.{name}", name), name, table))
+        event = read_event(Scope(Model.of(mechanism), f"events.{name}", name), name, table)
+        result.append(put(event, dict(mechanism.given)))
     return tuple(result)
 
 
@@ -119,7 +121,7 @@ def in_words(events: Iterable[Event]) -> str:
 def _switching(scope: Scope, key: str, text: str) -> tuple[Expr, bool]:
     """Return a function that is above 0 where the condition holds, and whether there is one."""
     expression = scope.of_state(key, text, conditions=True)
-    if not any(name == "t" or "." in name for name in names(expression)):
+    if not any(name in ("t", *scope.model.inputs) or "." in name for name in names(expression)):
         raise scope.error(key, "a condition that time or motion changes", quoted(text))
     condition = isinstance(expression, Call) and expression.function in _LOGIC
     return (_positive(expression), True) if condition else (expression, False)

@@ -131,9 +131,15 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
         return Driven(mechanism, numbers, samples, curves, (), told)
-    parts = {part: replaced(getattr(known, part), lambda e: changed.get(e.name, e)) for part in _READING}
-    known = msgspec.structs.replace(known, **parts, parameters=(*known.parameters, *switches))
+    parts = {part: put(getattr(known, part), changed) for part in _READING}
+    parameters, put_in = (*known.parameters, *switches), tuple(changed.items())
+    known = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
     return Driven(known, numbers, samples, curves, tuple(jumps), told)
+
+
+def put(value: T, formulas: Mapping[str, Expr]) -> T:
+    """Return a part of a mechanism with formulas in the place of inputs."""
+    return replaced(value, lambda e: formulas.get(e.name, e)) if formulas else value
 
 
 def replaced(value: T, by: Callable[[Name], Expr]) -> T:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,3 +79,19 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
         *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
         np.zeros(sizes.width + room),
     )
+
+
+def is_as_kept(compiled: CompiledModel, memory: int, arrays: Mapping[str, NDArray[Any]]) -> bool:
+    """Return whether what another run kept has the lengths that a run has here; another version may have had others.
+
+    Parameters
+    ----------
+    compiled : CompiledModel
+        Model and method.
+    memory : int
+        As in `symgen.runtime.integrator.Setup`.
+    arrays : mapping of str to array
+        What it kept, by name. What is kept of events, and room for factors, may have any length.
+    """
+    own = new_state(compiled, sizes_of(compiled), memory, 0)._asdict()
+    return all(name in arrays and arrays[name].shape == a.shape for name, a in own.items() if name != "room")

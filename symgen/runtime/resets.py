@@ -168,7 +168,9 @@ def strike(mass: Array, rows: Array, values: Array, v: Array) -> tuple[Array, Ar
     usual = float(diagonal.mean()) or 1.0
     unit = 1.0 / np.sqrt(np.where(diagonal > 0.0, diagonal, usual))  # velocities in units of equal kinetic energy
     long = np.linalg.norm(rows * unit, axis=1)
-    scale = 1.0 / np.where(long > 0.0, long, 1.0)
+    # a row that repeats what the joints of a tree hold by construction is rounding: made long, it would hold something
+    said = long > _ROUNDING * long.max(initial=0.0)
+    scale = np.where(said, 1.0 / np.where(said, long, 1.0), 0.0)
     scaled, target = scale[:, np.newaxis] * rows * unit, scale * (values - rows @ v)
     metric = unit[:, np.newaxis] * mass * unit
     left_vectors, sizes, vectors = np.linalg.svd(scaled, full_matrices=True)

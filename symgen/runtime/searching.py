@@ -26,15 +26,15 @@ A = Any
 #: Numbers of a step: the step to try (`TRY`, which the frame reads), what is being done, how many events there are, 1
 #: where rates need v', the bracket that is looked at, the whole step, what time resolves, ...
 DOING, COUNT, NEEDS_RATES, LOW, HIGH, WHOLE, RESOLUTION = range(TRY + 1, TRY + 8)
-#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, events found in the step, and notes.
-PROBES, ROUNDS, WIDTH, FOUND, NOTED = range(8, 13)
+#: ... attempts at extrema, rounds in a bracket, its width three rounds ago, and notes.
+PROBES, ROUNDS, WIDTH, NOTED = range(8, 12)
 #: What is known of each event: direction asked for (0: any), 1 where it ends the loop, side at the beginning of the
 #: step, 1 where it has just happened, 1 where g is on the other side by rounding alone, side at the lower end of the
 #: bracket, how large g was in the step before; ...
 DIRECTION, LEAVES, SIDE, FIRED, GRAZING, LOCAL, SIZE = range(7)
 #: ... g and g' at the beginning and at the end of the step and of the bracket.
 G_START, D_START, G_END, D_END, G_LOW, D_LOW, G_HIGH, D_HIGH = range(7, 15)
-N_HEAD, N_COLUMNS = 13, 15
+N_HEAD, N_COLUMNS = 12, 15
 _COUNTERS, _RESOLVED = abi.N_COUNTERS, abi.RESOLVED_TIME
 #: What is done beside `LOOK`, `REMEMBER` and `RECALL` with what is kept.
 KEEP, GIVE_BACK = range(RECALL + 1, RECALL + 3)
@@ -45,8 +45,8 @@ _LOOKING, _WHOLE_STEP, _TO_EVENT = range(3)
 NOTES = 256
 #: A reset changes g by rounding alone below this part of its size in the step before.
 _SAME = 1e-6
-#: Attempts at extrema, rounds in a bracket and events in a single step, at most.
-_MOST_PROBES, _MOST_ROUNDS, _MOST_FOUND = 12, 200, 100
+#: Attempts at extrema and rounds in a bracket, at most.
+_MOST_PROBES, _MOST_ROUNDS = 12, 200
 
 
 # -- the search --------------------------------------------------------------------------------------------------------
@@ -153,7 +153,7 @@ def take_in(hunt: A, n: int, h: float, following: float, hunting: int) -> int:
     at, out = N_HEAD, N_HEAD + N_COLUMNS * n
     if hunting == NOTHING:
         hunt[DOING], hunt[LOW], hunt[HIGH], hunt[WHOLE] = _LOOKING, 0.0, h, h
-        hunt[PROBES] = hunt[ROUNDS] = hunt[FOUND] = 0.0
+        hunt[PROBES] = hunt[ROUNDS] = 0.0
         hunt[RESOLUTION] = _RESOLVED * max(abs(following - h), abs(following))
         for k in range(n):
             hunt[at + LOCAL * n + k] = hunt[at + SIDE * n + k]
@@ -283,11 +283,6 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
                 hunt[TRY] = high
                 return SEEK
             note(hunt, n, notes, following, width, y)
-            hunt[FOUND] += 1.0
-            if hunt[FOUND] >= _MOST_FOUND:
-                hunt[HIGH] = hunt[WHOLE]
-                for k in range(n):
-                    hunt[at + G_HIGH * n + k] = hunt[at + G_END * n + k]
             hunt[PROBES] = 0.0
             move_on(hunt, n)
             if hunt[LOW] >= hunt[WHOLE]:

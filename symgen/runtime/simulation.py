@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-
 #: What stands beside the arrays that a run keeps in those that another goes on from: the output at its end, which may
 #: differ in the last bit from the state that a multistep scheme goes on with.
 SHOWN = ("shown_state", "shown_status")
@@ -275,6 +274,11 @@ class Simulation:
         if self._clock[abi.TIME] - last <= self.same(self._clock[abi.TIME]) and self.state.control[abi.BEGUN] == 1:
             self.state.control[abi.BEGUN] = abi.AFRESH
 
+    def divide(self, spec: RunSpec) -> None:
+        """Have the run consist of the pieces of `spec`, with the numbers of those that have begun."""
+        self.spec, self._pieces_taken = spec, 0
+        self.take_pieces()
+
     def go(self, until: float, pause: float, most: float | None = None) -> int:
         """Go on as `enter` does, without outputs and by the shortest way: what makes a step from Python cheap.
 
@@ -377,9 +381,7 @@ class Simulation:
                 self.scheme = with_kept(self.scheme, name, array)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])
-        if self.spec.pieces:
-            self._pieces_taken = 0
-            self.take_pieces()
+        self.divide(self.spec)
 
     @cached_property
     def _choose_anew(self) -> Callable[[Array], bool]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,8 @@ from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
+from symgen.runtime.motions import refuse_jumps
+from symgen.runtime.pieces import pieces_of
 from symgen.runtime.simulation import Simulation
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies
@@ -26,8 +29,10 @@ from symgen.stepping.saved import Saved
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
     from symgen.plan import Plan
+    from symgen.run_setup import Given
     from symgen.runtime.assembly import Start
     from symgen.runtime.compiled import CompiledModel
+    from symgen.runtime.run import RunSpec
     from symgen.vocabulary.quantities import Quantity
 
 # looked up at every step
@@ -55,8 +60,9 @@ class SteppedRun:
         Values that differ from the described ones.
     free : bool
         Whether no constant step was asked for: then each call of `step` is one step.
-    inputs : mapping of str to str or float, optional
-        What inputs of the mechanism are: numbers, which may be set on the way, or formulas and data in words.
+    given : Given, optional
+        What inputs of the mechanism are: numbers, which may be set on the way, or formulas and data; and the mechanism
+        as it is described, whatever the state is made of.
 
     Attributes
     ----------
@@ -75,7 +81,7 @@ class SteppedRun:
         start: Start,
         parameters: Mapping[str, float],
         free: bool = False,
-        inputs: Mapping[str, str | float] | None = None,
+        given: Given | None = None,
     ) -> None:
         info = compiled.info
         self._mechanism, self._plan, self._compiled = mechanism, plan, compiled
@@ -87,11 +93,13 @@ class SteppedRun:
         self._carried = CarriedBodies(mechanism, compiled, self._loop) if mechanism.topology is not None else None
         self._clock, self._control = memoryview(state.clock), memoryview(state.control)
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
-        self._given = {name: words for name, words in (inputs or {}).items() if isinstance(words, str)}
-        self._inputs = {name: x for name, x in (inputs or {}).items() if not isinstance(x, str)}
+        inputs: Mapping[str, str | float] = {} if given is None else given.told
+        self._described, self._driven = (mechanism, None) if given is None else (given.mechanism, given.driven)
+        self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
+        self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}
         self._varying = [places[name] for name in mechanism.inputs if name not in self._inputs]  # by formulas and data
-        self._hidden = set(mechanism.inputs).difference(inputs or {})  # parts of formulas
+        self._hidden = set(mechanism.inputs).difference(inputs)  # parts of formulas
         both = *info.coordinates, *info.velocities
         self.q = _view(state.y, 0, info.coordinates)
         self.v = _view(state.y, info.nq, info.velocities)
@@ -256,10 +264,13 @@ class SteppedRun:
         p = self._compiled.parameter_array(found, self._plan.method_parameters)
         p[self._varying] = loop.state.p[self._varying]
         if not np.array_equal(p[:count], loop.state.p[:count]):
+            refuse_jumps(self._described, changed, loop.spec.until)
+            spec = self._divided(found)
             if self._carried is not None:
                 self._carried.check(p[:count])
             self._advance.begin()
             loop.changes.set(p[:count])
+            loop.divide(spec)
         self._changed = {name: found[name] for name in changed}
 
     def _set_inputs(self, asked: Mapping[str, float]) -> None:
@@ -301,6 +312,7 @@ class SteppedRun:
         self._ready("restore")
         loop = self._loop
         saved.check(self._owner, loop.save(), tuple(c.interval for c in self._clocks))
+        loop.spec = self._divided(parameter_values(self._mechanism, saved.parameters))
         loop.restore(saved.arrays)
         loop.set_limits()
         loop.state.control[[abi.STOP, abi.OUTPUTS]] = 0
@@ -327,6 +339,13 @@ class SteppedRun:
             "integrator": f"{self._plan.tableau.name} with {steps} steps",
             "events": in_words(self._plan.events) or "of no kind",
         }
+
+    def _divided(self, values: Mapping[str, float]) -> RunSpec:
+        """Return what the run is to do with values of parameters: inputs may jump elsewhere with them."""
+        spec, driven = self._loop.spec, self._driven
+        if driven is None or not driven.jumps:
+            return spec
+        return replace(spec, pieces=pieces_of(driven, values, spec.until))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""

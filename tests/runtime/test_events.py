@@ -20,6 +20,7 @@ from symgen.integrators import INTEGRATORS
 from symgen.plan import make_plan
 from symgen.run_setup import watching
 from symgen.runtime.probe import rate_function
+from symgen.runtime.resets import strike
 from symgen.runtime.simulation import Simulation
 from symgen.settings import Settings
 from symgen.study.stress.study import stress
@@ -138,6 +139,19 @@ def test_a_step_with_more_events_than_there_is_room_for_loses_none():
     assert result.ok and result.steps <= 5 and len(result.events) == 301
     np.testing.assert_allclose([event.t for event in result.events][:300], np.repeat(times, 10), rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(times_of(result, "impact"), [FIRST], rtol=0.0, atol=1e-12)
+    after = 0.5 - FIRST
+    np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
+
+
+@pytest.mark.parametrize("count", [101, 300])
+def test_a_step_with_events_at_very_many_times_loses_none(count):
+    """Each at a time of its own in one step, and behind them the impact; up to the room of notes the step stays one."""
+    times = np.linspace(0.1, 0.4, count)
+    noted = {f"at{k}": {"when": f"t > {t!r}"} for k, t in enumerate(times.tolist())}
+    result = ball(**noted, **BOUNCE).simulate(method="lagrange", integrator="rk4", step=0.5, until=0.5)
+    assert result.ok and result.steps <= (2 if count < 256 else 3)
+    np.testing.assert_allclose([event.t for event in result.events][:-1], times, rtol=0.0, atol=1e-12)
+    assert result.events[-1].name == "impact"
     after = 0.5 - FIRST
     np.testing.assert_allclose(result["ball.y"][-1], E * math.sqrt(2.0 * G) * after - 0.5 * G * after**2, atol=1e-12)
 
@@ -505,6 +519,18 @@ def test_a_reset_may_make_another_event_happen_at_once():
 def test_a_ball_that_does_not_come_up_again_gathers_at_once():
     result = ball(stuck={"when": "ball.y < 0", "reset": {"ball.vy": "0"}}).simulate(method="lagrange")
     assert result.status == "failed" and result.reason.startswith("events of 'stuck' accumulate at t = 0.45152364098")
+
+
+def test_rows_that_are_rounding_take_no_impulse():
+    """As those of a joint that is written twice are in joint coordinates."""
+    mass, v = np.diag([1.0, 2.0, 3.0]), np.array([0.3, -0.2, 0.1])
+    asked = np.array([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]])
+    noise = np.array([[0.0, 1e-17, -2e-17], [3e-17, 0.0, 1e-17]])
+    alone, _, _ = strike(mass, asked, np.array([0.5, 0.4]), v)
+    found, impulses, contradictory = strike(mass, np.vstack([noise, asked]), np.array([0.0, 0.0, 0.5, 0.4]), v)
+    np.testing.assert_allclose(found, alone, rtol=0.0, atol=1e-14)
+    np.testing.assert_allclose(alone, [0.5, -0.1, 0.1], rtol=0.0, atol=1e-14)
+    assert not contradictory and not impulses[:2].any()
 
 
 def test_contradictory_velocities_are_refused_with_amounts():

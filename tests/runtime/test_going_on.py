@@ -211,6 +211,34 @@ def test_events_that_another_version_kept_otherwise_are_looked_for_anew():
     np.testing.assert_array_equal(second.q.values, whole.q.values[-len(second.t) :])
 
 
+def test_integrals_that_are_not_gone_on_with_are_said_to_begin_anew():
+    tables = copy.deepcopy(TURNING) | {"outputs": {"swept": "integral(hub.rate)"}}
+    model = symgen.load(mechanism_of(tables))
+    asked = {"method": "lagrange", "integrator": "rk4", "step": 1e-2}
+    first = model.simulate(until=0.5, **asked)
+    same, other = (model.simulate(until=1.0, start=first, **(asked | more)) for more in ({}, {"step": 2e-2}))
+    assert same["swept"][-1] == pytest.approx(3.0, abs=1e-9) and "integrals" not in same.notes[0]
+    assert other["swept"][-1] == pytest.approx(1.5, abs=1e-9)
+    assert other.notes[0].endswith("; integrals of outputs begin at 0")
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "name"),
+    [*(("absolute", name) for name in ("w", "p", "gauges", "memory")), ("joint", "w"), ("joint", "body_w")],
+)
+def test_what_another_version_kept_otherwise_is_left_and_said_so(name, coordinates):
+    """Arrays of other lengths: the run goes on with coordinates and velocities alone, as from a file of columns."""
+    model, asked = symgen.load("four-bar"), {"method": "direct-correction", "integrator": "dopri5"}
+    asked["coordinates"] = coordinates
+    first, whole = (model.simulate(until=until, **asked) for until in (0.05, 0.1))
+    last = first.last_state
+    arrays = {**last.arrays, name: last.arrays[name][:-3]}
+    second = model.simulate(until=0.1, start=replace(last, arrays=arrays), **asked)
+    why = "another version of symgen" if coordinates == "absolute" else "the tree is another one"
+    assert second.ok and f"with its coordinates and velocities alone: {why}" in second.notes[0]
+    np.testing.assert_allclose(second.q.values[-1], whole.q.values[-1], rtol=0.0, atol=1e-7)
+
+
 def test_drivers_and_turns_go_on_in_another_making():
     """Time is that of the driver, and an angle stays on its turn."""
     tables = copy.deepcopy(TURNING)

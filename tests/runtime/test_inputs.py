@@ -11,6 +11,7 @@ from symgen.cli import main
 from symgen.describe.builder import MechanismBuilder
 from symgen.describe.inputs import driven
 from symgen.describe.load import load as load_mechanism
+from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
 from symgen.runtime.pieces import crossings, pieces_of
 
@@ -368,6 +369,33 @@ def test_bad_files_are_told_in_a_sentence(model, tmp_path, text, word, message):
     assert message in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("push", "when", "late"),
+    [
+        ("3*t", 1.0 / 3.0, 2.4),
+        ({"t": [0.0, 1.0], "u": [0.0, 3.0]}, 1.0 / 3.0, 2.4),
+        ("3 if t > 0.37 else 0", 0.37, 3.0),
+        ({"t": [0.0, 0.37], "u": [0.0, 3.0], "interpolation": "hold"}, 0.37, 3.0),
+    ],
+)
+def test_events_that_are_asked_for_read_what_a_run_gives_an_input(model, push, when, late):
+    """Beside the file's own: they are read when formulas stand in the place of inputs already."""
+    shove = {"when": "t > 0.8", "reset": {"block.vx": "2*push"}}
+    asked = {"inputs": {"push": push}, "events": {"shove": shove}, "record_when": "push > 1", "until": 1.0}
+    result = model.simulate(method="lagrange", **asked)
+    assert [event.name for event in result.events] == ["push > 1", "shove"]
+    assert result.events[0].t == pytest.approx(when, abs=1e-12)
+    assert result.events[1].v_after["block.vx"] == pytest.approx(2.0 * late, abs=1e-12)
+    stopped = model.simulate(method="lagrange", inputs={"push": push}, stop_when="push > 1", until=1.0)
+    assert stopped.end == result.events[0].t
+    stepped = model.start(method="lagrange", inputs={"push": push}, stop_when="push > 1")
+    assert stepped.run(1.0).t == stopped.end
+    found = sweep(
+        model, {"start": [0.1, 0.2]}, method="lagrange", inputs={"push": push}, stop_when="push > 1", until=1.0
+    )
+    np.testing.assert_array_equal(found["end"], stopped.end)
+
+
 def test_outputs_read_what_a_run_gives_an_input():
     """A formula of time, one that jumps, a curve and samples: what [outputs] show is what pushes."""
     mechanism = (
@@ -393,9 +421,25 @@ def test_outputs_read_what_a_run_gives_an_input():
         assert shown[-1, 1] == pytest.approx(impulse, abs=1e-9) == result.v["block.vx"][-1]
 
 
-def test_sweeps_take_numbers_as_parameters(model):
-    from symgen.ensemble.sweep import sweep
+def test_a_default_that_follows_a_parameter_is_told_as_it_was():
+    """Whether another input is given or not, and by whom a result is read."""
+    mechanism = (
+        MechanismBuilder("pushed-point")
+        .run(until=0.1, step=0.01)
+        .parameter("strength", 1.0)
+        .input("push", "2*strength", unit="N")
+        .input("side", 0.0)
+        .body("block", type="point", mass=1.0, velocity=(0.0, 0.0))
+        .force("all", "force", body="block", force=("push", "side"))
+        .build()
+    )
+    for inputs in ({}, {"side": 1.0}, {"side": "t"}):
+        result = Model(mechanism).simulate(method="lagrange", parameters={"strength": 3.0}, inputs=inputs)
+        assert result.inputs["push"] == 6.0
+        assert result.v["block.vx"][-1] == pytest.approx(0.6, abs=1e-12)
 
+
+def test_sweeps_take_numbers_as_parameters(model):
     found = sweep(model, vary={"push": [1.0, 2.0]}, until=1.0, step=0.01, method="lagrange", quantities=["block.x"])
     for row, push in enumerate((1.0, 2.0)):
         single = model.simulate(until=1.0, step=0.01, method="lagrange", inputs={"push": push}, times=(1.0,))

@@ -103,6 +103,61 @@ def test_jumps_and_kinks_are_those_of_the_run_in_one_piece(model, push, integrat
         pieces.step(0.1)
 
 
+@pytest.mark.parametrize("integrator", ["rk4", "dopri5"])
+def test_an_input_jumps_where_a_parameter_says_that_is_set_on_the_way(integrator):
+    """Pushed with 1 N until a time, from rest: 1 kg is then as fast as that time."""
+    pushed = Model(
+        MechanismBuilder("pushed")
+        .run(until=1.0, step=0.01)
+        .parameter("begin", 0.1)
+        .parameter("long", 0.2)
+        .parameter("until", "begin + long")
+        .input("push", 0.0)
+        .body("block", type="point", mass=1.0, velocity=(0.0, 0.0))
+        .force("all", "force", body="block", force=("push", 0.0))
+        .build()
+    )
+    sim = pushed.start(method="lagrange", integrator=integrator, inputs={"push": "1 if t < until else 0"})
+    sim.run(0.1)
+    sim.set(long=0.7)  # later
+    sim.run(0.25)
+    kept = sim.save()
+    sim.run(1.0)
+    assert block(sim)[1] == pytest.approx(0.8, abs=1e-12)
+    sim.restore(kept)
+    sim.set(long=0.1)  # is over
+    sim.run(1.0)
+    assert block(sim)[1] == pytest.approx(0.25, abs=1e-12)
+    sim.restore(kept)
+    sim.run(0.6)
+    sim.set(until=0.65)  # in the place of its formula
+    sim.run(1.0)
+    assert block(sim)[1] == pytest.approx(0.65, abs=1e-12)
+    other = pushed.start(method="lagrange", integrator=integrator, inputs={"push": "1 if t < until else 0"})
+    other.restore(kept)
+    other.run(1.0)
+    assert block(other)[1] == pytest.approx(0.8, abs=1e-12)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_parameters_with_which_a_driver_would_jump_are_not_set(coordinates):
+    led = Model(
+        MechanismBuilder("led")
+        .run(until=1.0, step=0.01)
+        .parameter("jump", 0.0)
+        .body("cart", mass=1.0, inertia=1.0)
+        .joint("rail", "translational", between=("ground", "cart"), at=((0.0, 0.0), "centre"), axis=(1.0, 0.0))
+        .joint("motor", "driver", joint="rail", value="0.1*t + (jump if t > 0.5 else 0)")
+        .build()
+    )
+    sim = led.start(coordinates=coordinates)
+    sim.run(0.1)
+    with pytest.raises(InputError, match=r"a value that jumps by 0\.2 m at t = 0\.5 s"):
+        sim.set(jump=0.2)
+    sim.run(1.0)
+    assert sim.bodies["cart.x"] == pytest.approx(0.1, abs=1e-12)
+
+
 def test_what_an_input_is_told_is_not_set_as_well(model):
     sim = model.start(inputs={"push": "cos(t)"}, **SETTINGS)
     sim.step(0.1, u={"side": 1.0})
