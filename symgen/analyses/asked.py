@@ -261,8 +261,7 @@ def _of_bodies(
         y = np.zeros_like(bodies.y)
         y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
         own = judged(bodies, y, one.iterations)
-        kept = {"stability": one.stability, "omega_squared": one.omega_squared, "y": one.y, "lam": one.lam}
-        whole.append(replace(own, **kept))  # type: ignore[arg-type]  # of these fields
+        whole.append(replace(own, y=one.y, lam=one.lam))
     return tuple(whole)
 
 
