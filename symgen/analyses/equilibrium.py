@@ -81,7 +81,7 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     """Return what is known of an equilibrium: smallest multipliers, stiffness, reactions that are not unique."""
     info = subject.compiled.info
     e = subject.evaluated(y)
-    d, force = e.by("velocities", "v"), e.value("balance")
+    d, force = subject.rows(e), e.value("balance")
     basis, inverse, dependent = split(d)
     lam = -inverse.T @ force
     e = subject.evaluated(y, lam=lam)

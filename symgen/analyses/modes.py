@@ -165,7 +165,7 @@ def modes(
 def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[[], Subject] | None) -> Modes:
     """Return the modes of symmetric stiffness and masses."""
     e, subject = x.base, x.subject
-    along = split(e.by("velocities", "v"))[0] @ directions
+    along = split(subject.rows(e))[0] @ directions
     roots = np.sqrt(-squares.astype(np.complex128))
     shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
     # both positions and velocities change along the mode, as they do one after the other
@@ -184,7 +184,7 @@ def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[
 
 def _positions(x: Tangent, along: Array) -> Array:
     """Return s of changes of position that are given in terms of velocities."""
-    return np.asarray(split(x.base.by("velocities", "v")[x.subject.holonomic])[0].T @ along)
+    return np.asarray(split(x.subject.rows(x.base)[x.subject.holonomic])[0].T @ along)
 
 
 def _coordinates(subject: Subject) -> tuple[str, ...]:
@@ -193,7 +193,7 @@ def _coordinates(subject: Subject) -> tuple[str, ...]:
 
 def _velocities(x: Tangent, vectors: Complex) -> Complex:
     """Return the changes of position of eigenvectors in terms of velocities, one a row."""
-    free = split(x.base.by("velocities", "v")[x.subject.holonomic])[0]
+    free = split(x.subject.rows(x.base)[x.subject.holonomic])[0]
     return np.asarray((free @ vectors[: x.positions]).T)
 
 
@@ -204,7 +204,7 @@ def _twice_kinetic(x: Tangent, change: Complex) -> float:
 def _undamped(x: Tangent) -> tuple[Array, Array] | None:
     """Return squares of frequencies and directions, None where something damps, turns or follows."""
     e = x.base
-    basis = split(e.by("velocities", "v"))[0]
+    basis = split(x.subject.rows(e))[0]
     if not basis.shape[1]:
         return np.zeros(0), np.zeros((0, 0))
     damping, stiffness = e.by("balance", "v"), e.by("balance", "q") @ e.by("motion", "v")
