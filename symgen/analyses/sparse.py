@@ -206,9 +206,9 @@ def _closed(sparse: Sparse) -> tuple[Array, int]:
     for step in range(MOST_STEPS):
         motion, _, rows, _, _ = sparse.matrices(y, lam)
         force, gaps = sparse.forces(y, lam)
-        if np.linalg.norm(gaps) <= OPENED * sparse.lengths.max():
-            return y, step
         solve = solver(_sizes(sparse), rows)
+        if solve is not None and np.linalg.norm(gaps) <= OPENED * sparse.lengths.max():
+            return y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
         long = _length(sparse, motion, change)
         if not long < SINGULAR:
