@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,6 +14,10 @@ Complex = NDArray[np.complex128]
 DEPENDENT = 1e-9
 #: Singular values of a linear system's matrix of n rows below n times this part of the largest one count as zero.
 ZERO = 1e-14
+#: A stiffness along a shape below this part of the numbers that it is the sum of is their rounding.
+ROUNDED = 1e-13
+#: What of a stiffness is not symmetric is rounding below this part of what its shapes are restored by.
+EVEN = 1e-9
 
 
 def split(d: Array) -> tuple[Array, Array, Array]:
@@ -45,6 +51,50 @@ def split(d: Array) -> tuple[Array, Array, Array]:
 def symmetric(a: Array) -> Array:
     """Return the symmetric part of a matrix."""
     return 0.5 * (a + a.T)
+
+
+def squares_along(mass: Any, stiffness: Any, directions: Array) -> tuple[Array, Array, bool]:
+    """Return the squares of frequencies along directions, of the symmetric part of a stiffness, and if that is all.
+
+    What counts as rounding is decided shape by shape: beside a stiff spring a pendulum is no less a pendulum.
+
+    Parameters
+    ----------
+    mass, stiffness : Array or sparse, shape (nv, nv)
+        M and K.
+    directions : Array, shape (nv, n)
+        Motions along which masses are definite.
+
+    Returns
+    -------
+    squares : Array, shape (n,)
+        In increasing order [1/s^2]; 0 where it is the rounding of what it is the sum of, or of the largest one.
+    vectors : Array, shape (n, n)
+        Shapes in terms of the directions, normalised by masses, one a column.
+    even : bool
+        Whether the stiffness is symmetric along the directions, as where forces have a potential.
+
+    Raises
+    ------
+    scipy.linalg.LinAlgError
+        If masses are not definite.
+    """
+    from scipy import linalg
+
+    along = directions.T @ (stiffness @ directions)
+    squares, vectors = linalg.eigh(symmetric(along), symmetric(directions.T @ (mass @ directions)))
+    sizes = summed(stiffness, directions @ vectors)
+    restored = np.abs(squares)
+    limit = EVEN * np.maximum.outer(restored, restored) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
+    even = not np.any(np.abs(vectors.T @ (along - along.T) @ vectors) > limit)
+    nothing = np.abs(squares) <= np.maximum(ROUNDED * sizes, len(squares) * ZERO * np.abs(squares).max(initial=0.0))
+    return np.where(nothing, 0.0, squares), vectors, even
+
+
+def summed(matrix: Any, shapes: Array) -> Array:
+    """Return the sum of the sizes of all parts of x^T A x for each column x."""
+    found: Array = np.sum(np.abs(shapes) * (abs(matrix) @ np.abs(shapes)), axis=0)
+    return found
 
 
 def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:

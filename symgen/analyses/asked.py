@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.algebra import eigenvalues_of
+from symgen.analyses.algebra import eigenvalues_of, split
 from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 
 #: Places that are asked for by a word; another one is a time of a run.
 PLACES = ("equilibrium", "start", "steady")
+#: A turning that changes rates by less than this part of the largest change changes nothing.
+SPUN = 1e-9
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
 
@@ -150,8 +152,8 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     Raises
     ------
     InputError
-        If a name is no coordinate of the tree's joints, or something depends on it, or all that turns at the start is a
-        body that no joint's angle belongs to.
+        If a name is no coordinate of the tree's joints, or something depends on it, or a body that no joint's angle
+        belongs to spins at the start and would go on.
     AnalysisError
         If there is no such motion.
     """
@@ -174,8 +176,10 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     y = subject.y.copy()
     v = y[subject.nq : subject.nq + subject.nv]
     _refuse_spins(subject, v, kept, driven=bool(np.any(e.by("positions", "t"))))
+    begun = v.copy()
     v[~kept] = 0.0
     at, _, steps = settle(subject, y)
+    _refuse_lost(subject, at, np.where(kept, 0.0, begun))
     return at, steps
 
 
@@ -185,9 +189,37 @@ def _refuse_spins(subject: Subject, v: Array, kept: NDArray[np.bool_], driven: b
     turns = np.array([q.unit == "rad/s" for q in names], dtype=np.bool_) & (np.abs(v) > 0.0)
     spins = [first + k for _, first in subject.compiled.info.spins for k in range(3) if turns[first + k]]
     if spins and not driven and not np.any(turns & kept):
-        expected = "joints whose angles or displacements turn on"
-        got = f"'{names[spins[0]].name}', the turning of a body about any axis, which no coordinate counts"
-        raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
+        _refuse_spin(names[spins[0]].name)
+
+
+def _refuse_lost(subject: Subject, y: Array, lost: Array) -> None:
+    """Refuse to leave out a turning that would have gone on: of a body about an axis that nothing depends on.
+
+    What swings at the start comes to rest in a steady motion. What spins about an axis along which the body may be
+    turned, while nothing changes, would not.
+    """
+    spins = [first for _, first in subject.compiled.info.spins if np.any(lost[first : first + 3])]
+    if not spins:
+        return
+    x = tangent(subject, y)
+    free = split(subject.rows(x.base)[subject.holonomic])[0]
+    size = np.abs(x.matrix).max(initial=1.0)
+    for first in spins:
+        about = np.zeros((subject.nv, 3))
+        about[first : first + 3] = np.eye(3)
+        turned = free.T @ about
+        changes = np.vstack([x.matrix[:, : x.positions] @ turned / size, about - free @ turned])
+        _, felt, axes = np.linalg.svd(changes)
+        spin = axes[felt <= SPUN] @ lost[first : first + 3]
+        if np.abs(spin).max(initial=0.0) > SPUN * np.abs(lost).max():
+            k = int(np.argmax(np.abs(lost[first : first + 3])))
+            _refuse_spin(subject.compiled.info.velocities[first + k].name)
+
+
+def _refuse_spin(name: str) -> None:
+    expected = "joints whose angles or displacements turn on"
+    got = f"'{name}', the turning of a body about any axis, which no coordinate counts"
+    raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
 
 
 def _without_effect(subject: Subject) -> list[int]:
@@ -261,8 +293,7 @@ def _of_bodies(
         y = np.zeros_like(bodies.y)
         y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
         own = judged(bodies, y, one.iterations)
-        kept = {"stability": one.stability, "omega_squared": one.omega_squared, "y": one.y, "lam": one.lam}
-        whole.append(replace(own, **kept))  # type: ignore[arg-type]  # of these fields
+        whole.append(replace(own, y=one.y, lam=one.lam))
     return tuple(whole)
 
 

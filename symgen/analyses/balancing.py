@@ -35,8 +35,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
-#: Singular values of what efforts do to accelerations below this part of the largest one count as zero.
-CUTOFF = 1e-9
+#: Singular values of what efforts do to accelerations, each by its own size, below this part of the largest one
+#: count as zero; so does what an effort does below this part of the largest that one does, or of what is without any.
+CUTOFF, SILENT = 1e-9, 1e-13
 #: Accelerations that no effort gives are said from this part of the largest one on.
 MISSING = 1e-6
 #: Two evaluations with efforts of 1 and 2 show whether accelerations are linear in an input.
@@ -204,15 +205,38 @@ def _solved(
     weighed = np.array([weights.get(a.name, 1.0 / length if a.turning else 1.0) for a in made.actuators])
     base = still.responses.accelerations
     effects = np.stack([other.responses.accelerations - base for other in others], axis=-1)
-    effects = effects * scale[:, np.newaxis] / weighed
+    effects = effects * scale[:, np.newaxis]
     wanted = (still.given - base) * scale
-    left, sizes, right = np.linalg.svd(effects, full_matrices=False)
-    kept = sizes > CUTOFF * sizes.max(initial=0.0)
-    inverses = np.where(kept, 1.0 / np.where(kept, sizes, 1.0), 0.0)
+    # a motor of a crane and one of a watch: whether efforts are told apart does not depend on what they move
+    sizes = np.linalg.norm(effects, axis=1)
+    silent = sizes <= SILENT * np.maximum(sizes.max(axis=1), np.linalg.norm(base * scale, axis=1))[:, np.newaxis]
+    effects, sizes = np.where(silent[:, np.newaxis], 0.0, effects), np.where(silent, 1.0, sizes)
+    left, singular, right = np.linalg.svd(effects / sizes[:, np.newaxis], full_matrices=False)
+    kept = singular > CUTOFF * singular.max(axis=1, initial=0.0)[:, np.newaxis]
+    inverses = np.where(kept, 1.0 / np.where(kept, singular, 1.0), 0.0)
     parts = np.einsum("kij,ki->kj", left, wanted) * inverses
-    efforts = np.einsum("kji,kj->ki", right, parts)
+    efforts = np.einsum("kji,kj->ki", right, parts) / sizes
+    ranks = kept.sum(axis=1)
+    for k in np.flatnonzero(ranks < len(weighed)):
+        efforts[k] -= _without_effect(right[k][kept[k]], sizes[k], weighed, efforts[k])
     rest = wanted - np.einsum("kij,kj->ki", effects, efforts)
-    return efforts / weighed, np.abs(rest).max(axis=1), kept.sum(axis=1)
+    return efforts, np.abs(rest).max(axis=1), ranks
+
+
+def _without_effect(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
+    """Return the part of efforts that does nothing and whose absence leaves the least sum of weighted squares.
+
+    Parameters
+    ----------
+    felt : Array, shape (r, n)
+        Orthonormal efforts, each by the size of what it does, that are told apart.
+    sizes, weighed, efforts : Array, shape (n,)
+        These sizes, the weights, and the efforts.
+    """
+    n = len(sizes)
+    silent = np.linalg.svd(felt, full_matrices=True)[2][len(felt) :] if len(felt) else np.eye(n)
+    basis = np.linalg.qr((silent / sizes * weighed).T)[0]
+    return np.asarray(basis @ (basis.T @ (weighed * efforts)) / weighed)
 
 
 def _rates(made: Actuated, motion: PrescribedMotion) -> Array:

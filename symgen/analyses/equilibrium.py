@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import Complex, split, symmetric
+from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
 from symgen.analyses.settle import settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
 Array = NDArray[np.float64]
 
-#: A stiffness below this fraction of the largest one is none; so is an imaginary part that rounding may have left.
+#: A real part below this fraction of the largest eigenvalue is none; so is an imaginary part below this one of its own.
 FLAT, REAL = 1e-9, 1e-6
 #: A real part of up to this share of an eigenvalue is what rounding leaves of two that are one.
 GROWS = 1e-6
@@ -81,12 +81,12 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     """Return what is known of an equilibrium: smallest multipliers, stiffness, reactions that are not unique."""
     info = subject.compiled.info
     e = subject.evaluated(y)
-    d, force = e.by("velocities", "v"), e.value("balance")
+    d, force = subject.rows(e), e.value("balance")
     basis, inverse, dependent = split(d)
     lam = -inverse.T @ force
     e = subject.evaluated(y, lam=lam)
     stiffness = e.by("balance", "q") @ e.by("motion", "v")
-    squares = reduced_squares(basis.T @ e.by("balance", "a") @ basis, basis.T @ stiffness @ basis)
+    squares = reduced_squares(e.by("balance", "a"), stiffness, basis)
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)
     joints = {row.joint for row, x in zip(info.rows, share, strict=True) if x > 1e-8}
     joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}
@@ -105,12 +105,9 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
 
 def stability_of(squares: Array | Complex) -> str:
     """Return the word for squares of angular frequencies; the roots of a complex one grow in one direction of time."""
-    flat = FLAT * np.abs(squares).max(initial=0.0)
-    if len(squares) == 0:
-        return STABLE  # nothing can move
-    if squares.real.min() < -flat or np.iscomplexobj(squares):
+    if np.iscomplexobj(squares) or squares.min(initial=0.0) < 0.0:
         return UNSTABLE
-    return INDIFFERENT if squares.min() <= flat or flat == 0.0 else STABLE
+    return INDIFFERENT if np.any(squares == 0.0) else STABLE  # also where nothing can move
 
 
 def stability_in_motion(eigenvalues: Complex) -> str:
@@ -121,38 +118,35 @@ def stability_in_motion(eigenvalues: Complex) -> str:
     return INDIFFERENT if np.any(eigenvalues == 0.0) else STABLE
 
 
-def reduced_squares(mass: Array, stiffness: Array) -> Array | Complex:
-    """Return the eigenvalues of a reduced stiffness over a reduced mass, in increasing order; massless ones are none.
+def reduced_squares(mass: Any, stiffness: Any, basis: Array) -> Array | Complex:
+    """Return the squares of frequencies along what is free, in increasing order; massless directions have none.
 
-    They are complex numbers where one of them is none.
+    They are complex numbers where one of them is none, and 0 where they are rounding.
 
     Parameters
     ----------
-    mass, stiffness : Array, shape (n, n)
-        M and K along the directions that are free; K is symmetric where forces have a potential.
+    mass, stiffness : Array or sparse, shape (nv, nv)
+        M and K; along what is free K is symmetric where forces have a potential.
+    basis : Array, shape (nv, n)
+        The directions that are free.
     """
-    from scipy import linalg
-
-    if not len(mass):
+    if not basis.shape[1]:
         return np.zeros(0)
-    heavy, vectors = np.linalg.eigh(symmetric(mass))
+    heavy, vectors = np.linalg.eigh(symmetric(basis.T @ (mass @ basis)))
     light = heavy <= 1e-13 * heavy.max()
     if light.any():  # what has no mass follows the rest
-        a, b = vectors[:, ~light], vectors[:, light]
-        follow = -np.linalg.lstsq(b.T @ stiffness @ b, b.T @ stiffness @ a, rcond=1e-13)[0]
-        stiffness, mass = a.T @ stiffness @ (a + b @ follow), a.T @ mass @ a
-    size = np.abs(stiffness).max(initial=0.0)
-    if np.abs(stiffness - stiffness.T).max(initial=0.0) <= 1e-9 * size:
-        return rounded(np.asarray(linalg.eigh(symmetric(stiffness), symmetric(mass), eigvals_only=True)))
-    found = np.sort_complex(linalg.eigvals(stiffness, mass))
-    if np.abs(found.imag).max(initial=0.0) > REAL * np.abs(found).max(initial=0.0):
+        a, b = basis @ vectors[:, ~light], basis @ vectors[:, light]
+        by_light = b.T @ (stiffness @ np.hstack([b, a]))
+        basis = a - b @ np.linalg.lstsq(by_light[:, : b.shape[1]], by_light[:, b.shape[1] :], rcond=1e-13)[0]
+    squares, shapes, even = squares_along(mass, stiffness, basis)
+    if even:
+        return squares
+    along = basis @ shapes
+    found = np.sort_complex(np.linalg.eigvals(along.T @ (stiffness @ along)))
+    grain = len(found) * ZERO * np.abs(found).max(initial=0.0)
+    if np.any(np.abs(found.imag) > REAL * np.abs(found) + grain):
         return np.asarray(found, dtype=np.complex128)
-    return rounded(np.asarray(found.real, dtype=np.float64))
-
-
-def rounded(squares: Array) -> Array:
-    """Return squares of frequencies with 0 in the place of those that are nothing but rounding of the others."""
-    return np.where(np.abs(squares) <= 1e-14 * len(squares) * np.abs(squares).max(initial=0.0), 0.0, squares)
+    return np.where(np.abs(found.real) <= grain, 0.0, found.real)
 
 
 def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple[Equilibrium, ...]:

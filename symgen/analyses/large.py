@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split, symmetric
+from symgen.analyses.algebra import ROUNDED, split, summed, symmetric
 from symgen.analyses.equilibrium import Equilibrium, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
@@ -22,9 +22,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: Damping or turning of this part of the stiffness and masses is refused: these modes are those of M and K alone.
-NONE = 1e-9
-#: An asymmetry of the stiffness of this part of it is none; motions at random by which it is looked for.
+#: What of a stiffness is not symmetric is none below this part of what restores a motion; motions at random, by which
+#: it is looked for.
 UNEVEN, SEEN = 1e-8, 3
 #: Squares of frequencies that are said of a large mechanism at rest: those nearest to 0.
 SAID = 10
@@ -57,8 +56,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     free = sparse.pattern.nv - len(sparse.kept)
     if not 0 < count < free:
         raise InputError("count", f"fewer than the mechanism's {free} modes", str(count), "ask for all modes")
-    scale = float(np.sqrt(abs(stiffness).max() * abs(mass).max()))
-    if damping.nnz and abs(damping).max() > NONE * scale:
+    if damping.nnz and abs(damping).max() > 0.0:  # at rest nothing turns, and what is there is a damper
         raise InputError("count", "a mechanism without dampers", "one that has some", "ask for all modes")
     if _follows(stiffness, rows):
         raise InputError("count", "forces that have a potential", "one that has none", "ask for all modes")
@@ -92,11 +90,10 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     y, lam, steps = settled(sparse)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.kept)
-    follows = _follows(stiffness, rows)
-    if sparse.pattern.nv <= DENSE or free <= SAID or follows:
+    if sparse.pattern.nv <= DENSE or free <= SAID or _follows(stiffness, rows):
         small = sparse.pattern.nv <= DENSE or free > SAID
         basis = split(rows.toarray())[0] if small else _along(rows, free)
-        squares = reduced_squares(basis.T @ mass @ basis, basis.T @ stiffness @ basis)
+        squares = reduced_squares(mass, stiffness, basis)
         stability = stability_of(squares)
     else:
         squares = _nearest(stiffness, mass, rows, SAID)[0]
@@ -130,14 +127,17 @@ def _follows(stiffness: Any, rows: Any) -> bool:
     from scipy.sparse import eye
 
     apart = stiffness - stiffness.T
-    limit = UNEVEN * abs(stiffness).max()
-    if not apart.nnz or abs(apart).max() <= limit:
+    if not apart.nnz:
         return False
-    solve, none = _regular(eye(stiffness.shape[0], format="csc"), rows), np.zeros(rows.shape[0])
+    # motions by forces of one size: what is soft moves most, so that nothing stiff beside it hides it
+    moved, level = solver(stiffness, rows), _regular(eye(stiffness.shape[0], format="csc"), rows)
+    none, most = np.zeros(rows.shape[0]), float(abs(stiffness).max())
     for anything in np.random.default_rng(0).standard_normal((SEEN, stiffness.shape[0])):
-        along = solve(anything, none)[0]
-        left = solve(apart @ along, none)[0]
-        if np.abs(left).max(initial=0.0) > limit * np.abs(along).max(initial=0.0):
+        force = level(anything, none)[0]
+        along = force if moved is None else moved(force, none)[0]
+        restored = most * np.abs(along).max() if moved is None else np.abs(force).max()
+        limit = UNEVEN * restored + ROUNDED * np.abs(abs(apart) @ np.abs(along)).max()
+        if np.abs(level(apart @ along, none)[0]).max(initial=0.0) > limit:
             return True
     return False
 
@@ -185,7 +185,9 @@ def _nearest(stiffness: Any, mass: Any, rows: Any, count: int) -> tuple[Array, A
         symmetric(stiffness), k=count, M=mass, sigma=0.0, OPinv=inverse, v0=begin, which="LM", tol=0.0
     )
     order = np.argsort(squares)
-    return np.asarray(squares[order]), np.asarray(vectors[:, order])
+    squares, vectors = squares[order], vectors[:, order]
+    nothing = np.abs(squares) <= ROUNDED * summed(stiffness, vectors)
+    return np.where(nothing, 0.0, squares), np.asarray(vectors)
 
 
 def _far_below(stiffness: Any, mass: Any, rows: Any, squares: Array) -> list[float]:

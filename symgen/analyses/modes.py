@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import eigenvalues_of, ranking, split, symmetric
-from symgen.analyses.equilibrium import rounded
+from symgen.analyses.algebra import ROUNDED, eigenvalues_of, ranking, split, squares_along, summed
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.shares import shares
@@ -24,7 +23,7 @@ from symgen.analyses.subject import Subject
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-#: What the reduced damping, or an asymmetry of the stiffness, may be of its own scale where there is none.
+#: What damping along two shapes may be of the faster one's frequency where there is none.
 NONE = 1e-11
 
 
@@ -166,7 +165,7 @@ def modes(
 def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[[], Subject] | None) -> Modes:
     """Return the modes of symmetric stiffness and masses."""
     e, subject = x.base, x.subject
-    along = split(e.by("velocities", "v"))[0] @ directions
+    along = split(subject.rows(e))[0] @ directions
     roots = np.sqrt(-squares.astype(np.complex128))
     shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
     # both positions and velocities change along the mode, as they do one after the other
@@ -185,7 +184,7 @@ def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[
 
 def _positions(x: Tangent, along: Array) -> Array:
     """Return s of changes of position that are given in terms of velocities."""
-    return np.asarray(split(x.base.by("velocities", "v")[x.subject.holonomic])[0].T @ along)
+    return np.asarray(split(x.subject.rows(x.base)[x.subject.holonomic])[0].T @ along)
 
 
 def _coordinates(subject: Subject) -> tuple[str, ...]:
@@ -194,7 +193,7 @@ def _coordinates(subject: Subject) -> tuple[str, ...]:
 
 def _velocities(x: Tangent, vectors: Complex) -> Complex:
     """Return the changes of position of eigenvectors in terms of velocities, one a row."""
-    free = split(x.base.by("velocities", "v")[x.subject.holonomic])[0]
+    free = split(x.subject.rows(x.base)[x.subject.holonomic])[0]
     return np.asarray((free @ vectors[: x.positions]).T)
 
 
@@ -204,23 +203,17 @@ def _twice_kinetic(x: Tangent, change: Complex) -> float:
 
 def _undamped(x: Tangent) -> tuple[Array, Array] | None:
     """Return squares of frequencies and directions, None where something damps, turns or follows."""
-    from scipy import linalg
-
     e = x.base
-    basis = split(e.by("velocities", "v"))[0]
-    mass = symmetric(basis.T @ e.by("balance", "a") @ basis)
-    damping = basis.T @ e.by("balance", "v") @ basis
-    stiffness = basis.T @ (e.by("balance", "q") @ e.by("motion", "v")) @ basis
-    size = np.abs(stiffness).max(initial=0.0)
-    heavy = np.abs(mass).max(initial=0.0)
-    if np.abs(damping).max(initial=0.0) > NONE * np.sqrt(size * heavy):
-        return None
-    if np.abs(stiffness - stiffness.T).max(initial=0.0) > 1e3 * NONE * max(size, 1e-300):
-        return None
-    if not len(mass):
+    basis = split(x.subject.rows(e))[0]
+    if not basis.shape[1]:
         return np.zeros(0), np.zeros((0, 0))
+    damping, stiffness = e.by("balance", "v"), e.by("balance", "q") @ e.by("motion", "v")
     try:
-        values, vectors = linalg.eigh(symmetric(stiffness), mass)
-    except linalg.LinAlgError:
+        squares, vectors, even = squares_along(e.by("balance", "a"), stiffness, basis)
+    except np.linalg.LinAlgError:
         return None
-    return rounded(np.asarray(values)), np.asarray(vectors)
+    along = basis @ vectors
+    fast, sizes = np.sqrt(np.abs(squares)), summed(damping, along)
+    limit = NONE * np.maximum.outer(fast, fast) + ROUNDED * np.sqrt(np.outer(sizes, sizes))
+    damped = bool(np.any(np.abs(along.T @ damping @ along) > limit))
+    return (squares, vectors) if even and not damped else None

@@ -183,7 +183,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     """
     now = subject.t if t is None else t
     first = subject.evaluated(y, t=now)
-    d = first.by("velocities", "v")
+    d = subject.rows(first)
     basis, inverse, _ = split(d)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, now)

@@ -24,8 +24,9 @@ NEAR = 0.15
 BLIND = 1e-9
 #: Lengths of the mechanism by which a step downhill may open it.
 OPENED = 0.05
-#: Forces and violations below this fraction of what they are compared with count as zero.
-TOLERANCE = 1e-10
+#: Forces and violations below this fraction of what they are compared with count as zero; below this one they are
+#: rounding, and no step makes them less.
+TOLERANCE, EXACT = 1e-10, 1e-16
 
 
 @dataclass(frozen=True)
@@ -138,14 +139,18 @@ def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinki
     now = balance(subject, y, _all_rows(subject, np.zeros(count)), held)
     lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
     now = balance(subject, y, _all_rows(subject, lam), held)
-    left, step, error, size = np.inf, 0, np.inf, 0.0
+    left, step, error, size, before = np.inf, 0, np.inf, np.zeros(subject.nv), (y, lam)
+    spans = np.array([subject.length if v.unit == "m/s" else 1.0 for v in subject.compiled.info.velocities])
     for step in range(MOST_STEPS):
-        size = max(size, np.abs(now.force).max(initial=0.0), 1e-3 * now.scale * subject.length)
+        # and where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
+        size = np.maximum(size, np.maximum(np.abs(now.force).max(initial=1e-300), 1e-3 * np.abs(now.stiffness) @ spans))
         error = _error(subject, now, lam, size)
         good = error < TOLERANCE
-        if good and (error >= 0.5 * left or error == 0.0):
+        if good and error >= 0.5 * left:  # a step that balances no more may lead anywhere
+            y, lam = before if error >= left else (y, lam)
+        if good and (error >= 0.5 * left or error <= EXACT):
             return y, _all_rows(subject, lam), step
-        left = error if good else np.inf
+        left, before = error if good else np.inf, (y, lam)
         found = _stepped(subject, y, lam, now, held, size, good, sinking)
         if found is None and good:
             return y, _all_rows(subject, lam), step
@@ -164,7 +169,7 @@ def _stepped(
     lam: Array,
     now: Balance,
     held: Sequence[tuple[str, float]],
-    size: float,
+    size: Array,
     good: bool,
     sinking: bool,
 ) -> tuple[Array, Array, Balance] | None:
@@ -196,8 +201,8 @@ def _stepped(
     return None
 
 
-def _error(subject: Subject, now: Balance, lam: Array, size: float) -> float:
-    unbalanced = np.linalg.norm(now.force + now.rows.T @ lam) / size
+def _error(subject: Subject, now: Balance, lam: Array, size: Array) -> float:
+    unbalanced = np.linalg.norm((now.force + now.rows.T @ lam) / size)
     return float(np.hypot(unbalanced, np.linalg.norm(now.open) / subject.length))
 
 

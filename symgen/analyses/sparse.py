@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.settle import NEAR, OPENED
+from symgen.analyses.settle import EXACT, NEAR, OPENED
 from symgen.analyses.subject import described_state, given_at_start
 from symgen.errors import AnalysisError, AssemblyError
 from symgen.plan import make_plan
@@ -169,18 +169,19 @@ def settled(sparse: Sparse) -> tuple[Array, Array, int]:
     lam = sparse.whole(_regular(still, rows)(-force, np.zeros(len(gaps)))[1])
     force, gaps = sparse.forces(y, lam)
     motion, _, rows, stiffness, _ = sparse.matrices(y, lam)
-    shift, best = 0.0, np.inf
+    shift, best, before = 0.0, np.inf, (y, lam)
     first = float(abs(stiffness).max() / abs(still).max()) or 1.0
+    spans = 1.0 / np.sqrt(still.diagonal())
     for step in range(steps + 1, MOST_STEPS):
-        load = float(np.abs(rows.T @ lam[sparse.kept]).max(initial=0.0))
-        # where joints carry nothing, what forces change by over a thousandth of the mechanism
-        load = max(load, 1e-3 * float(abs(stiffness).max()) * float(sparse.lengths.max(initial=0.0)), 1e-300)
-        error = float(np.abs(force).max(initial=0.0)) / load
+        load = float(np.abs(rows.T @ lam[sparse.kept]).max(initial=1e-300))
+        # where joints carry nothing, what each force changes by over a thousandth of the mechanism
+        error = float((np.abs(force) / np.maximum(load, 1e-3 * abs(stiffness) @ spans)).max(initial=0.0))
         error += float(np.abs(gaps).max(initial=0.0)) / max(1.0, float(sparse.w[abi.LENGTH]))
         good = error < 1e3 * TOLERANCE
-        if good and (error >= 0.5 * best or error == 0.0):
-            return y, lam, step
-        best = min(best, error)
+        if good and (error >= 0.5 * best or error <= EXACT):
+            # a step that balances no more may lead anywhere
+            return *(before if error > best else (y, lam)), step
+        before, best = (y, lam), min(best, error)
         found = _near(sparse, motion, solver(stiffness, rows), force, gaps)
         if found is None and good:
             return y, lam, step
@@ -205,9 +206,9 @@ def _closed(sparse: Sparse) -> tuple[Array, int]:
     for step in range(MOST_STEPS):
         motion, _, rows, _, _ = sparse.matrices(y, lam)
         force, gaps = sparse.forces(y, lam)
-        if np.linalg.norm(gaps) <= OPENED * sparse.lengths.max():
-            return y, step
         solve = solver(_sizes(sparse), rows)
+        if solve is not None and np.linalg.norm(gaps) <= OPENED * sparse.lengths.max():
+            return y, step
         change = np.full(len(force), np.inf) if solve is None else solve(np.zeros(len(force)), -gaps)[0]
         long = _length(sparse, motion, change)
         if not long < SINGULAR:

@@ -259,10 +259,10 @@ def later(subject: Subject, x: Tangent) -> tuple[Array, float]:
     y = subject.moved(_filled(y, z), np.zeros(nq))
     for _ in range(4):
         e = subject.evaluated(y, t=end)
-        inverse = split(e.by("velocities", "v") * kept[:, None])[1]
+        inverse = split(subject.rows(e) * kept[:, None])[1]
         y = subject.moved(y, -e.by("motion", "v") @ (inverse @ (e.value("positions") * kept)))
     e = subject.evaluated(y, t=end)
-    y[nq : nq + nv] -= split(e.by("velocities", "v") * kept[:, None])[1] @ (e.value("velocities") * kept)
+    y[nq : nq + nv] -= split(subject.rows(e) * kept[:, None])[1] @ (e.value("velocities") * kept)
     return y, end
 
 

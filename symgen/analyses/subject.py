@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 
 #: Beyond this many coordinates of bodies code is looped, and equilibria are searched with sparse matrices.
 LARGE = 300
+#: A redundant row below this part of what rows are is the rounding of none, as of a loop that is closed anyway.
+NO_ROW = 1e-11
 #: What a name of a rate ends in.
 RATE = ".rate"
 
@@ -127,6 +129,14 @@ class Subject:
         self.compiled.section(w, "multipliers")[:] = 0.0 if lam is None else lam
         rates = np.zeros(self.nv) if a is None else a
         return self.form.at(self.t if t is None else t, y, rates, self.p, w)
+
+    def rows(self, e: Evaluated) -> Array:
+        """Return D, with zeros for redundant rows that are nothing but rounding; shape (m, nv)."""
+        d, info = e.by("velocities", "v"), self.compiled.info
+        spans = np.array([self.length if v.unit == "m/s" else 1.0 for v in info.velocities])
+        units = np.array([self.length if row.unit == "m" else 1.0 for row in info.rows])
+        d[self.redundant & (np.linalg.norm(d * spans, axis=1) < NO_ROW * units)] = 0.0
+        return d
 
     def moved(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""

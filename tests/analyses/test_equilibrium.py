@@ -132,3 +132,21 @@ def test_a_motor_that_never_rests_has_no_equilibrium():
         symgen.load("wiper").equilibrium()
     with pytest.raises(AnalysisError, match=r"no equilibrium was found with crank\.theta"):
         symgen.load("wiper").equilibria(("crank.theta", np.linspace(0.0, 6.28, 9)))
+
+
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+def test_a_flat_parallelogram_sinks(shape):
+    """Where all its links are in one line rows depend on each other, there alone."""
+
+    def link(length, x):
+        ends = {"A": [-0.5 * length, 0.0], "B": [0.5 * length, 0.0]}
+        return {"mass": 2.0 * length, "inertia": length**3 / 6.0, "points": ends, "position": [x, 0.0]}
+
+    bodies = {"crank": link(1.0, 0.5), "coupler": link(2.0, 2.0), "rocker": link(1.0, 2.5)}
+    ends = {"A": ("ground", "crank", [0.0, 0.0], "A"), "B": ("crank", "coupler", "B", "A")}
+    ends |= {"C": ("coupler", "rocker", "B", "B"), "D": ("ground", "rocker", [2.0, 0.0], "A")}
+    found = rods.model(bodies, {name: rods.pin(*at) for name, at in ends.items()}).equilibrium(shape=shape)
+    assert found.stability == "stable"
+    assert found.residual < 1e-9
+    # as a parallelogram (2 + 4) kg m g over 16/3 kg m^2; folded through itself, which begins there as well, 21/16 g
+    assert min(abs(found.omega_squared[0] / rods.GRAVITY - square) for square in (18.0 / 16.0, 21.0 / 16.0)) < 1e-9

@@ -177,3 +177,27 @@ def test_zeros_are_a_decision_of_rank():
         values, _ = eigenvalues_of(turn @ a @ turn.T)
         assert np.sum(values == 0.0) == zeros
         assert np.isclose(sorted(values.real)[0], -40.0) and np.isclose(sorted(values.real)[-1], 3.0)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize("far", [0.177, 0.3, 1.0 / 3.0])
+def test_a_joint_that_holds_nothing_takes_no_freedom(coordinates, far):
+    """A mass on a rod's end, and a link from there to the rod's other end, whose row is the rounding of none."""
+    end = (0.7304, -0.3957)
+    rod = {"mass": 2.0, "inertia": 0.3, "points": {"end": list(end), "other": [far, -0.2273]}, "angle": 0.4}
+    c, s = math.cos(0.4), math.sin(0.4)
+    place = [c * end[0] - s * end[1], s * end[0] + c * end[1]]
+    link = {"type": "distance", "between": ["rod", "bob"], "at": ["other", "centre"]}
+    joints = {
+        "pin": rods.pin("ground", "rod", rods.GROUND2, "centre"),
+        "knot": rods.pin("rod", "bob", "end", "centre"),
+        "link": {**link, "length": math.hypot(end[0] - far, end[1] + 0.2273)},
+    }
+    bob = {"type": "point", "mass": 1.5, "position": place}
+    model = rods.model({"rod": rod, "bob": bob}, joints)
+    away = math.hypot(*end)
+    square = 1.5 * rods.GRAVITY * away / (0.3 + 1.5 * away**2)
+    for found in (model.modes(coordinates=coordinates), model.equilibrium(coordinates=coordinates)):
+        assert_allclose(found.omega_squared, [square], rtol=1e-12)
+    system = model.linearise(coordinates=coordinates)
+    assert_allclose(system.eigenvalues(), [1j * math.sqrt(square), -1j * math.sqrt(square)], rtol=1e-12)

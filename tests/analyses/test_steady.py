@@ -193,3 +193,28 @@ def test_states_of_a_steady_motion_are_found():
     moving = [x for x in found.eigenvalues if abs(x) > 1e-5]  # a double zero is parted by the root of rounding
     assert_allclose(moving, EIGENVALUES[5.0], rtol=1e-9)
     assert {"lean", "lean.rate", "head.angle", "head.angle.rate"} <= set(found.names)
+
+
+def beside_a_wheel(spin):
+    """A wheel on an axle, and beside it a body that hangs on a ball, from where it turns with `spin` in its axes."""
+    wheel = {"mass": 1.0, "inertia": [0.1, 0.1, 0.2], "position": [3.0, 0.0, 0.0], "angular_velocity": [0.0, 0.0, 4.0]}
+    bob = {
+        **{"mass": 1.0, "inertia": [0.02, 0.05, 0.05], "position": [0.0, 0.0, -0.5], "angular_velocity": spin},
+        **{"points": {"top": [-0.5, 0.0, 0.0]}, "orientation": {"x_axis": [0, 0, -1], "y_axis": [0, 1, 0]}},
+    }
+    joints = {
+        "axle": rods.pin("ground", "wheel", [3.0, 0.0, 0.0], "centre", axis=[0.0, 0.0, 1.0]),
+        "ball": rods.pin("ground", "bob", rods.GROUND3, "top", "spherical"),
+    }
+    return rods.model({"wheel": wheel, "bob": bob}, joints, "spatial")
+
+
+def test_a_spin_is_not_lost_beside_a_wheel_that_turns_on():
+    """What swings comes to rest; what spins about the line that it hangs on would go on for ever."""
+    found = beside_a_wheel([0.0, 0.3, 0.2]).steady()
+    assert_allclose(found.q["bob.z"], -0.5, rtol=1e-12)
+    for spin in ([20.0, 0.0, 0.0], [0.5, 0.3, 0.2]):
+        with pytest.raises(InputError, match="the turning of a body about any axis"):
+            beside_a_wheel(spin).steady()
+        with pytest.raises(InputError, match="the turning of a body about any axis"):
+            beside_a_wheel(spin).modes(at="steady")

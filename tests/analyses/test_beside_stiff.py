@@ -1,0 +1,116 @@
+"""What is soft, light or balanced is judged by itself, however stiff, heavy or quick what stands beside it is."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from analyses import rods
+from analyses.test_what_is_said import COLUMN, made
+from symgen.errors import InputError
+
+#: Stiffness [N/m] of a spring that has nothing to do with the rest.
+STIFF = [1e2, 1e12]
+WAYS = [{}, {"coordinates": "joint"}, {"shape": "looped"}]
+
+
+def beside(stiffness, mass=0.01):
+    """A block that a stiff spring holds on a rail: body, joint and force."""
+    block = {"mass": mass, "inertia": 1.0, "position": [2.0, 0.0]}
+    rail = {**rods.pin("ground", "block", [2.0, 0.0], "centre", "translational"), "axis": [1.0, 0.0]}
+    spring = {"type": "spring-damper", "between": ["ground", "block"], "at": [[1.0, 0.0], "centre"]}
+    return block, rail, {**spring, "stiffness": stiffness, "free_length": 1.0}
+
+
+@pytest.mark.parametrize("stiffness", STIFF)
+@pytest.mark.parametrize("way", WAYS, ids=str)
+def test_a_rod_beside_a_stiff_spring(stiffness, way):
+    """It falls from its head and hangs below with 1.5 g / L, which is little beside the block's k / m."""
+    block, rail, spring = beside(stiffness)
+    for angle, word in ((0.5 * math.pi, "unstable"), (-0.5 * math.pi, "stable")):
+        rod = {**rods.ROD, "angle": angle, "position": [0.0, math.copysign(0.5, angle)]}
+        joints = {"pin": rods.pin("ground", "rod", rods.GROUND2, "A"), "rail": rail}
+        found = rods.model({"rod": rod, "block": block}, joints, forces={"spring": spring}).equilibrium(**way)
+        assert found.stability == word
+        assert_allclose(found.omega_squared[0], math.copysign(14.715, -angle), rtol=1e-3 if stiffness > 1e9 else 1e-9)
+
+
+@pytest.mark.parametrize("way", WAYS[::2], ids=str)
+def test_a_column_flutters_beside_a_stiff_spring(way):
+    model = made(COLUMN + STIFF_BLOCK)
+    for load, word in ((1.0, "stable"), (3.0, "unstable")):
+        assert model.equilibrium(parameters={"load": load}, **way).stability == word
+    with pytest.raises(InputError, match="forces that have a potential"):
+        model.modes(parameters={"load": 3.0}, count=1)
+
+
+STIFF_BLOCK = """
+[bodies.aside]
+type = "point"
+mass = 1.0
+position = [5.0, 0.0]
+[joints.aside_rail]
+type = "pin-in-slot"
+between = ["aside", "ground"]
+at = ["centre", [5.0, 0.0]]
+axis = [1.0, 0.0]
+[forces.aside_spring]
+type = "spring-damper"
+between = ["ground", "aside"]
+at = [[4.0, 0.0], "centre"]
+stiffness = 1e12
+free_length = 1.0
+"""
+
+
+def test_a_damper_beside_a_stiff_spring():
+    """s^2 + c s + 1 = 0 has -c / 2 as real part."""
+    block, rail, spring = beside(1e12, 1e4)
+    soft = {"mass": 1.0, "inertia": 1.0}
+    slide = {**rods.pin("ground", "soft", rods.GROUND2, "centre", "translational"), "axis": [0.0, 1.0]}
+    held = {"type": "force", "body": "soft", "force": [0.0, "-soft.y - 5e-4*soft.vy"]}
+    bodies, joints = {"block": block, "soft": soft}, {"rail": rail, "slide": slide}
+    model = rods.model(bodies, joints, forces={"spring": spring, "held": held}, gravity=[0.0, 0.0])
+    values = model.modes().eigenvalues
+    assert_allclose(values[np.abs(values) < 2.0].real, -2.5e-4, rtol=1e-3)
+    with pytest.raises(InputError, match="without dampers"):
+        model.modes(count=1)
+
+
+@pytest.mark.parametrize("way", WAYS, ids=str)
+@pytest.mark.parametrize("angle", [0.3, 0.7, 2.0, -0.4])
+def test_a_balanced_lamp_stays_wherever_it_is_put(angle, way):
+    """A spring without free length that balances a rod's weight: k h d = m g c at every angle."""
+    rod = {**rods.ROD, "angle": angle, "position": [0.5 * math.cos(angle), 0.5 * math.sin(angle)]}
+    rod["points"] = {"A": [-0.5, 0.0], "hook": [0.3, 0.0]}
+    stiffness = 2.0 * rods.GRAVITY * 0.5 / (0.7 * 0.8)
+    spring = {"type": "spring-damper", "between": ["ground", "rod"], "at": [[0.0, 0.7], "hook"], "stiffness": stiffness}
+    model = rods.model({"rod": rod}, {"pin": rods.pin("ground", "rod", rods.GROUND2, "A")}, forces={"spring": spring})
+    found = model.equilibrium(**way)
+    assert found.stability == "indifferent" and found.omega_squared == (0.0,)
+    if "coordinates" not in way:  # of joints there are only sums, which are rounding, and any place is as good
+        assert_allclose(found.q["rod.theta"], angle, rtol=1e-12)
+
+
+def test_a_crane_and_its_motor():
+    """1e6 kg m^2 and 1e-5 kg m^2: what a torque does to one is 1e-11 of what it does to the other."""
+    inertias, torques = {"boom": 1e6, "rotor": 1e-5}, {"boom": 2e5, "rotor": 3e-3}
+    bodies = {n: {"mass": 1.0, "inertia": inertia, "angular_velocity": 0.0} for n, inertia in inertias.items()}
+    joints = {f"{n}_pin": rods.pin("ground", n, rods.GROUND2, "centre") for n in bodies}
+    forces = {f"{n}_motor": {"type": "torque", "body": n, "torque": torque} for n, torque in torques.items()}
+    # one that can do nothing; two actuators below that do the same
+    forces["against"] = {"type": "spring-damper", "between": ["ground", "rotor"], "at": [[1.0, 0.0], "centre"]}
+    model = rods.model(bodies, joints, forces=forces)
+    run = model.simulate(until=0.02, step=0.01)
+    found = model.inverse(run, actuators=["boom_motor", "rotor_motor"])
+    for name, torque in torques.items():
+        assert_allclose(found.efforts[f"{name}_motor"], torque, rtol=1e-9)
+    assert not found.notes
+    both = model.inverse(run, actuators=["boom_motor", "boom_pin", "rotor_motor", "against"])
+    for name in ("boom_motor", "boom_pin"):
+        assert_allclose(both.efforts[name], 0.5 * torques["boom"], rtol=1e-9)
+    assert_allclose(both.efforts["rotor_motor"], torques["rotor"], rtol=1e-9)
+    assert_allclose(both.efforts["against"], 0.0, atol=1e-12)
