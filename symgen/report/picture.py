@@ -97,8 +97,11 @@ def drawn(
 
 
 def _file(figure: Figure) -> tuple[bytes, str]:
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
     stream = io.BytesIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    # `savefig` arranges and draws everything once before, for the sake of files that are cut to what is drawn
+    FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None, "Creator": None})
     text = stream.getvalue().decode()
     # a hundredth of a point is less than anybody sees
     text = re.sub(r' d="[^"]*"', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), text)
