@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from symgen.report.document import Picture, Section
 from symgen.result.export import need
@@ -99,9 +99,9 @@ def drawn(
 def _file(figure: Figure) -> tuple[bytes, str]:
     from matplotlib.backends.backend_svg import FigureCanvasSVG
 
-    stream = io.BytesIO()
+    stream, canvas = io.BytesIO(), cast("Any", FigureCanvasSVG(figure))
     # `savefig` arranges and draws everything once before, for the sake of files that are cut to what is drawn
-    FigureCanvasSVG(figure).print_svg(stream, metadata={"Date": None, "Creator": None})
+    canvas.print_svg(stream, metadata={"Date": None, "Creator": None})
     text = stream.getvalue().decode()
     # a hundredth of a point is less than anybody sees
     text = re.sub(r' d="[^"]*"', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), text)
