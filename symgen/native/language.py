@@ -253,6 +253,8 @@ class Function(msgspec.Struct, frozen=True, gc=False):
         Functions that it calls, each once, in the order of their first call.
     source : object
         What this was read from.
+    inlined : bool
+        Whether it is no call: whoever calls it has its statements instead.
     """
 
     name: str
@@ -264,6 +266,7 @@ class Function(msgspec.Struct, frozen=True, gc=False):
     tables: dict[str, tuple[float, ...]]
     called: tuple[Function, ...]
     source: object
+    inlined: bool = False
 
     @property
     def key(self) -> object:

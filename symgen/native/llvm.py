@@ -16,6 +16,9 @@ from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Va
 #: The same as one value, as functions in C's convention get it.
 _STRUCT = "{" + ", ".join((*ARRAY[:LENGTH], "[1 x i64]", "[1 x i64]")) + "}"
 
+#: The argument of functions for several runs at once that says how many there are.
+LANES = "lanes"
+
 
 def module(
     function: lang.Function,
@@ -70,8 +73,12 @@ def _reached(
 
 
 def is_copied(function: lang.Function) -> bool:
-    """Whether a function has no machine code of its own where it is called: it is handed tables of looped code."""
-    return any(p.type == "unsigned" for p in function.parameters) and all(is_copied(f) for f in function.called)
+    """Whether a function has no machine code of its own where it is called.
+
+    That is one which is handed tables of looped code or the number of lanes, and one which is no call.
+    """
+    handed_on = any(p.type == "unsigned" or p.name == LANES for p in function.parameters)
+    return function.inlined or (handed_on and all(is_copied(f) for f in function.called))
 
 
 def declarations(texts: Iterable[str]) -> list[str]:
@@ -145,7 +152,7 @@ class Printer(Values):
             f"[{', '.join('double ' + literal(v) for v in x)}]"
             for name, x in f.tables.items()
         ]
-        head = f"define {self.linkage}{self.head()} {{"
+        head = f"define {self.linkage}{self.head()}{' alwaysinline' * (f.inlined and bool(self.linkage))} {{"
         return "\n".join([*tables, head, ".entry:", *self.slots, *self.lines, "}"])
 
     def head(self) -> str:

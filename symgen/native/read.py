@@ -109,6 +109,7 @@ class Reader(TableValues):
             tables=self.tables,
             called=tuple(self.called.values()),
             source=self.source,
+            inlined=is_inlined(self.source),
         )
 
     def statements(self, nodes: list[ast.stmt]) -> tuple[lang.Statement, ...]:
@@ -173,13 +174,42 @@ class Reader(TableValues):
             for i, value in enumerate(values):
                 values[i] = self.kept_as(f"{len(self.variables)}.{i}", value, found, node)
             return found + [self.store(t, v) for t, v in zip(targets, values, strict=True)]
-        view = self.view(node)
+        view = self.view(node) or self.pieces(node)
         if view:
             return view
         value = self.expression(node.value)
         if len(node.targets) > 1 and not isinstance(value, lang.Constant):
             value = self.kept_as(f"{len(self.variables)}.0", value, found, node)
         return found + [self.store(target, value) for target in node.targets]
+
+    def pieces(self, node: ast.Assign) -> list[lang.Statement]:
+        """Return how names are given the values of a function that returns several; empty for any other assignment.
+
+        The function's statements stand here instead, under names that are none of Python's.
+        """
+        target, call = node.targets[0], node.value
+        if not isinstance(target, ast.Tuple) or not isinstance(call, ast.Call):
+            return []
+        called = self.of_module(call.func)
+        tree = self.definition(called) if is_inlined(called) else None
+        if tree is None or len(node.targets) > 1 or call.keywords or len(call.args) != len(tree.args.args):
+            raise Foreign("several values of a call", node)
+        *body, last = body_of(tree)
+        own = {x.arg for x in tree.args.args} | {
+            n.id for s in body for n in ast.walk(s) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
+        }
+        inside = _Renamed(tree.name, own)
+        if not isinstance(last, ast.Return) or not isinstance(last.value, ast.Tuple):
+            raise Foreign("several values of something else than straight code", node)
+        given = [ast.Name(inside.of(x.arg), ast.Store()) for x in tree.args.args]
+        steps: list[ast.stmt] = [
+            *(ast.Assign([x], v) for x, v in zip(given, call.args, strict=True)),
+            *map(inside.visit, body),
+        ]
+        if not all(isinstance(s, ast.Assign) for s in steps):
+            raise Foreign("several values of something else than straight code", node)
+        steps.append(ast.Assign([target], inside.visit(last.value)))
+        return list(self.statements([ast.fix_missing_locations(ast.copy_location(s, node)) for s in steps]))
 
     def kept_as(
         self, name: str, value: lang.Expression, before: list[lang.Statement], node: ast.AST
@@ -235,6 +265,28 @@ class Reader(TableValues):
         self.give(node.target.id, "int", node)
         self.depth -= 1
         return lang.For(node.target.id, start, stop, int(step.value), self.inner(node.body, loop=True))
+
+
+class _Renamed(ast.NodeTransformer):
+    """Gives the names of a function that others have its statements of to these."""
+
+    def __init__(self, function: str, own: set[str]) -> None:
+        self.function, self.own = function, own
+
+    def of(self, name: str) -> str:
+        """Return a name of the function as it is called in the other one."""
+        return f"{self.function}.{name}"
+
+    def visit_Name(self, node: ast.Name) -> ast.Name:
+        """Return a name of its own; it reads no other."""
+        if node.id not in self.own:
+            raise Foreign(f"the name '{node.id}'", node)
+        return ast.copy_location(ast.Name(self.of(node.id), node.ctx), node)
+
+
+def is_inlined(function: Any) -> bool:
+    """Whether a function is declared to be no call."""
+    return bool(getattr(function, "targetoptions", {}).get("inline") == "always")
 
 
 def _loaded(target: ast.expr) -> ast.expr:

@@ -194,6 +194,8 @@ class Values(ABC):
         if node.keywords:
             raise Foreign("arguments by name", node)
         builtin = self.builtin(node.func)
+        if builtin == "len" and len(node.args) == 1:
+            return self.length(node.args[0])
         if builtin is not None:
             return self.call_builtin(builtin, [self.expression(x) for x in node.args], node)
         if isinstance(node.func, ast.Attribute) and self.of_math(node.func):
@@ -238,6 +240,13 @@ class Values(ABC):
             if name in ("float", "int"):
                 return as_type(cast("lang.Scalar", name), value)
         raise Foreign(f"the function '{name}'", node)
+
+    def length(self, node: ast.expr) -> lang.Expression:
+        """Return the length of an array, which callers have to say."""
+        if not isinstance(node, ast.Name) or not any(p.array and p.name == node.id for p in self.parameters):
+            raise Foreign("the length of something else than an argument", node)
+        self.sized.add(node.id)
+        return lang.Shape(node.id)
 
     def builtin(self, node: ast.expr) -> str | None:
         """Return the name of a function of Python, None for anything else."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from symgen.report.document import Picture, Section
 from symgen.result.export import need
@@ -97,8 +97,11 @@ def drawn(
 
 
 def _file(figure: Figure) -> tuple[bytes, str]:
-    stream = io.BytesIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    stream, canvas = io.BytesIO(), cast("Any", FigureCanvasSVG(figure))
+    # `savefig` arranges and draws everything once before, for the sake of files that are cut to what is drawn
+    canvas.print_svg(stream, metadata={"Date": None, "Creator": None})
     text = stream.getvalue().decode()
     # a hundredth of a point is less than anybody sees
     text = re.sub(r' d="[^"]*"', lambda m: re.sub(r"(\.\d\d)\d+", r"\1", m.group()), text)

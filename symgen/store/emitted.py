@@ -50,6 +50,7 @@ COMPILER = "SYMGEN_COMPILER"
 _COMPILERS = ("source", "explain", "libm", "numba")
 #: How emitted functions are decorated; with other options a function is Numba's to compile.
 _OPTIONS = {"error_model": "numpy", "fastmath": {"contract"}, "nopython": True, "boundscheck": None}
+_INLINED = {**_OPTIONS, "inline": "always"}
 #: Functions of up to so many statements are copied into those that call them, if LLVM thinks that good.
 _SHORT = 60
 
@@ -316,7 +317,11 @@ def _is_short(function: Function) -> bool:
 
 def _definition(function: Any) -> ast.FunctionDef | None:
     """Return the syntax tree of an emitted function, None where its source cannot be had."""
-    if not isinstance(function, EmittedFunction) or function._origin is None or function.targetoptions != _OPTIONS:
+    if (
+        not isinstance(function, EmittedFunction)
+        or function._origin is None
+        or function.targetoptions not in (_OPTIONS, _INLINED)
+    ):
         return None
     return syntax_tree(_lines(function._origin.content), function.py_func)
 

@@ -1,6 +1,7 @@
 """Whether functions made from their source are those that Numba compiles; run apart, on a processor named to Numba.
 
 python -m native.judge four-bar direct-correction
+python -m native.judge four-bar direct-correction --lanes
 """
 
 from __future__ import annotations
@@ -15,9 +16,10 @@ from support.models import EVERYTHING, ROUGH
 from symgen.api import load
 from symgen.compiling.pipeline import MethodChoice, choose_method, generate
 from symgen.describe.mechanism import Mechanism
+from symgen.ir.program import LANES
 from symgen.methods import METHODS
 
-from .twofold import arguments_of, differences, load_twice, own_functions
+from .twofold import ARRAY, NUMBER, arguments_of, differences, load_twice, own_functions
 
 OWN = {"everything": EVERYTHING, "rough": ROUGH}
 
@@ -42,14 +44,17 @@ def choices(methods: tuple[str, ...]) -> tuple[MethodChoice, ...]:
     return tuple(found.values())
 
 
-def judged(folder: Path, model: str, methods: tuple[str, ...]) -> list[str]:
+def judged(folder: Path, model: str, methods: tuple[str, ...], lanes: bool = False) -> list[str]:
     """Emit modules and return what differs in any of their functions, each distinct one tried once."""
-    generated = generate(mechanism(model), choices(methods))
+    chosen = tuple(map(choose_method, methods)) if lanes else choices(methods)
+    generated = generate(mechanism(model), chosen, target="lanes" if lanes else "cpu")
     folder = folder / generated.folder
     folder.mkdir()
     for stem, (source, _) in generated.modules.items():
         (folder / f"{stem}.py").write_text(source, encoding="utf-8")
     laws = [metadata for stem, (_, metadata) in generated.modules.items() if "nw" in metadata]
+    if lanes:
+        return judged_in_lanes(folder, list(generated.modules))
     size = 100 + max(max(m["nw"], m["parameter_offset"] + m["hoisted"], len(m["tangent"])) for m in laws)
     found, seen = [], set[str]()
     for stem in generated.modules:
@@ -66,6 +71,19 @@ def judged(folder: Path, model: str, methods: tuple[str, ...]) -> list[str]:
     return found
 
 
+def judged_in_lanes(folder: Path, stems: list[str]) -> list[str]:
+    """Return what differs in the functions that loops over lanes call; all others stand in them."""
+    found = []
+    for stem in stems:
+        direct, plain = load_twice(folder / f"{stem}.py")
+        for name in {"rhs", "accept"} & set(own_functions(direct)):
+            size = LANES * direct.NUMBERS
+            found += [
+                f"{stem}: {d}" for d in differences(getattr(direct, name), getattr(plain, name), (NUMBER, ARRAY), size)
+            ]
+    return found
+
+
 def of_file(path: Path) -> list[str]:
     """Return what differs in function ``f`` of a module."""
     direct, plain = load_twice(path)
@@ -77,4 +95,6 @@ if __name__ == "__main__":
         print(*of_file(Path(sys.argv[1])), sep="\n")
     else:
         with tempfile.TemporaryDirectory() as made:
-            print(*judged(Path(made), sys.argv[1], tuple(sys.argv[2:])), sep="\n")
+            lanes = "--lanes" in sys.argv
+            methods = tuple(word for word in sys.argv[2:] if word != "--lanes")
+            print(*judged(Path(made), sys.argv[1], methods, lanes), sep="\n")

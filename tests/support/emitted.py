@@ -15,6 +15,8 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.validate import validate
 from symgen.ir.program import COUNTERS, SCALES, STATUS
 from symgen.runtime.compiled import ModelInfo
+from symgen.store.emitted import EmittedFunction, Origin
+from symgen.store.identity import digest
 from symgen.vocabulary.infos import LawInfo
 
 _counter = itertools.count()
@@ -76,7 +78,7 @@ class Emitted:
     method, options
         The law.
     compiled : bool
-        Whether functions run as Numba compiles them, or as the plain Python they are written in.
+        Whether functions run as runs compile them, or as the plain Python they are written in.
     """
 
     def __init__(self, mechanism: Mechanism, method: str = "lagrange", options=None, compiled: bool = False) -> None:
@@ -92,6 +94,13 @@ class Emitted:
             sys.modules[module.__name__] = module
             exec(compile(source, f"<{stem}>", "exec"), module.__dict__)
             self.modules[stem] = module
+        if compiled:
+            stamp = digest(*(source for source, _ in self.generated.modules.values()))
+            for stem, module in self.modules.items():
+                origin = Origin(f"{stem} {stamp}", self.generated.modules[stem][0].encode())
+                for function in vars(module).values():
+                    if getattr(getattr(function, "py_func", None), "__module__", "") == module.__name__:
+                        EmittedFunction.of(function, origin)
         model, law = (self.generated.modules[s][1] for s in ("model", choice.stem))
         self.info, self.law_info = msgspec.convert(model, ModelInfo), msgspec.convert(law, LawInfo)
         self.model, self.law = self.modules["model"], self.modules[choice.stem]

@@ -27,6 +27,7 @@ from symgen.result.points import Points
 from symgen.store.jit import jit
 from symgen.study.references.curves import curves
 from symgen.study.references.independent import CUTOFF, IndependentEquations
+from symgen.study.references.least_squares import shortest
 from symgen.study.references.reference import Reference
 from symgen.study.references.stiff import OverBudgetError, by_radau, is_stiff
 
@@ -165,37 +166,13 @@ class CompiledEquations(IndependentEquations):
         return function
 
 
-@jit(types.Array(_F8, 1, "C")(types.Array(_F8, 2, "C"), _A))
-def _shortest(a: Any, b: Any) -> Any:
-    """Return the shortest x with A x = b: by Householder's QR of A^T, or by singular values where rows depend."""
-    m = a.shape[0]
-    if m <= a.shape[1]:
-        basis, r = np.linalg.qr(np.ascontiguousarray(a.T))
-        smallest, largest = np.inf, 0.0
-        for i in range(m):
-            smallest, largest = min(smallest, abs(r[i, i])), max(largest, abs(r[i, i]))
-        if smallest > 1e-7 * largest:
-            z = np.zeros(m)
-            for i in range(m):
-                z[i] = b[i]
-                for j in range(i):
-                    z[i] -= r[j, i] * z[j]
-                z[i] /= r[i, i]
-            x = np.zeros(a.shape[1])
-            for j in range(a.shape[1]):
-                for i in range(m):
-                    x[j] += basis[j, i] * z[i]
-            return x
-    return np.linalg.lstsq(a, b, CUTOFF)[0]
-
-
 @jit(types.void(types.Array(_F8, 2, "C"), _A, _A, _A, _A))
 def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
     """Set `found` to the v' of D v' = gamma that is nearest to M^-1 f in the metric of M."""
     m, n = d.shape
-    root = 1.0 / np.sqrt(mass)
-    free = np.zeros(n)
+    root, free = np.empty(n), np.empty(n)
     for j in range(n):
+        root[j] = 1.0 / math.sqrt(mass[j])
         free[j] = root[j] * f[j]
     if m > 0:
         scaled = np.zeros((m, n))
@@ -207,10 +184,11 @@ def _by_gauss(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None:
                 scaled[i, j] = d[i, j] * root[j]
                 missing[i] -= scaled[i, j] * free[j]
             finite = finite and math.isfinite(missing[i])
+        change = np.empty(n)
         if finite:
-            free += _shortest(scaled, missing)
-        else:
-            free[:] = np.nan
+            shortest(scaled, missing, change)
+        for j in range(n):
+            free[j] += change[j] if finite else math.nan
     for j in range(n):
         found[j] = root[j] * free[j]
 
@@ -223,16 +201,21 @@ def _with_multipliers(d: Any, gamma: Any, f: Any, mass: Any, found: Any) -> None
     for j in range(n):
         heavy, usual = heavy + int(mass[j] > 0.0), usual + mass[j]
     usual = usual / heavy if heavy > 0 else 1.0
-    system, given = np.zeros((n + m, n + m)), np.zeros(n + m)
+    system, given, solution = np.zeros((n + m, n + m)), np.zeros(n + m), np.empty(n + m)
+    finite = True
     for j in range(n):
         system[j, j], given[j] = mass[j], f[j]
+        finite = finite and math.isfinite(mass[j]) and math.isfinite(f[j])
     for i in range(m):
         given[n + i] = usual * gamma[i]
+        finite = finite and math.isfinite(given[n + i])
         for j in range(n):
             system[j, n + i] = system[n + i, j] = usual * d[i, j]
-    found[:] = np.nan
-    if np.all(np.isfinite(system)) and np.all(np.isfinite(given)):
-        found[:] = _shortest(system, given)[:n]
+            finite = finite and math.isfinite(system[j, n + i])
+    if finite:
+        shortest(system, given, solution)
+    for j in range(n):
+        found[j] = solution[j] if finite else math.nan
 
 
 @jit(types.void(EQUATIONS, _I, _I8, _I8, _A, _A, _F8, _A, _A))
@@ -240,14 +223,16 @@ def _rate(function: Any, index: Any, m: int, n: int, mass: Any, p: Any, t: float
     """Set ``rate`` to (v, v'), v' by least squares in the metric of M, or with multipliers where M has no inverse."""
     k = index.shape[0] // 2
     out = np.zeros(3 * m + k + n)
-    q, v = y[:n].copy(), y[n:].copy()
+    q, v = y[:n], y[n : 2 * n]
     function(t, q, v, p, out)
     d, gamma, f = np.zeros((m, n)), out[2 * m + k : 3 * m + k], out[3 * m + k :]
     for e in range(k):
         d[index[e], index[k + e]] = out[m + e]
+    heavy = True
     for j in range(n):
         rate[j] = v[j]
-    if np.min(mass) > 0.0:
+        heavy = heavy and mass[j] > 0.0
+    if heavy:
         _by_gauss(d, gamma, f, mass, rate[n:])
     else:
         _with_multipliers(d, gamma, f, mass, rate[n:])
@@ -272,7 +257,7 @@ def _extrapolate(
 ) -> int:
     """Integrate y to ``until``; return 0, 1 (budget used up) or 2 (the step collapses)."""
     size = y.shape[0]
-    first, rate = np.zeros(size), np.zeros(size)
+    first, rate, before, now = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
     table = np.zeros((COLUMNS, size))
     step = state[0] if state[0] > 0.0 else 1e-3 * (until - t)
     smallest = max(1e-16 * max(until, abs(t)), COLLAPSE * (until - t))
@@ -284,21 +269,23 @@ def _extrapolate(
         for row in range(COLUMNS):
             count = 2 * (row + 1)
             small = h / count
-            before = y.copy()
-            now = y + small * first
+            for e in range(size):
+                before[e], now[e] = y[e], y[e] + small * first[e]
             for i in range(1, count):
                 _rate(function, index, m, n, mass, p, t + i * small, now, rate)
-                now, before = before + 2.0 * small * rate, now
+                for e in range(size):
+                    now[e], before[e] = before[e] + 2.0 * small * rate[e], now[e]
             _rate(function, index, m, n, mass, p, t + h, now, rate)
             used[0] += count
-            # the smoothing that keeps the expansion in even powers of the small step
-            value = 0.5 * (now + before + small * rate)
-            for column in range(row):  # Neville's scheme: table[j] is T[row - 1, j] and becomes T[row, j]
-                ratio = (count / (2.0 * (row - column))) ** 2
-                better = value + (value - table[column]) / (ratio - 1.0)
-                table[column, :] = value
-                value = better
-            table[row, :] = value
+            for e in range(size):
+                # the smoothing that keeps the expansion in even powers of the small step
+                value = 0.5 * (now[e] + before[e] + small * rate[e])
+                for column in range(row):  # Neville's scheme: table[j] is T[row - 1, j] and becomes T[row, j]
+                    share = count / (2.0 * (row - column))
+                    better = value + (value - table[column, e]) / (share * share - 1.0)
+                    table[column, e] = value
+                    value = better
+                table[row, e] = value
         error = 0.0
         for i in range(size):
             weight = rtol * max(scale[i], abs(y[i]))
@@ -307,7 +294,8 @@ def _extrapolate(
         if math.isfinite(error):
             factor = 4.0 if error == 0.0 else min(4.0, max(0.2, 0.85 * error ** (-1.0 / (2.0 * COLUMNS - 1.0))))
             if error <= 1.0:
-                y[:] = table[COLUMNS - 1]
+                for e in range(size):
+                    y[e] = table[COLUMNS - 1, e]
                 t = until if last else t + h
         if not last or factor < 1.0:
             step = h * factor
