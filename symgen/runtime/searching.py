@@ -81,6 +81,22 @@ def candidate(hunt: A, n: int) -> float:
 
 
 @plain
+def concealed(hunt: A, n: int) -> float:
+    """Return where in a bracket to look for events that its end does not show; its end where there are none."""
+    at = N_HEAD
+    low, high = hunt[LOW], hunt[HIGH]
+    x = 2.0
+    if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
+        for k in range(n):
+            g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
+            d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
+            side, direction = hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]
+            if is_finite(d0 + d1) == 1 and asked(direction, side, side_of(g1, side)) == 0:
+                x = min(x, hidden(g0, d0, g1, d1, side, direction))
+    return float(low + x * (high - low)) if x < 1.0 else float(high)
+
+
+@plain
 def move_on(hunt: A, n: int) -> int:
     """Look at the rest of the step, behind the bracket."""
     at = N_HEAD
@@ -247,7 +263,6 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
     w, iw : Array
         What emitted functions remember.
     """
-    at = N_HEAD
     if hunting >= LOOK:
         first = N_HEAD + (N_COLUMNS + 2) * n + 2 * width
         size = (notes - first) // 2
@@ -270,9 +285,13 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
         return MEET
     while True:
         low, high = hunt[LOW], hunt[HIGH]
+        there = concealed(hunt, n)
         if crossed(hunt, n, G_HIGH, 0) == 1:
             if high - low > hunt[RESOLUTION] and hunt[ROUNDS] < _MOST_ROUNDS:
                 hunt[TRY] = candidate(hunt, n)
+                if there < hunt[TRY]:  # another event may come first, and be over by then
+                    hunt[PROBES] += 1.0
+                    hunt[TRY] = there
                 hunt[ROUNDS] += 1.0
                 return SEEK
             # where notes have to be taken before others find room, the step ends here as well
@@ -288,17 +307,10 @@ def decide(hunt: A, n: int, notes: int, following: float, h: float, hunting: int
             if hunt[LOW] >= hunt[WHOLE]:
                 break
             continue
-        x = 2.0
-        if hunt[PROBES] < _MOST_PROBES and high - low > 8.0 * hunt[RESOLUTION]:
-            for k in range(n):
-                g0, g1 = hunt[at + G_LOW * n + k], hunt[at + G_HIGH * n + k]
-                d0, d1 = (high - low) * hunt[at + D_LOW * n + k], (high - low) * hunt[at + D_HIGH * n + k]
-                if is_finite(d0 + d1) == 1:
-                    x = min(x, hidden(g0, d0, g1, d1, hunt[at + LOCAL * n + k], hunt[at + DIRECTION * n + k]))
-        if x < 1.0:
+        if there < high:
             hunt[PROBES] += 1.0
             hunt[ROUNDS] = 0.0
-            hunt[TRY] = low + x * (high - low)
+            hunt[TRY] = there
             return SEEK
         if high >= hunt[WHOLE]:
             break

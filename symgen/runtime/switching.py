@@ -74,7 +74,11 @@ def first_root(g0: float, d0: float, g1: float, d1: float, side: float) -> float
 
 @plain
 def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: float) -> float:
-    """Return an extremum that is first on the other side, where this hides a change that is asked for; else 2."""
+    """Return where g is first on the other side for a while, where this hides a change that is asked for; else 2.
+
+    That is at an extremum of the cubic, or, as conditions of several parts have corners, where straight lines from both
+    ends meet: at the first of the two, as what is behind it is looked at again.
+    """
     first, found, before = 2.0, 0, side
     least = _ROUNDING * (abs(g0) + abs(g1))
     for k in range(3):
@@ -82,9 +86,15 @@ def hidden(g0: float, d0: float, g1: float, d1: float, side: float, direction: f
         if x > 1.0:
             continue
         g = g1 if k == 2 else cubic(g0, d0, g1, d1, x)
+        g = d1 if k == 2 and abs(g) <= least else g  # on zero: where it goes
         after = side_of(g, before) if abs(g) > least else before
         if after != before:
             found = max(found, asked(direction, before, after))
             first = x if first > 1.0 and k < 2 else first
         before = after
-    return first if found == 1 else 2.0
+    first = first if found == 1 else 2.0
+    if side * d0 < 0.0 and side * d1 > 0.0:
+        x = (g1 - d1 - g0) / (d0 - d1)
+        if x > 0.0 and side * (g0 + d0 * x) < -least:
+            first = min(first, x)
+    return first

@@ -63,6 +63,31 @@ def test_a_ball_bounces_until_its_impacts_accumulate(integrator, step):
     assert result.end < end and end - result.end < 1e-8 and result.t[-1] == result.end
 
 
+@pytest.mark.parametrize("jumps", [False, True])
+@pytest.mark.parametrize(("integrator", "step"), [("rk4", 2e-2), ("rk4", 5e-2), ("dop853", None)])
+def test_what_conditions_of_two_parts_leave_out_for_a_moment_of_a_step(integrator, step, jumps):
+    """The parts are straight lines over time; where an input jumps at the same time, g is 0 at the end of a step."""
+    late = 0.179916
+    drawn = {
+        "mechanism": {"name": "cart", "gravity": [0.0, 0.0]},
+        "bodies": {"cart": {"type": "point", "mass": 1.0, "position": [0.0, 0.0], "velocity": [1.0, 0.0]}},
+        "inputs": {"push": 0.0},
+        "forces": {"push": {"type": "force", "body": "cart", "force": [0.0, "push"]}},
+        "events": {
+            f"{name}{k}": {"when": when}
+            for k, x in enumerate((0.162, 0.178, 0.1799))
+            for name, when in (("gap", f"cart.x < {x} or t > {late}"), ("peak", f"cart.x > {x} and t < {late}"))
+        },
+    }
+    given = {"push": f"1 if t < {late} else -1"} if jumps else {}
+    cart = symgen.load(mechanism_of(drawn))
+    result = cart.simulate(method="lagrange", integrator=integrator, step=step, until=1.0, inputs=given)
+    found = {event.name: event.t for event in result.events}
+    assert len(result.events) == len(found)
+    expected = {"gap0": late, "gap1": late, "gap2": late, "peak0": 0.162, "peak1": 0.178, "peak2": 0.1799}
+    assert found == pytest.approx(expected, rel=0.0, abs=1e-12)
+
+
 @pytest.mark.parametrize(("floor", "bounce"), [(1.0, 0.7), (100.0, 0.5), (-0.55, 0.1), (1.0, 1e-9)])
 @pytest.mark.parametrize("integrator", ["rk4", "dop853"])
 def test_impacts_accumulate_on_a_floor_that_is_not_at_zero(integrator, floor, bounce):

@@ -18,7 +18,7 @@ def test_the_search_is_in_the_language_of_emitted_code():
         "take_in",
         "candidate",
         "settle",
-        "hidden",
+        "concealed",
     }
 
 
