@@ -114,3 +114,14 @@ def test_a_crane_and_its_motor():
         assert_allclose(both.efforts[name], 0.5 * torques["boom"], rtol=1e-9)
     assert_allclose(both.efforts["rotor_motor"], torques["rotor"], rtol=1e-9)
     assert_allclose(both.efforts["against"], 0.0, atol=1e-12)
+
+
+@pytest.mark.parametrize("stiffness", [1e2, 1e9])
+def test_what_a_soft_spring_turns_back_does_not_turn_on_beside_a_stiff_one(stiffness):
+    block, rail, spring = beside(stiffness)
+    rotor = {"mass": 1.0, "inertia": 1.0, "position": [0.0, 0.0], "angle": 0.3, "angular_velocity": 2.0}
+    joints = {"pin": rods.pin("ground", "rotor", [0.0, 0.0], "centre"), "rail": rail}
+    soft = {"type": "torsional-spring-damper", "between": ["ground", "rotor"], "stiffness": 1e-3}
+    model = rods.model({"rotor": rotor, "block": block}, joints, forces={"spring": spring, "soft": soft})
+    found = model.steady()
+    assert found.q["pin.angle"] == pytest.approx(0.0, abs=1e-9)
