@@ -368,8 +368,8 @@ def _going_on(
     carried, compiled = tree_code(mechanism, plan.choice, bodies)
     values = parameter_values(mechanism, parameters)
     start = taken_up(compiled, plan, last, values, _made(compiled, plan, values))
-    y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
-    if start is None or w.shape != bodies.scratch().shape:
+    if start is None or last.arrays["body_w"].shape != bodies.scratch().shape:
         return None
+    y, p, w, rank = (last.arrays[name].copy() for name in _BODIES)
     of_bodies = Start(y, p, w, last.rank, bodies.redundant(w), start.notes, t=last.t, work=last.work_before)
     return TreeRun(mechanism, carried, compiled, replace(start, rank=int(rank[0])), bodies, of_bodies, plan.events)

@@ -218,12 +218,12 @@ def _solved(
     efforts = np.einsum("kji,kj->ki", right, parts) / sizes
     ranks = kept.sum(axis=1)
     for k in np.flatnonzero(ranks < len(weighed)):
-        efforts[k] -= _without_effect(right[k][kept[k]], sizes[k], weighed, efforts[k])
+        efforts[k] -= _unfelt(right[k][kept[k]], sizes[k], weighed, efforts[k])
     rest = wanted - np.einsum("kij,kj->ki", effects, efforts)
     return efforts, np.abs(rest).max(axis=1), ranks
 
 
-def _without_effect(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
+def _unfelt(felt: Array, sizes: Array, weighed: Array, efforts: Array) -> Array:
     """Return the part of efforts that does nothing and whose absence leaves the least sum of weighted squares.
 
     Parameters

@@ -140,15 +140,15 @@ def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinki
     lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
     now = balance(subject, y, _all_rows(subject, lam), held)
     left, step, error, size, before = np.inf, 0, np.inf, np.zeros(subject.nv), (y, lam)
-    spans = np.array([subject.length if v.unit == "m/s" else 1.0 for v in subject.compiled.info.velocities])
+    spans = subject.spans
     for step in range(MOST_STEPS):
         # and where joints and forces carry nothing, what each would change by over a thousandth of the mechanism
         size = np.maximum(size, np.maximum(np.abs(now.force).max(initial=1e-300), 1e-3 * np.abs(now.stiffness) @ spans))
         error = _error(subject, now, lam, size)
         good = error < TOLERANCE
-        if good and error >= 0.5 * left:  # a step that balances no more may lead anywhere
-            y, lam = before if error >= left else (y, lam)
         if good and (error >= 0.5 * left or error <= EXACT):
+            # a step that balances no more may lead anywhere
+            y, lam = before if error >= left else (y, lam)
             return y, _all_rows(subject, lam), step
         left, before = error if good else np.inf, (y, lam)
         found = _stepped(subject, y, lam, now, held, size, good, sinking)

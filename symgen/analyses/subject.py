@@ -96,6 +96,11 @@ class Subject:
         return self.compiled.info.nv
 
     @property
+    def spans(self) -> Array:
+        """A way along each velocity that counts as large: the mechanism's length [m], or 1 rad; shape (nv,)."""
+        return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
+
+    @property
     def m(self) -> int:
         """Number of constraint rows."""
         return self.compiled.info.m
@@ -132,10 +137,9 @@ class Subject:
 
     def rows(self, e: Evaluated) -> Array:
         """Return D, with zeros for redundant rows that are nothing but rounding; shape (m, nv)."""
-        d, info = e.by("velocities", "v"), self.compiled.info
-        spans = np.array([self.length if v.unit == "m/s" else 1.0 for v in info.velocities])
-        units = np.array([self.length if row.unit == "m" else 1.0 for row in info.rows])
-        d[self.redundant & (np.linalg.norm(d * spans, axis=1) < NO_ROW * units)] = 0.0
+        d = e.by("velocities", "v")
+        units = np.array([self.length if row.unit == "m" else 1.0 for row in self.compiled.info.rows])
+        d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * units)] = 0.0
         return d
 
     def moved(self, y: Array, change: Array) -> Array:

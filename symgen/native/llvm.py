@@ -17,7 +17,7 @@ from symgen.native.llvm_values import ARRAY, DATA, INTRINSICS, LENGTH, TYPES, Va
 _STRUCT = "{" + ", ".join((*ARRAY[:LENGTH], "[1 x i64]", "[1 x i64]")) + "}"
 
 #: The argument of functions for several runs at once that says how many there are.
-LANES = "lanes"
+COUNT_OF_LANES = "lanes"
 
 
 def module(
@@ -77,7 +77,7 @@ def is_copied(function: lang.Function) -> bool:
 
     That is one which is handed tables of looped code or the number of lanes, and one which is no call.
     """
-    handed_on = any(p.type == "unsigned" or p.name == LANES for p in function.parameters)
+    handed_on = any(p.type == "unsigned" or p.name == COUNT_OF_LANES for p in function.parameters)
     return function.inlined or (handed_on and all(is_copied(f) for f in function.called))
 
 
