@@ -11,7 +11,7 @@ from symgen.analyses.algebra import ROUNDED, split, summed, symmetric
 from symgen.analyses.equilibrium import Equilibrium, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
-from symgen.analyses.sparse import Solver, Sparse, settled, solver, sparse_of
+from symgen.analyses.sparse import Solver, Sparse, settled, solver
 from symgen.errors import AnalysisError, InputError
 from symgen.runtime import abi
 from symgen.runtime.probe import Ready
@@ -39,7 +39,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     Parameters
     ----------
     mechanism, settings
-        As for `symgen.analyses.sparse.sparse_of`.
+        As for `symgen.analyses.sparse.settled`.
     count : int
         How many.
 
@@ -50,8 +50,7 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     AnalysisError
         If no equilibrium is found.
     """
-    sparse = sparse_of(mechanism, settings)
-    y, lam, _ = settled(sparse)
+    sparse, y, lam, _ = settled(mechanism, settings)
     motion, mass, rows, stiffness, damping = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.kept)
     if not 0 < count < free:
@@ -86,8 +85,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     AnalysisError
         If no equilibrium is found.
     """
-    sparse = sparse_of(mechanism, settings)
-    y, lam, steps = settled(sparse)
+    sparse, y, lam, steps = settled(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
     free = sparse.pattern.nv - len(sparse.kept)
     if sparse.pattern.nv <= DENSE or free <= SAID or _follows(stiffness, rows):

@@ -124,21 +124,8 @@ class Sparse:
         return found
 
 
-def sparse_of(mechanism: Mechanism, settings: Settings) -> Sparse:
-    """Return a mechanism's descriptor form at its start, closed or not.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-        The description.
-    settings : Settings
-        ``parameters``, ``inputs`` and ``start`` are looked at; coordinates are those of bodies.
-
-    Raises
-    ------
-    InputError
-        If a setting is wrong.
-    """
+def _at_start(mechanism: Mechanism, settings: Settings) -> Sparse:
+    """Return a mechanism's descriptor form at its start, closed or not."""
     given = given_at_start(mechanism, settings)
     mechanism = given.mechanism
     asked = replace(given.settings, method="lagrange", integrator="radau5", shape="looped", coordinates="absolute")
@@ -154,14 +141,24 @@ def sparse_of(mechanism: Mechanism, settings: Settings) -> Sparse:
     return Sparse(compiled, y, p, w, pattern, kept)
 
 
-def settled(sparse: Sparse) -> tuple[Array, Array, int]:
-    """Return the equilibrium that the start leads to, its multipliers, and the steps taken.
+def settled(mechanism: Mechanism, settings: Settings) -> tuple[Sparse, Array, Array, int]:
+    """Return a descriptor form, the equilibrium that the start leads to, its multipliers, and the steps taken.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        The description.
+    settings : Settings
+        ``parameters``, ``inputs`` and ``start`` are looked at; coordinates are those of bodies.
 
     Raises
     ------
+    InputError
+        If a setting is wrong.
     AnalysisError
-        If none is found.
+        If no equilibrium is found.
     """
+    sparse = _at_start(mechanism, settings)
     y, steps = _closed(sparse)
     motion, _, rows, stiffness, _ = sparse.matrices(y, np.zeros(sparse.pattern.m))
     force, gaps = sparse.forces(y, np.zeros(sparse.pattern.m))
@@ -180,11 +177,11 @@ def settled(sparse: Sparse) -> tuple[Array, Array, int]:
         good = error < 1e3 * TOLERANCE
         if good and (error >= 0.5 * best or error <= EXACT):
             # a step that balances no more may lead anywhere
-            return *(before if error > best else (y, lam)), step
+            return sparse, *(before if error > best else (y, lam)), step
         before, best = (y, lam), min(best, error)
         found = _near(sparse, motion, solver(stiffness, rows), force, gaps)
         if found is None and good:
-            return y, lam, step
+            return sparse, y, lam, step
         if found is None:
             found, shift = _down(sparse, (y, lam), (motion, still, rows, stiffness), (force, gaps), shift or first)
         change, more = found
