@@ -76,14 +76,12 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
     Parameters
     ----------
     mechanism, settings
-        As for `lowest_modes`.
+        As for `symgen.analyses.sparse.settled`.
 
     Raises
     ------
-    InputError
-        If a setting is wrong.
-    AnalysisError
-        If no equilibrium is found.
+    InputError, AnalysisError
+        As by `symgen.analyses.sparse.settled`.
     """
     sparse, y, lam, steps = settled(mechanism, settings)
     _, mass, rows, stiffness, _ = sparse.matrices(y, lam)
