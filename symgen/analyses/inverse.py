@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
+#: What every second time may change of an integral before it is said; an error about three times smaller is left.
+COARSE = 0.03
 
 
 @dataclass(frozen=True, repr=False)
@@ -91,7 +93,8 @@ class Inverse(OfForces, Tables):
     def summary(self) -> dict[str, dict[str, Any]]:
         """Return for each effort what sizes a motor: unit, largest size and its time, root mean square, power, energy.
 
-        Root mean square and energy are integrals over the times by the trapezoidal rule.
+        Root mean square and energy are integrals over the times by the trapezoidal rule; `too_few` says where these are
+        too few for that.
         """
         found, t = dict[str, dict[str, Any]](), self.t
         span = float(t[-1] - t[0]) if len(t) else 0.0
@@ -107,6 +110,24 @@ class Inverse(OfForces, Tables):
                 entry |= {"peak_power": float(np.abs(power).max()), "energy": float(np.trapezoid(power, t))}
             found[name] = entry
         return found
+
+    def too_few(self) -> str:
+        """Return in a sentence that every second time would make other integrals of `summary`, or an empty text."""
+        t = self.t
+        fewer = np.append(np.arange(0, len(t) - 1, 2), len(t) - 1)
+        worst, which = 0.0, ""
+        for i, name in enumerate(self.efforts.names if len(t) > 1 else ()):
+            kinds = {"mean square": self.efforts.values[:, i] ** 2}
+            kinds |= {"energy": self.power[name]} if name in self.power else {}
+            for kind, values in kinds.items():
+                whole, size = np.trapezoid(values, t), np.trapezoid(np.abs(values), t)
+                apart = abs(np.trapezoid(values[fewer], t[fewer]) - whole) / size if size > 0.0 else 0.0
+                if apart > worst:
+                    worst, which = float(apart), f"the {kind} of '{name}'"
+        if worst <= COARSE:
+            return ""
+        said = f"every second of these alone changes {which} by {worst:.0%}"
+        return f"integrals are over {len(t)} times, and {said}: ask for more"
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract of ``symgen inverse --json``; numbers that are not finite become None."""

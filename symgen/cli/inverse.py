@@ -81,6 +81,8 @@ def command(
 
         click.echo(f"{result.mechanism}: efforts at {len(result.t)} times")
         show_summary(result.summary())
+        if few := result.too_few():
+            click.echo(f"symgen: {few}", err=True)
     code = complain(result.ended, FAILURE) if result.ended else OK
     files: dict[Any, Any] = {
         save_path: lambda path: result.save(path, ("efforts", *quantities) if quantities else ()),

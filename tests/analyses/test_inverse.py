@@ -309,3 +309,21 @@ def test_the_command(tmp_path, capsys):
     assert "minimum norm, weighted as asked" in capsys.readouterr().err
     assert main(["inverse", "four-bar"]) == 2
     assert "not driven" in capsys.readouterr().err
+
+
+def test_too_few_times_for_integrals_are_said(linkage, capsys):
+    """Where it is said the energy is off by tenths, and elsewhere by no more than a hundredth of the work exchanged."""
+    fine = linkage.inverse(times=np.linspace(0.0, 0.9, 2001))
+    exchanged = np.trapezoid(np.abs(fine.power["motor"]), fine.t)
+
+    def off(found):
+        return abs(found.summary()["motor"]["energy"] - fine.summary()["motor"]["energy"]) / exchanged
+
+    few, many = (linkage.inverse(times=np.linspace(0.0, 0.9, n)) for n in (5, 101))
+    assert "integrals are over 5 times, and every second of these" in few.too_few() and off(few) > 0.05
+    assert many.too_few() == "" and off(many) < 0.01
+    assert linkage.inverse(times=[0.3]).too_few() == ""
+    assert main(["inverse", "driven-four-bar", "--times", "lin(0,1,5)"]) == 0
+    assert few.too_few()[:30] in capsys.readouterr().err
+    assert main(["inverse", "driven-four-bar", "--times", "lin(0,1,101)"]) == 0
+    assert "integrals" not in capsys.readouterr().err
