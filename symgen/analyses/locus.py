@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,10 @@ Complex = NDArray[np.complex128]
 
 #: Real parts below this fraction of the largest eigenvalue count as zero: they are where nothing decays or grows.
 LEVEL = 1e-9
+#: Spans in which branches pass both ways are parted here, not in the middle, where a crossing may well be, so often.
+PARTED, HALVINGS = 0.3819660112501051, 40
+#: So far beside a crossing, as a part of its span, eigenvalues that pass are told from those that stay on the axis.
+BESIDE = 1e-5
 
 
 @dataclass(frozen=True)
@@ -134,6 +139,7 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
         raise InputError(f"over {name}", "one way of giving it a value", "two")
     parameter_values(asked.mechanism, {name: float(values[0])})
 
+    @cache
     def eigenvalues(value: float) -> Complex:
         changed = replace(settings, parameters={**settings.parameters, name: value})
         return asked_modes(replace(asked, settings=changed), states).eigenvalues
@@ -159,26 +165,80 @@ def _followed(before: Sequence[Complex], now: Complex) -> Complex:
 
 
 def _crossings(values: Array, branches: Complex, eigenvalues: Callable[[float], Complex]) -> tuple[Crossing, ...]:
-    from scipy.optimize import brentq
-
-    level = LEVEL * np.abs(branches).max(initial=1e-300)
-    found = list[Crossing]()
+    """Return where branches pass the imaginary axis, each pair of conjugates once."""
+    search = _Search(eigenvalues, LEVEL * np.abs(branches).max(initial=1e-300))
+    spans = [(k, k + 1) for k in range(len(values) - 1) if search.parted(branches[k], branches[k + 1])]
     for branch in branches.T:
         # a value at which nothing decays or grows may be the one that is passed
-        sided = np.flatnonzero(np.abs(branch.real) > level)
-        for k, following in pairwise(sided):
-            a, b = branch[k], branch[following]
-            if a.real * b.real > 0.0 or a.imag < 0.0:
-                continue
-
-            def nearest(value: float, branch: Complex = branch) -> complex:
-                now = eigenvalues(value)
-                return complex(now[np.abs(now - np.interp(value, values, branch)).argmin()])
-
-            try:
-                at = float(brentq(lambda x: nearest(x).real, values[k], values[following], xtol=1e-13, rtol=1e-14))
-            except ValueError:
-                continue  # branches meet between and were told apart wrongly
-            if abs(nearest(at).real) <= 1e-6 * abs(branches).max():
-                found.append(Crossing(at, nearest(at), bool(b.real > 0.0)))
+        sided = np.flatnonzero(search.sides(branch))
+        spans += [(int(k), int(n)) for k, n in pairwise(sided) if branch[k].real * branch[n].real < 0.0]
+    apart = list[tuple[int, int]]()
+    for k, n in sorted(spans):
+        if apart and k < apart[-1][1]:
+            apart[-1] = apart[-1][0], max(n, apart[-1][1])
+        else:
+            apart.append((k, n))
+    found = [c for k, n in apart for c in search.within(float(values[k]), float(values[n]))]
     return tuple(sorted(found, key=lambda c: c.value))
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The search for values at which eigenvalues pass the imaginary axis.
+
+    In the order of their real parts eigenvalues are continuous functions of the parameter, whichever meet and part on
+    the way: where more of them are on the right at one end of a span than at the other, one of these functions passes
+    zero between. Branches that pass both ways within a span are parted from each other by shorter spans.
+    """
+
+    eigenvalues: Callable[[float], Complex]
+    level: float
+
+    def sides(self, x: Complex) -> NDArray[np.float64]:
+        """Return signs of real parts, 0 of those that are nothing."""
+        return np.where(np.abs(x.real) > self.level, np.sign(x.real), 0.0)
+
+    def parted(self, a: Complex, b: Complex) -> bool:
+        """Whether one side has more at one of two values than at the other while as many are on the axis."""
+        left, right = self.sides(a), self.sides(b)
+        same = np.count_nonzero(left) == np.count_nonzero(right)
+        return same and np.count_nonzero(left > 0.0) != np.count_nonzero(right > 0.0)
+
+    def within(self, a: float, b: float, halvings: int = HALVINGS) -> list[Crossing]:
+        """Return the crossings between two values that branches followed between them show."""
+        before = self.eigenvalues(a)
+        after = _followed([before], self.eigenvalues(b))
+        left, right = self.sides(before), self.sides(after)
+        passing = left * right < 0.0
+        if not (passing.any() or self.parted(before, after)):
+            return []
+        leave = int(min(np.count_nonzero(left == 0.0), np.count_nonzero(right == 0.0)))
+        signs = (np.sign(self.ordered(value, leave).real) for value in (a, b))
+        found = [c for i in np.flatnonzero(np.multiply(*signs) < 0.0) if (c := self.passage(a, b, int(i), leave))]
+        # one of a pair of conjugates does not pass alone: then another eigenvalue passes the other way
+        told = sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > self.level else 1) for c in found)
+        if halvings and (len(set(right[passing])) > 1 or told != np.sum(right > 0.0) - np.sum(left > 0.0)):
+            middle = a + PARTED * (b - a)
+            return self.within(a, middle, halvings - 1) + self.within(middle, b, halvings - 1)
+        return found
+
+    def ordered(self, value: float, leave: int) -> Complex:
+        """Return eigenvalues by decreasing real part without those nearest to the axis, which stay on it."""
+        now = self.eigenvalues(value)
+        moving = now[np.argsort(np.abs(now.real), kind="stable")[leave:]]
+        return moving[np.argsort(-moving.real, kind="stable")]
+
+    def passage(self, a: float, b: float, i: int, leave: int) -> Crossing | None:
+        """Return where an eigenvalue of a place in the order passes, None of the other one of a pair of conjugates."""
+        from scipy.optimize import brentq
+
+        def part(value: float) -> float:
+            return float(self.ordered(value, leave)[i].real)
+
+        at = float(brentq(part, a, b, xtol=1e-13, rtol=1e-14))
+        beside = self.ordered(at + BESIDE * ((b if at < 0.5 * (a + b) else a) - at), leave)[i]
+        now = self.eigenvalues(at)
+        passed = complex(now[np.abs(now - beside).argmin()])
+        if passed.imag < -self.level or not abs(passed.real) <= 1e-6 * self.level / LEVEL:
+            return None
+        return Crossing(at, passed, part(b) > 0.0)
