@@ -154,7 +154,8 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
     inputs = subject.varied
     numbers = [p.name for p in subject.compiled.info.parameters]
     about = {name: x.quantity(name).value for name in names}
-    about |= {name: float(subject.p[numbers.index(name)]) for name in inputs}
+    about |= {name: float(subject.p[numbers.index(name)]) for name in subject.by}
+    about |= subject.values_of_inputs(x.y, x.t)
     for output in subject.mechanism.outputs:
         if output.name not in form.functions:
             left_out.append(output.name)  # an integral

@@ -189,7 +189,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     e = subject.evaluated(y, a, lam, now)
     places = inputs_of(subject)
     for group in ("velocities", "positions"):
-        if np.any(e.by(group, "p")[:, places[: len(subject.mechanism.inputs)]]):
+        if np.any(e.by(group, "p")[:, places[: len(subject.inputs)]]):
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
     free = split(d[subject.holonomic])[0]

@@ -93,6 +93,12 @@ def with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
     """
     known = quantities_of(subject)
     own = {q.name for q in subject.compiled.info.coordinates}
+    # those of bodies have names of their own where a tree carries these; Euler parameters have none
+    speeds = {
+        f"{b.name}.{c}": f"{b.name}.{s}"
+        for b in subject.mechanism.bodies
+        for c, s in zip(b.coordinates[:3], b.speeds, strict=False)
+    }
     found = list(dict.fromkeys(names))
     for name in tuple(found):
         if name in own or (name in subject.form.functions and subject.form.functions[name][1] == 3):
@@ -101,7 +107,7 @@ def with_rates(subject: Subject, names: Sequence[str]) -> tuple[str, ...]:
             if rate is None:
                 expected = "a state whose rate has a name: a coordinate of a body or joint, or an output"
                 raise InputError(f"state '{name}'", expected, "one of several that turn a body together")
-            if rate not in found and not (other in found and other in known):
+            if rate not in found and speeds.get(name) not in found and not (other in found and other in known):
                 found.append(other if other in known and name not in own else rate)
     return tuple(found)
 

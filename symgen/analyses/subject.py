@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
+from symgen.compiling.side import compile_side
 from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
@@ -19,6 +20,7 @@ from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import Given, give_inputs, held_of, ready
 from symgen.runtime import abi
+from symgen.runtime.pieces import pieces_of
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
 
@@ -34,6 +36,8 @@ Array = NDArray[np.float64]
 LARGE = 300
 #: A redundant row below this part of what rows are is the rounding of none, as of a loop that is closed anyway.
 NO_ROW = 1e-11
+#: Jumps of inputs are looked for up to so far behind a time, and are at it as near as this, both parts of it.
+BEYOND, HERE = 1e-9, 1e-13
 #: What a name of a rate ends in.
 RATE = ".rate"
 
@@ -62,6 +66,8 @@ class Subject:
         Whether the start satisfies the constraints.
     by : tuple of str
         Parameters that derivatives are known by beside the inputs.
+    inputs : tuple of str
+        Those of the file: a mechanism in which formulas stand for them has switches as well.
     """
 
     mechanism: Mechanism
@@ -74,11 +80,12 @@ class Subject:
     notes: tuple[str, ...] = ()
     closed: bool = True
     by: tuple[str, ...] = ()
+    inputs: tuple[str, ...] = ()
 
     @property
     def varied(self) -> tuple[str, ...]:
         """Inputs, then the parameters that derivatives are known by."""
-        return (*self.mechanism.inputs, *self.by)
+        return (*self.inputs, *self.by)
 
     @property
     def coordinates(self) -> str:
@@ -150,6 +157,17 @@ class Subject:
             found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
         return found
 
+    def values_of_inputs(self, y: Array, t: float) -> dict[str, float]:
+        """Return what the inputs are at a state: numbers, or what formulas of the state are there."""
+        places = [q.name for q in self.compiled.info.parameters]
+        found = {name: float(self.p[places.index(name)]) for name in self.inputs}
+        if formulas := self.mechanism.given:
+            said = "what formulas of inputs are"
+            side = compile_side(self.mechanism, self.compiled, "given", said, formulas)
+            at = side(t, y, self.p, self.w.copy(), np.zeros_like(y))
+            found |= {name: found[name] + float(x) for (name, _), x in zip(formulas, at, strict=True)}
+        return found
+
     def position(self, name: str) -> tuple[str, int]:
         """Return where a coordinate stands: ``q`` and its index, or ``functions`` and the place of its value.
 
@@ -196,7 +214,7 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
     InputError
         If a setting is wrong.
     """
-    given = given_at_start(mechanism, settings)
+    given, inputs = given_at_start(mechanism, settings), mechanism.inputs
     mechanism, settings = given.mechanism, given.settings
     if settings.shape == "auto":
         size = mechanism.body_coordinates
@@ -218,8 +236,8 @@ def subject_of(mechanism: Mechanism, settings: Settings, by: Sequence[str] = ())
             t, closed = 0.0, False
     p = _at(compiled, p.copy(), given, t)
     names = _parameters(mechanism, by)
-    form = compile_linearised(_as_given(mechanism, settings.parameters), compiled, (*mechanism.inputs, *names))
-    return Subject(mechanism, compiled, form, t, y.copy(), p, w.copy(), notes, closed, names)
+    form = compile_linearised(_as_given(_varied(mechanism, given), settings.parameters), compiled, (*inputs, *names))
+    return Subject(mechanism, compiled, form, t, y.copy(), p, w.copy(), notes, closed, names, inputs)
 
 
 def given_at_start(mechanism: Mechanism, settings: Settings) -> Given:
@@ -227,6 +245,9 @@ def given_at_start(mechanism: Mechanism, settings: Settings) -> Given:
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
         return give_inputs(mechanism, settings)
     found = give_inputs(mechanism, replace(settings, until=begin))
+    if found.driven is not None:  # a run from here on begins behind what jumps here; smooth data may end here
+        values, smooth = parameter_values(found.mechanism, found.settings.parameters), replace(found.driven, curves={})
+        found = replace(found, pieces=pieces_of(smooth, values, begin * (1.0 + BEYOND)))
     return replace(found, settings=replace(found.settings, until=2.0 * begin))  # nothing is run
 
 
@@ -234,10 +255,19 @@ def _at(compiled: CompiledModel, p: Array, given: Given, t: float) -> Array:
     """Return parameters with what inputs that jump are at a time."""
     places = {q.name: i for i, q in enumerate(compiled.info.parameters)}
     for piece in given.pieces[1:]:
-        if piece.begin <= t:
+        if piece.begin <= t * (1.0 + HERE):
             p[[places[name] for name in piece.values]] = list(piece.values.values())
+    p[[places[name] for name, _ in given.mechanism.given]] = 0.0  # see `_varied`
     compiled.prepare(p)
     return p
+
+
+def _varied(mechanism: Mechanism, given: Given) -> Mechanism:
+    """Return a mechanism in which inputs that follow formulas may be other than these by what stands in their slots."""
+    if given.driven is None or not mechanism.given:
+        return mechanism
+    varied = given.driven.varied
+    return replaced(mechanism, forces=varied.forces, outputs=varied.outputs)
 
 
 def _parameters(mechanism: Mechanism, by: Sequence[str]) -> tuple[str, ...]:

@@ -71,6 +71,8 @@ class Driven:
         Of all formulas.
     told : mapping of str to str or float
         Every input of the mechanism in words, or its number.
+    declared : Mechanism
+        With the names of inputs where these are read.
     """
 
     mechanism: Mechanism
@@ -79,6 +81,14 @@ class Driven:
     curves: Mapping[str, Data]
     jumps: tuple[Jump, ...]
     told: Mapping[str, str | float]
+    declared: Mechanism
+
+    @property
+    def varied(self) -> Mechanism:
+        """The mechanism whose inputs are their formulas and data, and what stands in their slots beside these."""
+        beside = {name: call("add", e, Name(name)) for name, e in self.mechanism.given}
+        parts = {part: put(getattr(self.declared, part), beside) for part in _READING}
+        return msgspec.structs.replace(self.mechanism, **parts)
 
 
 def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
@@ -130,11 +140,11 @@ def driven(mechanism: Mechanism, given: Mapping[str, Any]) -> Driven:
     changed = {name: _Switching(known, name, jumps).expression(e) for name, e in formulas.items()}
     switches = tuple(Parameter(j.switch, 0.0, input=True) for j in jumps if j.switch)
     if not changed:
-        return Driven(mechanism, numbers, samples, curves, (), told)
+        return Driven(mechanism, numbers, samples, curves, (), told, mechanism)
     parts = {part: put(getattr(known, part), changed) for part in _READING}
     parameters, put_in = (*known.parameters, *switches), tuple(changed.items())
-    known = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
-    return Driven(known, numbers, samples, curves, tuple(jumps), told)
+    whole = msgspec.structs.replace(known, **parts, parameters=parameters, given=put_in)
+    return Driven(whole, numbers, samples, curves, tuple(jumps), told, known)
 
 
 def put(value: T, formulas: Mapping[str, Expr]) -> T:
