@@ -219,7 +219,7 @@ def kinematics(
     """
     asked = default_times(mechanism) if times is None else checked_times(f"{where}: times", times)
     angles = arguments.words("transmission", transmission)
-    found = make_driven(mechanism, settings, float(asked[-1]), where)
+    found = make_driven(mechanism, settings, float(asked[-1]), where, min(0.0, float(asked[0])))
     require(f"{where}: times", f"{len(asked)} times", 16.0 * len(asked) * (found.compiled.info.ny + 16))
     return _result(found, trace(found, asked), angles)
 

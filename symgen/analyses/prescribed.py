@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.branches import branch_near
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.mechanism import AnyBody, Mechanism, SpatialBody
 from symgen.errors import AssemblyError, InputError
 from symgen.plan import make_plan
 from symgen.run_setup import give_inputs, ready
 from symgen.runtime import abi
+from symgen.runtime.pieces import pieces_of
 from symgen.runtime.probe import Ready
 from symgen.vocabulary.expressions import readings
 from symgen.vocabulary.measures import GROUND, Integral
@@ -94,7 +96,7 @@ def _still(body: AnyBody) -> AnyBody:
     return msgspec.structs.replace(body, velocity=(None, None), angular_velocity=None)
 
 
-def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescribed:
+def make_ready(mechanism: Mechanism, settings: Settings, until: float, first: float = 0.0) -> Prescribed:
     """Return the code and the start of a mechanism, and what holds of its inputs when.
 
     Parameters
@@ -104,8 +106,8 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
     settings : Settings
         Of which ``parameters``, ``inputs``, ``start``, ``shape`` and ``strict`` count. Of several
         ways to close a driven mechanism that nearest to ``start`` is taken.
-    until : float
-        Last time [s]: inputs are known up to it.
+    until, first : float
+        Last time and first one [s]: inputs are known between them, and at the start.
 
     Raises
     ------
@@ -127,10 +129,14 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
         near, words = branch_near(found, plan, given.settings.parameters, asked_start)
         notes = (words,)
     compiled, start = ready(found, plan, given.settings.parameters, settings.strict, near)
-    held, p = list[tuple[float, Array]](), start.p
+    held, p, pieces = list[tuple[float, Array]](), start.p, given.pieces[1:]
     numbers = {q.name: i for i, q in enumerate(compiled.info.parameters)}
-    for piece in given.pieces[1:]:
-        held.append((piece.begin, p))
+    if first < 0.0 and given.driven is not None:  # the start is at 0, others hold before
+        values = parameter_values(given.mechanism, given.settings.parameters)
+        pieces = pieces_of(given.driven, values, end, first)
+    for piece in pieces:
+        if piece.begin > first:
+            held.append((piece.begin, p))
         p = p.copy()
         for name, value in piece.values.items():
             p[numbers[name]] = value
@@ -140,12 +146,12 @@ def make_ready(mechanism: Mechanism, settings: Settings, until: float) -> Prescr
     return Prescribed(found, compiled, start, parameters, tuple(held), p, dict(given.told), (*notes, *start.notes))
 
 
-def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str) -> Prescribed:
+def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: str, first: float = 0.0) -> Prescribed:
     """Return a mechanism whose freedom is all driven, ready to be followed; see `make_ready`.
 
     Parameters
     ----------
-    mechanism, settings, until
+    mechanism, settings, until, first
         As for `make_ready`.
     what : str
         Who asks, for messages.
@@ -160,7 +166,7 @@ def make_driven(mechanism: Mechanism, settings: Settings, until: float, what: st
     """
     drivers = drivers_of(mechanism)
     try:
-        found = make_ready(mechanism, settings, until)
+        found = make_ready(mechanism, settings, until, first)
     except AssemblyError:
         _refuse_excess(mechanism, settings, until, what, drivers)
         raise

@@ -45,8 +45,8 @@ class Piece:
     values: Mapping[str, float]
 
 
-def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tuple[Piece, ...]:
-    """Return the pieces of a run from 0 to `until`, none where nothing jumps.
+def pieces_of(driven: Driven, values: Mapping[str, float], until: float, first: float = 0.0) -> tuple[Piece, ...]:
+    """Return the pieces of a motion from `first` to `until`, none where nothing jumps.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
         What inputs are.
     values : mapping of str to float
         Of all parameters.
-    until : float
-        End of the run [s].
+    until, first : float
+        End of the run, and its begin [s].
 
     Raises
     ------
@@ -64,14 +64,14 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float) -> tupl
     """
     at = values_at(driven.mechanism, values)
     for name, data in driven.curves.items():
-        if data.t[0] > 0.0 or data.t[-1] < until:
+        if data.t[0] > first or data.t[-1] < until:
             got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
-            raise InputError(f"input '{name}'", f"data from 0 to {until:g} s, as curves end where they do", got)
+            raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
     found = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
-        found.update(crossings(partial(at, jump.argument), line_of(jump, values), jump.levels, until))
-    times = [0.0]
+        found.update(crossings(partial(at, jump.argument), line_of(jump, values), jump.levels, until, first))
+    times = [first]
     for t in sorted(found):
         if t - times[-1] > _SAME * until and until - t > _SAME * until:
             times.append(t)
@@ -167,9 +167,13 @@ def merged(pieces: tuple[Piece, ...], kinks: tuple[Piece, ...]) -> tuple[Piece, 
 
 
 def crossings(
-    function: Callable[[float], float], line: tuple[float, float] | None, levels: Sequence[float], until: float
+    function: Callable[[float], float],
+    line: tuple[float, float] | None,
+    levels: Sequence[float],
+    until: float,
+    first: float = 0.0,
 ) -> list[float]:
-    """Return the times from 0 to `until` at which a function passes one of some levels.
+    """Return the times from `first` to `until` at which a function passes one of some levels.
 
     Parameters
     ----------
@@ -179,8 +183,8 @@ def crossings(
         Its value at 0 and its slope where it is a straight line.
     levels : sequence of float
         What it passes.
-    until : float
-        End [s].
+    until, first : float
+        End and begin [s].
 
     Raises
     ------
@@ -189,11 +193,11 @@ def crossings(
     """
     if line is not None:
         value, slope = line
-        return [t for level in levels if slope and 0.0 <= (t := (level - value) / slope) <= until]
-    found, count = list[float](), _FIRST
+        return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
+    found, count, span = list[float](), _FIRST, until - first
     while True:
         # not equidistant, so that what is faster than the looks is seen to be: doubling finds more then
-        times = [until * (i + 0.6 * (_GOLDEN * i % 1.0)) / count for i in range(count)] + [until]
+        times = [first + span * (i + 0.6 * (_GOLDEN * i % 1.0)) / count for i in range(count)] + [until]
         samples, before = [function(t) for t in times], len(found)
         found = [t for level in levels for t in _passed(function, times, samples, level)]
         if count > _FIRST and len(found) == before:

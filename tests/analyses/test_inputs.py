@@ -2,11 +2,13 @@
 
 import tomllib
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
 from symgen.api import Model
 from symgen.describe.validate import validate
+from symgen.errors import InputError
 
 MASS, STIFFNESS = 2.0, 30.0
 #: A block on a spring that an input pushes, the more the further it is, and an output that reads the input.
@@ -70,3 +72,38 @@ def test_inputs_change_beside_what_they_are_given(model, name, coordinates):
     assert_allclose(found.B, [[0.0, 0.0], [(1.0 + x) / MASS, 0.0]], rtol=0.0, atol=1e-9)
     assert_allclose(found.C, [[1.0 + 3.0 * slope, 0.0]], rtol=0.0, atol=1e-9)
     assert_allclose(found.D, [[3.0, 1.0]], rtol=0.0, atol=1e-12)
+
+
+#: The same block, moved by a motor with constant speed: what the motor exerts is what the input does not.
+DRIVEN = (
+    FILE.replace(f"-{STIFFNESS}*block.x + push*(1 + block.x)", "push")
+    + """
+[joints.motor]
+type = "driver"
+joint = "guide"
+value = "0.1*t"
+"""
+)
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        ("1 if t < -0.05 else 3", [1.0, 3.0, 3.0, 3.0]),
+        ("(1 if t < -0.05 else 3) if t < 0.15 else 4", [1.0, 3.0, 3.0, 4.0]),
+        ("sign(sin(10*t + 0.5))", [-1.0, 1.0, 1.0, -1.0]),
+        ({"t": [-1.0, -0.05, 0.2], "u": [1.0, 3.0, 5.0], "interpolation": "hold"}, [1.0, 3.0, 3.0, 5.0]),
+        ({"t": [-0.1, 0.3], "u": [1.0, 5.0]}, [1.0, 2.0, 3.0, 5.0]),
+    ],
+)
+def test_prescribed_motions_before_zero_have_what_inputs_are_then(given, expected):
+    driven = Model(validate(tomllib.loads(DRIVEN), "test"))
+    found = driven.kinematics([-0.1, 0.0, 0.1, 0.3], inputs={"push": given})
+    assert_allclose(found.efforts["motor"], np.negative(expected), rtol=0.0, atol=1e-12)
+
+
+def test_smooth_data_cover_the_times_before_zero():
+    driven = Model(validate(tomllib.loads(DRIVEN), "test"))
+    short = {"t": [0.0, 0.1, 0.2, 0.3], "u": [0.0, 0.1, 0.2, 0.3], "interpolation": "cubic"}
+    with pytest.raises(InputError, match=r"data from -0\.1 to 0\.3 s"):
+        driven.kinematics([-0.1, 0.3], inputs={"push": short})
