@@ -202,7 +202,7 @@ class _Search:
         """Whether one side has more at one of two values than at the other while as many are on the axis."""
         left, right = self.sides(a), self.sides(b)
         same = np.count_nonzero(left) == np.count_nonzero(right)
-        return same and np.count_nonzero(left > 0.0) != np.count_nonzero(right > 0.0)
+        return bool(same and np.count_nonzero(left > 0.0) != np.count_nonzero(right > 0.0))
 
     def within(self, a: float, b: float, halvings: int = HALVINGS) -> list[Crossing]:
         """Return the crossings between two values that branches followed between them show."""
@@ -217,7 +217,9 @@ class _Search:
         found = [c for i in np.flatnonzero(np.multiply(*signs) < 0.0) if (c := self.passage(a, b, int(i), leave))]
         # one of a pair of conjugates does not pass alone: then another eigenvalue passes the other way
         told = sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > self.level else 1) for c in found)
-        if halvings and (len(set(right[passing])) > 1 or told != np.sum(right > 0.0) - np.sum(left > 0.0)):
+        if halvings and (
+            len(set(right[passing])) > 1 or told != np.count_nonzero(right > 0.0) - np.count_nonzero(left > 0.0)
+        ):
             middle = a + PARTED * (b - a)
             return self.within(a, middle, halvings - 1) + self.within(middle, b, halvings - 1)
         return found
