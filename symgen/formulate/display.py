@@ -45,8 +45,8 @@ _EVALUATED: dict[str, Any] = {
 class _Text(StrPrinter):  # type: ignore[misc]  # SymPy is untyped
     """Prints products with a negative number in front as those of the positive one with a sign.
 
-    SymPy takes them for sums where it decides about brackets, and leaves these out round a product below: ``-2*3*x/y*z``
-    would stand for ``-2*3*x/(y*z)``.
+    SymPy takes them for sums where it decides about brackets, and leaves these out round a product below: there would
+    be ``-2*3*x/y*z`` for ``-2*3*x/(y*z)``.
     """
 
     def _print_Mul(self, expr: Any) -> str:
