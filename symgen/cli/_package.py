@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from symgen.describe.events import RESET, STOP
 from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
@@ -187,5 +188,13 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states."
             " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
+            *_events(model),
         ]
     )
+
+
+def _events(model: Model) -> list[str]:
+    """Return what events of the mechanism would do that nothing here looks for."""
+    does = {STOP: "ends runs", RESET: "changes velocities"}
+    found = [f"`{e.name}` {does[e.action]}" for e in model.mechanism.events if e.action in does]
+    return [f"Nothing here looks for events, as `symgen run` does: {', '.join(found)}.", ""] if found else []

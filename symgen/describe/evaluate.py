@@ -86,6 +86,12 @@ def parameter_values(mechanism: Mechanism, changed: Mapping[str, float] | None =
     return values
 
 
+def said(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
+    """Return of all parameter values those that the others follow from: of formulas only the ones that are set."""
+    following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
+    return {name: value for name, value in values.items() if name not in following}
+
+
 def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:
     table = table_of(expression.function)
     if table is not None:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
+from sympy.printing.str import StrPrinter
 
 from symgen.formulate.equations import Equations
 from symgen.formulate.translate import table_function
@@ -39,6 +40,25 @@ _EVALUATED: dict[str, Any] = {
     "abs": sp.Abs,
     **{name: getattr(sp, name) for name in ELEMENTARY},
 }
+
+
+class _Text(StrPrinter):  # type: ignore[misc]  # SymPy is untyped
+    """Prints products with a negative number in front as those of the positive one with a sign.
+
+    SymPy takes them for sums where it decides about brackets, and leaves these out round a product below: there would
+    be ``-2*3*x/y*z`` for ``-2*3*x/(y*z)``.
+    """
+
+    def _print_Mul(self, expr: Any) -> str:
+        first, *others = expr.args
+        if first.is_Number and first.is_negative and any(map(_is_literal, others)):
+            return f"-{super()._print_Mul(sp.Mul(-first, *others, evaluate=False))}"
+        return str(super()._print_Mul(expr))
+
+
+def _is_literal(part: Any) -> bool:
+    """Whether a factor is a number, or a power of whole ones, that SymPy leaves as it is in products."""
+    return bool(part.is_Number or (part.is_Pow and all(x.is_Integer for x in part.args)))
 
 
 class Display:
@@ -101,7 +121,7 @@ class Display:
         count = self.graph.tree_operations([node])
         if count > LONGEST:
             return f"<{count} operations>"
-        return str(sp.sstr(self.expression(node), full_prec=False, order="none"))
+        return str(_Text({"full_prec": False, "order": "none"}).doprint(self.expression(node)))
 
     def latex(self, node: int) -> str:
         """Return a node as LaTeX."""
@@ -123,7 +143,7 @@ class Display:
             return self.symbols[payload]  # type: ignore[index]  # an input's payload is its key
         values = [self._memo[a] for a in args]
         if op == "table":
-            return (table_function if self.evaluated else sp.Function)(str(payload))(*values)
+            return table_function(str(payload))(*values)
         if op == "where":
             return sp.Piecewise((values[1], self._condition(args[0])), (values[2], True), evaluate=False)
         if op in _RELATIONS or op in ("and", "or", "not", "step", "defined"):
@@ -202,7 +222,8 @@ def latex_name(name: str) -> str:
     if found:
         letter = r"\omega" if found[1] == "w" else found[1]
         return rf"{letter}_{{{found[2]},{index}}}"
-    return rf"{quantity}_{{{index}}}"
+    letter = quantity if len(quantity) == 1 else rf"\mathrm{{{_upright(quantity)}}}"
+    return rf"{letter}_{{{index}}}"
 
 
 def _upright(name: str) -> str:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from symgen.compiling.checked import checked
 from symgen.describe.derived import derived
+from symgen.describe.evaluate import said
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.drawing.scene import Array
@@ -52,7 +53,12 @@ class Live:
 
 
 def live_part(
-    mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, begun: Array | None = None
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    step: float,
+    begun: Array | None = None,
+    still: Collection[str] = (),
 ) -> tuple[Live | None, str]:
     """Return the live part of a page, or None and why there is none.
 
@@ -68,6 +74,8 @@ def live_part(
         Of the Runge-Kutta method [s].
     begun : Array, shape (nq + nv,), optional
         Coordinates and velocities of bodies that the motion was begun with, where these are not the described ones.
+    still : collection of str
+        Parameters that keep their values: pages have no slider for them, nor for inputs that are formulas.
     """
     spatial, law = mechanism.space == "spatial", compiled.law
     if compiled.shape != "straight":
@@ -90,7 +98,10 @@ def live_part(
         script = _script(mechanism, joint, told)
     except NotInPages:
         return None, f"{NONE}: a formula of the start is not one that pages know"
-    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told)), ""
+    if told is not None:
+        start = replace(start, y=np.concatenate([told, start.y[len(told) :]]))
+    kept = {*still, *dict(mechanism.given)}
+    return Live(f"{HELPERS}{code}\n{script}", _spec(mechanism, compiled, start, step, joint, told, kept)), ""
 
 
 def rates_parts(compiled: CompiledModel, start: Start) -> tuple[list[Live], str]:
@@ -183,9 +194,16 @@ def _rates_spec(compiled: CompiledModel, start: Start) -> dict[str, Any]:
 
 
 def _spec(
-    mechanism: Mechanism, compiled: CompiledModel, start: Start, step: float, joint: bool, begun: Array | None
+    mechanism: Mechanism,
+    compiled: CompiledModel,
+    start: Start,
+    step: float,
+    joint: bool,
+    begun: Array | None,
+    kept: Collection[str],
 ) -> dict[str, Any]:
     info, rates = compiled.info, _rates_spec(compiled, start)
+    own = said(mechanism, {p["name"]: p["value"] for p in rates["parameters"]})
     sections = {
         name: info.sections[name][0] for name in ("jacobian", "residual", "nu", "change", "gauge", "mass", "pivot")
     }
@@ -207,10 +225,11 @@ def _spec(
         "at": sections,
         "status": {"length": abi.LENGTH, "first": abi.WINDING},
         "parameters": [
-            {**told, "follows": bool(own.formula)}
+            {**told, "follows": bool(own.formula), **({"still": True} if own.name in kept else {})}
             for told, own in zip(rates["parameters"], mechanism.parameters, strict=False)
         ],
         "state": [q.name for q in (*info.coordinates, *info.velocities)],
+        "set": [i for i, p in enumerate(mechanism.parameters) if p.formula is not None and p.name in own],
         "fixed": [] if joint or begun is not None else _fixed(mechanism, compiled),
         "step": step,
     }

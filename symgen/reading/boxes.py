@@ -174,9 +174,9 @@ class _Notation:
         return self.others[box.kind](box) if form is None else form % tuple(map(self.part, box.parts))
 
 
-def _bare(box: Box) -> bool:
-    """Whether the argument of a function needs no bracket."""
-    return box.text in ("sin", "cos", "tan") and box.parts[0].kind == "name"
+def bare(box: Box) -> bool:
+    """Whether a box is a function whose argument needs no bracket; a power of it would be read as one of that."""
+    return box.kind == "call" and box.text in ("sin", "cos", "tan") and box.parts[0].kind == "name"
 
 
 def _pairs(box: Box) -> list[tuple[Box, Box | None]]:
@@ -220,7 +220,7 @@ def _tex_call(box: Box) -> str:
     if box.text in _TEX_AROUND:
         return _TEX_AROUND[box.text] % inside
     head = f"\\{box.text}" if box.text in _TEX_FUNCTIONS else rf"\operatorname{{{escaped(box.text)}}}"
-    return rf"{head} {inside}" if _bare(box) else rf"{head}\left( {inside} \right)"
+    return rf"{head} {inside}" if bare(box) else rf"{head}\left( {inside} \right)"
 
 
 def _tex_cases(box: Box) -> str:
@@ -284,7 +284,7 @@ def _mathml_call(box: Box) -> str:
     inside = "<mo>,</mo>".join(map(mathml, box.parts))
     if box.text in _AROUND:
         return _AROUND[box.text] % inside
-    return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if _bare(box) else _BRACKET % inside)
+    return f"<mi>{escape(box.text)}</mi><mo>&#8289;</mo>" + (inside if bare(box) else _BRACKET % inside)
 
 
 def _mathml_number(box: Box) -> str:

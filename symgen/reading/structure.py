@@ -31,7 +31,8 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     -------
     dict
         In the plane ``BODY.c`` and ``BODY.s``, cosine and sine of its angle; in space ``BODY.a00`` to ``BODY.a22``,
-        its rotation matrix; where joints carry the bodies also their places and velocities, such as ``BODY.x``.
+        its rotation matrix; where joints carry the bodies also their places and velocities, such as ``BODY.x``, but
+        for those that are coordinates and velocities of the state: of free bodies.
     """
     model = Model(without_repeats(mechanism)[0])
     slots = SPATIAL_SLOTS if model.spatial else FRAME_SLOTS
@@ -40,8 +41,13 @@ def structure(mechanism: Mechanism, equations: Equations) -> dict[int, str]:
     inputs = {key: equations.graph.input(*key) for key in _inputs(model.graph, nodes)}
     found = equations.graph.copy().inline(model.graph, nodes, inputs)
     names: dict[int, str] = {}
+    state = {quantity.name for quantity in (*equations.coordinates, *equations.velocities)}
     for (body, slot), node in zip(named, found, strict=True):
-        known = node < len(equations.graph.nodes) and equations.graph.nodes[node].op not in _LEAVES
+        known = (
+            f"{body}.{slot}" not in state
+            and node < len(equations.graph.nodes)
+            and equations.graph.nodes[node].op not in _LEAVES
+        )
         if known and not _turned(equations.graph, node):
             names.setdefault(node, f"{body}.{slot}")
     return names

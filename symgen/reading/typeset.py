@@ -15,6 +15,7 @@ from symgen.reading.boxes import (
     Box,
     apart,
     atoms,
+    bare,
     bracket,
     call,
     cases,
@@ -233,7 +234,7 @@ def _whole(terms: Sum) -> Box:
     """Return a sum as the base of a power."""
     simple = len(terms) == 1 and not terms[0].negative and not terms[0].below and len(terms[0].factors) == 1
     box = as_box(terms)
-    return box if simple and box.kind in ("name", "bracket", "call") else bracket(box)
+    return box if simple and box.kind in ("name", "bracket", "call") and not bare(box) else bracket(box)
 
 
 def _square(terms: Sum) -> Term:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symgen.describe.evaluate import parameter_values
+from symgen.describe.evaluate import parameter_values, said
+from symgen.describe.events import RECORD, STOP
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from symgen.describe.mechanism import Mechanism
+    from symgen.plan import Plan
     from symgen.result.result import Result
+    from symgen.runtime.assembly import Start
 
 
 def view(result: Result, beside: Result | None = None, live: bool = True) -> Page:
@@ -132,30 +135,76 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
 
 
 def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
-    """Return the live part of a page of a result: with its coordinates, its start and its parameters."""
-    return _live_of(recording.mechanism, dict(result.parameters), result.coordinates, result.step, result.start)
+    """Return the live part of a page of a result: with its coordinates, its start, its parameters and its inputs."""
+    mechanism, given = recording.mechanism, dict(recording.mechanism.given)
+    held = [name for name, x in result.inputs.items() if isinstance(x, str) and name not in given]
+    if held or not set(mechanism.inputs) <= set(result.inputs):  # of inputs that jump the code knows one value
+        return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
+    numbers = {name: x for name, x in result.inputs.items() if not isinstance(x, str)}
+    actions = [(event.name, event.action) for event in result.events]
+    return _live_of(mechanism, {**result.parameters, **numbers}, result.coordinates, result.step, result.start, actions)
 
 
 def _live_of(
-    mechanism: Mechanism, parameters: dict[str, float], coordinates: str, step: float | None, begun: Mapping[str, Any]
+    mechanism: Mechanism,
+    parameters: dict[str, float],
+    coordinates: str,
+    step: float | None,
+    begun: Mapping[str, Any],
+    happened: Sequence[tuple[str, str]],
 ) -> tuple[Live | None, str]:
     from symgen.plan import make_plan
     from symgen.run_setup import ready
     from symgen.settings import Settings
-    from symgen.tree_run import tree_run
 
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
-    step = step or mechanism.defaults.step
+    for name, action in (*((event.name, event.action) for event in mechanism.events), *happened):
+        if action != RECORD:
+            does = "ends runs" if action == STOP else "changes velocities"
+            return None, f"{NONE}: the event '{name}' {does}, and pages do not look for events"
+    parameters, step = said(mechanism, parameter_values(mechanism, parameters)), step or mechanism.defaults.step
     plan = make_plan(mechanism, Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step))
+    told = {**begun["q"], **begun["v"]}
+    names = [f"{b.name}.{c}" for b in mechanism.bodies for c in b.coordinates]
+    names += [f"{b.name}.{c}" for b in mechanism.bodies for c in b.speeds]
+    known = np.array([told[n] for n in names]) if set(names) <= set(told) else None
     if coordinates == "joint":
-        tree = tree_run(mechanism, plan, parameters)
-        return live_part(mechanism, tree.compiled, tree.start, step)
+        return _live_on_tree(mechanism, plan, parameters, step, known)
     compiled, start = ready(mechanism, plan, parameters)
-    names = [x.name for x in (*compiled.info.coordinates, *compiled.info.velocities)]
-    known = {**begun["q"], **begun["v"]}
-    whole = set(names) <= set(known)
-    return live_part(mechanism, compiled, start, step, np.array([known[n] for n in names]) if whole else None)
+    return live_part(mechanism, compiled, start, step, known)
+
+
+def _live_on_tree(
+    mechanism: Mechanism, plan: Plan, parameters: Mapping[str, float], step: float, begun: Array | None
+) -> tuple[Live | None, str]:
+    """Return the live part in joint coordinates, which cannot close bodies: without sliders that move their start."""
+    from symgen.run_setup import ready
+    from symgen.tree_run import begin_on_tree, tree_code
+
+    bodies, start = ready(mechanism, plan, parameters)
+    carried = tree_code(mechanism, plan.choice, bodies)
+
+    def begins(at: Start) -> Start:
+        return begin_on_tree(mechanism, *carried, bodies, at, plan.method_parameters).start
+
+    described, values, moving = begins(start).y, parameter_values(mechanism, parameters), list[str]()
+    for name, x in values.items():
+        try:
+            other = begins(ready(mechanism, plan, {**parameters, name: 1.01 * x if x else 0.01})[1])
+        except (AssemblyError, InputError):
+            moving.append(name)
+            continue
+        y = described.copy()  # which pages correct
+        carried[1].law_module.accept(other.t, y, other.p, other.w.copy(), np.zeros(16, dtype=np.int64))
+        if np.abs(y - other.y).max() > 1e-7 * np.abs(y).max(initial=1.0):
+            moving.append(name)
+    if begun is not None:
+        start = replace(start, y=np.concatenate([begun, start.y[len(begun) :]]))
+    live, note = live_part(mechanism, carried[1], begins(start), step, still=moving)
+    if live is not None and moving:
+        note = f"no sliders for {', '.join(moving)}: they move the start, which pages close in coordinates of bodies"
+    return live, note
 
 
 def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None = None, live: bool = True) -> Page:
@@ -192,8 +241,9 @@ def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live |
     known = {p.name for p in mechanism.parameters}
     values = {k: float(v) for k, v in {**run.get("parameters", {}), **inputs}.items() if k in known}
     begun = run.get("start", {"t": 0.0, "q": {}, "v": {}})
+    happened = [(e["name"], e["action"]) for e in run.get("events", [])]
     try:
-        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun)
+        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun, happened)
     except AssemblyError as error:
         return None, f"{NONE}: {' '.join(str(error).split())}"
 

@@ -258,6 +258,20 @@ def test_a_slider_does_what_set_does(
     assert worst <= 1e-9
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_a_page_begins_with_what_its_run_had(coordinates: str, chromium: Chromium, tmp_path: Path) -> None:
+    """A number in place of a formula, and another start: the page's own motion is the run's."""
+    kind: dict[str, object] = {"integrator": "rk4", "step": 1e-5, "until": 1e-4, "coordinates": coordinates}
+    changed: dict[str, dict[str, float]] = {"parameters": {"throw": 0.03}, "start": {"crank.theta": 1.0}}
+    result = load("engine").simulate(**changed, **kind)  # type: ignore[arg-type]
+    chromium.open(result.view().save(tmp_path / "page.html"))
+    found = np.array(chromium.run("window.symgen.run({}, 1e-4, 1e-5)"))
+    names = chromium.run("window.symgen.state")
+    expected = {n: x for table in (result.q, result.v) for n, x in zip(table.names, table.values[-1], strict=True)}
+    compared = [(i, expected[n]) for i, n in enumerate(names) if n in expected]
+    assert compared and [found[i] for i, _ in compared] == pytest.approx([x for _, x in compared], rel=1e-9, abs=1e-9)
+
+
 def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], tmp_path: Path) -> None:
     path = page_of("slider-crank", pages, tmp_path)
     chromium.open(path)
@@ -279,6 +293,27 @@ def test_sliders_and_keys_of_a_page(chromium: Chromium, pages: dict[str, Path], 
     chromium.run("document.querySelector('#live button').click()")
     chromium.frame()
     assert chromium.said == []
+
+
+def test_dragging_moves_a_picture_in_the_plane(chromium: Chromium, pages: dict[str, Path], tmp_path: Path) -> None:
+    """By as much as the pointer goes: what was drawn there before is drawn so many pixels further."""
+    lines = """(() => { const of = CanvasRenderingContext2D.prototype, { moveTo } = of, found = [];
+      of.moveTo = function (x, y) {
+        if (this.canvas.id === 'view') found.push([x, y]);
+        return moveTo.call(this, x, y);
+      };
+      window.symgen.frame(0); of.moveTo = moveTo; return found; })()"""
+    drag = """(() => { const view = document.getElementById('view');
+      view.setPointerCapture = () => {};
+      for (const [kind, x, y] of [['pointerdown', 100, 100], ['pointermove', 130, 80], ['pointerup', 130, 80]])
+        view.dispatchEvent(new PointerEvent(kind, { pointerId: 1, clientX: x, clientY: y })); })()"""
+    chromium.open(page_of("slider-crank", pages, tmp_path))
+    before = np.array(chromium.run(lines))
+    chromium.run(drag)
+    np.testing.assert_allclose(
+        np.array(chromium.run(lines)) - before, np.tile([30.0, -20.0], (len(before), 1)), atol=1e-6
+    )
+    assert len(before) > 0 and chromium.said == []
 
 
 def busy(chromium: Chromium) -> float:

@@ -49,6 +49,42 @@ def test_long_expressions_are_counted_instead(equations, monkeypatch):
     assert r"\mathrm{operations}" in display.latex(equations.kinetic)
 
 
+def formulas(*components, **sections):
+    """A point on which a force with these components acts."""
+    raw = {
+        "mechanism": {"name": "pushed"},
+        "parameters": {"k": 0.3, "c": 1.7},
+        "bodies": {"a": {"type": "point", "mass": 1.0}},
+        "forces": {"f": {"type": "force", "body": "a", "at": "centre", "force": list(components)}},
+        **sections,
+    }
+    e = formulate(validate(raw, "test"))
+    return e, [Display(e).text(node) for node in e.forces]
+
+
+@pytest.mark.parametrize("text", ["0.25*(-2*k*3*a.x)/(a.y*(c - a.vx))", "-7*3*k*c/(k*a.x*a.y)/3"])
+def test_text_means_what_the_formula_says(text):
+    """Read by Python: under a negative product a denominator of several factors keeps its brackets."""
+    _, (shown, _) = formulas(text, 0.0)
+    numbers = {"a.x": 0.7, "a.y": -1.3, "a.vx": 0.4, "k": 0.3, "c": 1.7}
+
+    def worth(formula):
+        for name, x in numbers.items():
+            formula = formula.replace(name, f"({x!r})") if "." in name else formula
+        return eval(formula, {"k": 0.3, "c": 1.7})
+
+    assert worth(shown) == pytest.approx(worth(text), rel=1e-12)
+
+
+def test_interpolated_functions_have_names_that_can_be_read():
+    e = formulate(symgen.load("cam-follower").mechanism)
+    (row,) = (row for row in e.rows if row.name == "cam.driver")
+    shown = [Display(e).text(node) for node in (row.phi, row.nu, row.gamma)]
+    assert shown == ["follower.y - table_lift(t*speed)", "speed*slope_lift(t*speed)", "speed**2*second_lift(t*speed)"]
+    _, shown = formulas("line(a.x)", 0.0, tables={"line": {"x": [0.0, 1.0], "y": [0.0, 2.0]}})
+    assert shown[0] == "table_line(a.x)"
+
+
 @pytest.mark.parametrize(
     ("name", "latex"),
     [
@@ -58,6 +94,7 @@ def test_long_expressions_are_counted_instead(equations, monkeypatch):
         ("crank.vx", r"v_{x,\mathrm{crank}}"),
         ("rod.wz", r"\omega_{z,\mathrm{rod}}"),
         ("rod.e0", r"e_{0,\mathrm{rod}}"),
+        ("P_0.angle", r"\mathrm{angle}_{\mathrm{P\_0}}"),
         ("crank_mass", r"\mathrm{crank\_mass}"),
     ],
 )

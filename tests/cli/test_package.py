@@ -95,6 +95,17 @@ def test_a_package_says_what_it_is(tmp_path, capsys):
     assert {path.name: path.read_bytes() for path in folder.iterdir()} == first
 
 
+def test_a_package_says_that_it_looks_for_no_events(tmp_path):
+    path = tmp_path / "ball.toml"
+    path.write_text(
+        '[mechanism]\nname = "ball"\ngravity = [0, -9.81]\n[bodies.a]\ntype = "point"\nmass = 1.0\n'
+        '[events.floor]\nwhen = "a.y < -1"\nreset = { "a.vy" = "-a.vy" }\n[events.seen]\nwhen = "a.y < -0.5"\n'
+    )
+    assert main(["generate", str(path), "--method", "lagrange", "-o", str(tmp_path / "emitted")]) == 0
+    said = (tmp_path / "emitted" / "README.md").read_text()
+    assert "Nothing here looks for events, as `symgen run` does: `floor` changes velocities.\n" in said
+
+
 def test_what_does_not_close_is_generated_without_a_start(tmp_path):
     path = tmp_path / "open.toml"
     path.write_text(

@@ -16,6 +16,7 @@ import pytest
 from symgen.analyses.shown import mode_recording
 from symgen.api import load
 from symgen.cli import main
+from symgen.describe.validate import validate
 from symgen.errors import InputError
 from symgen.player.recording import shorts
 
@@ -110,6 +111,87 @@ def test_the_live_part_of_a_file_is_that_of_its_run(tmp_path: Path, result: Any)
     told = f"q: [{', '.join(begun[:9])}], v: [{', '.join(begun[9:])}]"
     assert other.start["q"]["crank.theta"] == 1.0
     assert all(told in page.html for page in (of_file, of_result)) and "q: [a" in result.view().html
+
+
+def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
+    from symgen.result.viewed import view_file
+
+    pushed = {
+        "mechanism": {"name": "pushed"},
+        "inputs": {"push": 0.0},
+        "bodies": {"a": {"type": "point", "mass": 2.0}},
+        "forces": {"f": {"type": "force", "body": "a", "at": "centre", "force": ["push", 0.0]}},
+    }
+    model = load(validate(pushed, "test"))
+
+    def page(push: Any) -> Any:
+        return model.simulate(until=0.1, step=0.05, integrator="rk4", shape="straight", inputs={"push": push})
+
+    run = page(5.0)
+    run.save(tmp_path / "a.nc")
+    lives = [data_of(p.html)["live"] for p in (run.view(), view_file("view", tmp_path / "a.nc", model.mechanism))]
+    assert [[p["value"] for p in live["parameters"]] for live in lives] == [[5.0], [5.0]]
+    assert [live["p0"][0] for live in lives] == [5.0, 5.0]
+    # a formula is part of the code, and its input has no slider; what jumps is not
+    (smooth,) = data_of(page("3*sin(t)").view().html)["live"]["parameters"]
+    assert smooth["still"] is True and "sine(t)" in page("3*sin(t)").view().html
+    for jumping in ("3 if t < 0.05 else 5", {"t": [0.0, 0.05], "u": [1.0, 2.0], "interpolation": "hold"}):
+        found = page(jumping).view()
+        assert not found.live and "gave its inputs jumps" in data_of(found.html)["note"]
+
+
+@pytest.mark.parametrize(
+    ("event", "does"),
+    [
+        ({"when": "a.y < -0.01", "reset": {"a.vy": "-a.vy"}}, "changes velocities"),
+        ({"when": "a.y < -9.0", "action": "stop"}, "ends runs"),
+        ({"when": "a.y < -0.01"}, None),
+    ],
+)
+@pytest.mark.parametrize("asked", [False, True])
+def test_the_live_part_looks_for_no_events(event: dict[str, Any], does: str | None, asked: bool) -> None:
+    raw = {
+        "mechanism": {"name": "ball", "gravity": [0.0, -9.81]},
+        "bodies": {"a": {"type": "point", "mass": 2.0}},
+    }
+    where = {"events": {"floor": event}}
+    if asked and does == "ends runs":
+        where["events"]["floor"]["when"] = "a.y < -0.01"  # known of a run where it has happened
+    model, settings = load(validate(raw if asked else raw | where, "test")), where if asked else {}
+    found = model.simulate(until=0.1, step=0.01, integrator="rk4", shape="straight", **settings).view()
+    assert found.live == (does is None)
+    assert does is None or f"the event 'floor' {does}" in data_of(found.html)["note"]
+
+
+def test_the_live_part_in_joint_coordinates_begins_where_the_run_began() -> None:
+    run = load("slider-crank").simulate(until=0.01, coordinates="joint", start={"crank.theta": 1.0})
+    live = data_of(run.view().html)["live"]
+    state = dict(zip(live["state"], live["y0"], strict=False))
+    assert state["crank.theta"] == 1.0
+    for name in ("rod.theta", "crank.omega", "rod.omega"):
+        assert state[name] == pytest.approx({**run.start["q"], **run.start["v"]}[name], abs=1e-12)
+
+
+def test_formulas_that_the_run_had_numbers_for_keep_these() -> None:
+    raw = {
+        "mechanism": {"name": "ball"},
+        "parameters": {"m": 2.0, "twice": {"value": "2*m"}, "further": {"value": "twice + 1"}},
+        "bodies": {"a": {"type": "point", "mass": "further"}},
+    }
+    run = load(validate(raw, "test")).simulate(until=0.1, shape="straight", parameters={"twice": 7.0})
+    live = data_of(run.view().html)["live"]
+    assert live["p0"][:3] == [2.0, 7.0, 8.0] and live["set"] == [1]
+    assert data_of(load(validate(raw, "test")).simulate(until=0.1, shape="straight").view().html)["live"]["set"] == []
+
+
+def test_pages_in_joint_coordinates_have_no_sliders_that_move_the_start() -> None:
+    """The lean of a pole says where it is described; pages begin with the joints' coordinates as they were."""
+    run = load("cart-pole").simulate(until=0.01, coordinates="joint")
+    data = data_of(run.view().html)
+    assert [p["name"] for p in data["live"]["parameters"] if p.get("still")] == ["lean"]
+    assert data["note"].startswith("no sliders for lean:")
+    absolute = data_of(load("cart-pole").simulate(until=0.01, shape="straight").view().html)
+    assert not any(p.get("still") for p in absolute["live"]["parameters"]) and absolute["note"] == ""
 
 
 def test_a_large_mechanism_has_coarse_coordinates_before_it_loses_forces() -> None:

@@ -120,6 +120,16 @@ def test_drivers_without_rows_are_said_and_numbers_stay_apart(capsys):
     assert r"2.5 \cdot 9.81 \sin" in text
 
 
+def test_a_power_of_a_sine_is_none_of_its_angle():
+    """Braces are not seen on paper: sin of a name and an exponent behind that would be the sine of the power."""
+    force = {"type": "force", "body": "a", "at": "centre", "force": ["3*sin(a.theta)**2", "tan(2*a.theta)**2"]}
+    raw = {"mechanism": {"name": "m"}, "bodies": {"a": {"mass": 1.0, "inertia": 1.0}}, "forces": {"f": force}}
+    mechanism = validate(raw, "test")
+    text = whole_document(mechanism, formulate(mechanism), law("lagrange"), {}, ["f"])
+    assert r"3 {\left( \sin \theta_{\mathrm{a}} \right)}^{2}" in text
+    assert r"{\tan\left( 2 \theta_{\mathrm{a}} \right)}^{2}" in text
+
+
 def test_nonholonomic_rows_are_said(capsys):
     assert re.search(r"Nonholonomic.*contact", document(capsys, "rolling-disc", "--select", "nu"))
     assert "Nonholonomic" not in document(capsys, "four-bar", "--select", "nu")

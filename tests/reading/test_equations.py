@@ -81,6 +81,27 @@ def test_numbers_of_the_whole_catalogue(name, coordinates):
     agrees(on_tree(mechanism) if coordinates == "joint" else mechanism)
 
 
+def test_shared_terms_of_a_free_body_are_not_called_as_its_velocities_are():
+    """A ball that nothing carries hangs on a rod of a pendulum: its velocities are of the state."""
+    inertia = [0.1, 0.1, 0.1]
+    raw = {
+        "mechanism": {"name": "beside", "space": "spatial", "gravity": [0.0, 0.0, -9.81]},
+        "bodies": {
+            "bob": {"mass": 1.0, "inertia": inertia, "position": [2.0, 0.0, 0.0], "points": {"top": [0.0, 0.0, 1.0]}},
+            "ball": {"mass": 1.0, "inertia": inertia},
+        },
+        "joints": {
+            "hinge": {"type": "spherical", "between": ["ground", "bob"], "at": [[2.0, 0.0, 1.0], "top"]},
+            "rod": {"type": "distance", "between": ["bob", "ball"], "at": ["centre", [0.3, 0.0, 0.0]], "length": 1.7},
+        },
+    }
+    mechanism = on_tree(mechanism_of(raw))
+    equations = SymbolicEquations(mechanism)
+    of_state = {*equations.q, *equations.v, *equations.parameters}
+    assert "ball.vx" in of_state and not of_state & {s.name for s in equations.shared().definitions}
+    agrees(mechanism)
+
+
 def differentiated(equations, expression):
     """d/dt of an expression of t and q along q' = N v."""
     rates = equations.N * sp.Matrix(list(equations.v.values()))

@@ -291,6 +291,7 @@ function sliders() {
   box.append(head, list);
   const inputs = [];
   data.live.parameters.forEach((parameter, i) => {
+    if (parameter.still) return;
     const row = document.createElement("label"), name = document.createElement("span"), input = document.createElement("input"), out = document.createElement("output");
     row.className = "slider";
     name.textContent = name.title = parameter.name;
@@ -390,8 +391,7 @@ drag($("view"), (e, dx, dy, pinch) => {
     camera.turn += 0.01 * dx;
     camera.tilt = Math.min(Math.max(camera.tilt + 0.01 * dy, -1.57), 1.57);
   } else {
-    camera.x -= dx / camera.scale;
-    camera.y += dy / camera.scale;
+    view.pan(-dx / camera.scale, dy / camera.scale);
   }
   wanted = true;
 });
@@ -439,6 +439,7 @@ window.symgen = {
   rates: live ? live.rates : null,
   // The state at the end of a run with parameters by name, by steps of the classical Runge-Kutta method.
   run(values = {}, until = motions[0].end, step = data.live.step) {
+    for (const x of data.live.parameters) if (x.still && x.name in values) throw new Error(`${x.name} keeps its value in this page`);
     live.setParameters(Object.entries(values).map(([name, x]) => [this.parameters.indexOf(name), x]));
     const y = live.start(), count = Math.round(until / step);
     if (y) for (let k = 0; k < count; k++) live.step(k * step, y, step);

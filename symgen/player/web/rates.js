@@ -5,7 +5,7 @@ function makeRates(spec, code) {
   const p = Float64Array.from(spec.p0);
   const w = new Float64Array(spec.nw);
   const iw = new Float64Array(16);
-  const given = new Set();
+  const given = new Set(spec.set); // formulas that the run had numbers for
 
   function scratch() {
     w.fill(0);
@@ -58,6 +58,7 @@ function makeRates(spec, code) {
 
   function reset() {
     given.clear();
+    for (const i of spec.set || []) given.add(i);
     p.set(spec.p0);
     scratch();
     prepare();
