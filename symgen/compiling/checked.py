@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from symgen.native.language import Function
 from symgen.native.library import kinds_of
+from symgen.native.read import Foreign
 from symgen.runtime import abi
 from symgen.runtime.ensemble_abi import PREPARE
 
@@ -36,8 +37,8 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
 
     Raises
     ------
-    symgen.native.read.Foreign
-        If one is not in the language.
+    Foreign
+        If one is not in the language, or was left to Python.
     """
     model, law, found = compiled.model, compiled.law_module, dict[str, Function]()
     for module, table in ((law, _LAW), (model, _MODEL)):
@@ -50,5 +51,7 @@ def checked(compiled: CompiledModel, names: Container[str] = NAMES) -> dict[str,
 
 
 def _read(function: Any, kind: Any) -> Function:
+    if not hasattr(function, "read"):
+        raise Foreign("been left to Python, by NUMBA_DISABLE_JIT")
     read: Function = function.read(kinds_of(kind.signature.args))
     return read

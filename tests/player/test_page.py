@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 import sys
 from dataclasses import replace
@@ -12,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from support import processes
 
 from symgen.analyses.shown import mode_recording
 from symgen.api import load
@@ -64,6 +66,12 @@ def test_large_equations_stay_outside_and_the_page_says_so() -> None:
     page = load("stewart-platform").simulate(until=0.01, step=1e-3).view()
     assert not page.live and "operations are more than" in data_of(page.html)["note"]
     assert "function rhs(" not in page.html
+
+
+def test_without_compiled_code_a_page_has_no_live_part_and_says_so() -> None:
+    script = "import symgen; print(symgen.load('pendulum').simulate(until=0.01).view().html)"
+    found = processes.python(script, env=os.environ | {"NUMBA_DISABLE_JIT": "1"})
+    assert found.returncode == 0 and "NUMBA_DISABLE_JIT" in found.stdout, found.stderr
 
 
 def test_two_motions_of_one_mechanism(result: Any) -> None:
