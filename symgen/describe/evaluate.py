@@ -47,6 +47,8 @@ def evaluate(
         # Only the chosen branch: the other one may be undefined here, which is why a choice was written.
         condition, yes, no = expression.arguments
         return evaluate(yes if evaluate(condition, values, where, tables) else no, values, where, tables)
+    if expression.function in ("and", "or"):
+        return _joined(expression, values, where, tables)
     operands = [evaluate(argument, values, where, tables) for argument in expression.arguments]
     try:
         value = _apply(expression, operands, tables or {})
@@ -90,6 +92,20 @@ def said(mechanism: Mechanism, values: Mapping[str, float]) -> dict[str, float]:
     """Return of all parameter values those that the others follow from: of formulas only the ones that are set."""
     following = {name for name, formula in derived(mechanism.parameters) if evaluate(formula, values) == values[name]}
     return {name: value for name, value in values.items() if name not in following}
+
+
+def _joined(expression: Call, values: Mapping[str, float], where: str, tables: Mapping[str, Table] | None) -> float:
+    """Return whether both, or one, of two conditions hold; one may be undefined where the other decides."""
+    deciding, undefined = expression.function == "or", None
+    for argument in expression.arguments:
+        try:
+            if bool(evaluate(argument, values, where, tables)) == deciding:
+                return float(deciding)
+        except InputError as error:
+            undefined = undefined or error
+    if undefined is not None:
+        raise undefined
+    return float(not deciding)
 
 
 def _apply(expression: Call, operands: list[float], tables: Mapping[str, Table]) -> float:

@@ -36,10 +36,13 @@ class Axis:
         Name of the dimension.
     values : mapping of str to Array, shape (n,)
         Values of each name.
+    together : bool
+        Whether it is the dimension ``run`` of names that vary together.
     """
 
     dimension: str
     values: Mapping[str, Array]
+    together: bool = False
 
     def __len__(self) -> int:
         return len(next(iter(self.values.values())))
@@ -185,7 +188,7 @@ def make_grid(
         if len(set(lengths.values())) > 1:
             told = ", ".join(f"{length} for {name}" for name, length in lengths.items())
             raise InputError("runs", "as many values for every name", told)
-        axes.append(Axis("run", together))
+        axes.append(Axis("run", together, together=True))
     for name, given in vary.items():
         if name in runs:
             raise InputError(name, "one way of varying it", "two")

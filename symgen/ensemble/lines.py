@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symgen.ensemble.labels import of_quantity, of_varied
 from symgen.files import headed
 
 if TYPE_CHECKING:
@@ -26,21 +27,20 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
     """
     ensemble, units = found.ensemble, found.units()
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
-    starts = {axis.dimension for axis in ensemble.grid.axes}
     varied = ensemble.grid.values(0, len(found))
-    names = {name: f"{name}(0)" if f"{name}(0)" in starts or "." in name else name for name in varied}
+    names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
     events = {name: found.summary[:, column] for name, (column, _) in found.events.items()}
     heading = [
         "run",
         *(headed(names[name], units[name]) for name in varied),
         headed("t", "s"),
-        *(headed(q.name, q.unit) for q in quantities),
+        *(headed(of_quantity(q.name), q.unit) for q in quantities),
         headed("end", "s"),
         *(headed(name, unit) for name, (_, unit) in found.events.items()),
         "status",
         "reason",
     ]
-    end = found["end"].ravel()
+    end = found.number("end").ravel()
 
     def lines() -> Iterator[list[object]]:
         for i in range(len(found)):

@@ -206,7 +206,7 @@ class Measures:
         """Return the tables of reactions by source, shape (selected x times, columns)."""
 
         def flat(array: Array) -> Array:  # (runs, times, n): outputs of one run after those of another
-            return np.ascontiguousarray(array[selected]).reshape(-1, array.shape[2])
+            return np.ascontiguousarray(array[selected]).reshape(len(selected) * array.shape[1], array.shape[2])
 
         states = flat(np.swapaxes(seen[:, : info.ny], 1, 2))
         multipliers = [i for i, q in enumerate(self.reads) if q.source == e.MULTIPLIER]

@@ -59,6 +59,8 @@ class Columns:
             if not _varies(arguments):
                 return condition if condition != condition else yes if condition else no
             return np.where(np.isnan(condition), np.nan, np.where(condition != 0.0, yes, no))
+        if function in ("and", "or"):
+            return _joined(function == "or", *arguments)
         work_out: Any = FUNCTIONS[function][1]
         if not _varies(arguments):
             return _number(work_out, *arguments)
@@ -71,6 +73,15 @@ class Columns:
     def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
         """Return `x`, nan where it is not above a limit."""
         return np.where(x > limit, x, np.nan) if _varies((limit, x)) else x if x > limit else np.nan
+
+
+def _joined(deciding: bool, a: Any, b: Any) -> Any:
+    """Return whether one of two conditions holds (`deciding`), or both; undefined ones yield to those that decide."""
+    values = np.asarray([*np.broadcast_arrays(a, b)], dtype=np.float64)
+    undefined = np.isnan(values)
+    decided = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
+    found = np.where(decided, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
+    return found if _varies((a, b)) else float(found)
 
 
 def _varies(arguments: Iterable[Any]) -> bool:

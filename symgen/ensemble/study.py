@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property
 from os import PathLike
@@ -18,6 +17,7 @@ from symgen import __version__
 from symgen.arguments import path as argument_path
 from symgen.arguments import shown, whole
 from symgen.ensemble.jumps import rows_that_jump
+from symgen.ensemble.labels import NUMBERS, of_dimension, of_number, of_quantity, of_varied
 from symgen.ensemble.lines import SAVED, csv_of
 from symgen.ensemble.names import Names
 from symgen.ensemble.singly import event_columns
@@ -35,26 +35,6 @@ if TYPE_CHECKING:
     from symgen.ensemble.plan import Ensemble
 
 Array = NDArray[np.float64]
-
-#: Numbers of every run that data sets hold: name -> (unit, whether it is a whole number).
-NUMBERS: Mapping[str, tuple[str, bool]] = {
-    "end": ("s", False),
-    "steps": ("1", True),
-    "rejected": ("1", True),
-    "evaluations": ("1", True),
-    "iterations": ("1", True),
-    "position_violation_max": ("m", False),
-    "velocity_violation_max": ("m/s", False),
-    "energy_drift_max": ("J", False),
-    "energy_jump": ("J", False),
-    "energy_scale": ("J", False),
-    "smallest_pivot": ("1", False),
-    "rank_event_count": ("1", True),
-    "start_moved": ("m or rad", False),
-    "start_velocities": ("1", True),
-    "redundant_rows": ("1", True),
-    "light": ("1", True),
-}
 
 
 @dataclass(frozen=True, repr=False)
@@ -144,13 +124,17 @@ class Sweep:
             if q.name == name:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
-            return column(self.summary, name).reshape(shape)
+            return self.number(name)
         if name in self.events:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
         known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
         raise InputError(
             "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
         )
+
+    def number(self, name: str) -> Array:
+        """Return a number of every run over the grid, also where a quantity has its name."""
+        return column(self.summary, name).reshape(self.ensemble.grid.shape)
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -212,6 +196,7 @@ class Sweep:
         """Return everything as a data set with a dimension for each axis and ``time``.
 
         Variables are the quantities, ``status``, ``reason`` and the numbers of every run; coordinates are what varied.
+        A parameter or output that has one of these names is called ``parameter.NAME`` or ``output.NAME``.
 
         Raises
         ------
@@ -222,26 +207,24 @@ class Sweep:
         import xarray as xr
 
         ensemble = self.ensemble
-        shape, dimensions = ensemble.grid.shape, tuple(axis.dimension for axis in ensemble.grid.axes)
+        shape, dimensions = ensemble.grid.shape, tuple(map(of_dimension, ensemble.grid.axes))
         variables: dict[str, Any] = {
-            q.name: ((*dimensions, "time"), self[q.name], {"units": q.unit}) for q in ensemble.recipe.quantities
+            of_quantity(q.name): ((*dimensions, "time"), self[q.name], {"units": q.unit})
+            for q in ensemble.recipe.quantities
         }
         variables["status"] = (dimensions, self.status.reshape(shape))
         variables["reason"] = (dimensions, self.reason.reshape(shape))
         for name, (unit, counts) in NUMBERS.items():
-            numbers = self[name]
-            # a quantity of the same name is over time
-            label = f"{name}_min" if name == "smallest_pivot" else name
-            variables[label] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
+            numbers = self.number(name)
+            variables[of_number(name)] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
         for name, (_, unit) in self.events.items():
             variables[name] = (dimensions, self[name], {"units": unit})
         units = self.units()
         coordinates: dict[str, Any] = {"time": ("time", ensemble.recipe.spec.times, {"units": "s"})}
-        for axis in ensemble.grid.axes:
+        for axis, dimension in zip(ensemble.grid.axes, dimensions, strict=True):
             for name, values in axis.values.items():
-                label = axis.dimension if axis.dimension != "run" else f"{name}(0)" if "." in name else name
-                coordinates[label] = (axis.dimension, values, {"units": units.get(name) or "1"})
-            if axis.dimension == "run":
+                coordinates[of_varied(name, axis)] = (dimension, values, {"units": units.get(name) or "1"})
+            if axis.together:
                 coordinates["run"] = ("run", np.arange(len(axis)))
         attributes = {key: "none" if value is None else value for key, value in self.attributes.items()}
         return xr.Dataset(variables, coordinates, attributes)

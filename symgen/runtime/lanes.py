@@ -1,9 +1,9 @@
 """Many runs of one compiled model with a constant step, several at once in the lanes of vector instructions.
 
 Lanes take the same steps side by side: the frame of single runs, with other meanings of what it does to a state. What a
-run in a lane cannot do alone is not done here: where one comes near a singular position, meets a suspicious pivot,
-exceeds a limit or fails, it is left to the loop over single runs, from its start. So every run that ends here has gone
-well, and every other one has exactly the result of a single run.
+run in a lane cannot do alone is not done here: where one comes near a singular position, meets a suspicious pivot, has
+to choose the rows that stand for all anew, exceeds a limit or fails, it is left to the loop over single runs, from its
+start. So every run that ends here has gone well, and every other one has exactly the result of a single run.
 
 Element i of every array of the lanes stands at ``LANES*i + lane``; those of emitted code are parts of one array z
 (`symgen.ir.program.lane_bases`), which stands in the place of ``p``.
@@ -26,7 +26,7 @@ from symgen.runtime.frame import integrate
 from symgen.runtime.instances import Instances
 from symgen.runtime.instances import loop as compiled_loop
 from symgen.runtime.records import CHUNK, KEPT_OF_RUN, SIZES, SPAN, STATE, TABLEAU, Outputs, Run, Sizes, State
-from symgen.runtime.redundancy import never
+from symgen.runtime.redundancy import FALLEN, never
 from symgen.runtime.rows import begin_run, end_run, take
 from symgen.runtime.scales import still
 from symgen.runtime.schemes import explicit
@@ -45,12 +45,13 @@ _MAX_PHI, _MAX_DRIFT, _MAX_ENERGY = abi.MAX_PHI * _L, abi.MAX_DRIFT * _L, abi.MA
 _START, _SCALE, _POTENTIAL_START = abi.ENERGY_START * _L, abi.ENERGY_SCALE * _L, abi.POTENTIAL_START * _L
 _LIMIT_PHI, _LIMIT_DRIFT, _LIMIT_ENERGY = abi.LIMIT_PHI * _L, abi.LIMIT_DRIFT * _L, abi.LIMIT_ENERGY * _L
 _SMALLEST, _LAST_SINE, _FALL = abi.SMALLEST_PIVOT * _L, abi.LAST_SINE * _L, abi.FALL * _L
-_LAST_TIME, _WARN = abi.LAST_TIME * _L, abi.WARN_PIVOT * _L
+_LAST_TIME, _WARN, _CHOSEN = abi.LAST_TIME * _L, abi.WARN_PIVOT * _L, abi.CHOSEN * _L
 _SUSPECTS, _FAILURES = LANE_COUNTERS.index("suspects") * _L, LANE_COUNTERS.index("failures") * _L
 _ITERATIONS = LANE_COUNTERS.index("iterations") * _L
-#: Behind the gauges of all lanes: the largest coordinate, the rank at the start, and 1 for lanes left to single runs.
+#: Behind the gauges of all lanes: the largest coordinate, the rank at the start, 1 for lanes left to single runs, and
+#: the part of the best pivot below which those are that leave rows out, 0 for others.
 _LARGEST, _FIRST_RANK, _ODD = abi.N_GAUGES * _L, (abi.N_GAUGES + 1) * _L, (abi.N_GAUGES + 2) * _L
-_N_LANE_GAUGES = abi.N_GAUGES + 3
+_LEAST_PART, _N_LANE_GAUGES = (abi.N_GAUGES + 3) * _L, abi.N_GAUGES + 4
 #: Angles beyond this lose digits in the reduction of emitted sines.
 _LARGEST_ANGLE = 1e5
 _NEGLIGIBLE = watching.NEGLIGIBLE
@@ -158,7 +159,10 @@ def watch(sizes: Any, run: Any, y: Any, t: float) -> int:
         gauges[_LAST_TIME + lane] = t
         gauges[_LAST_SINE + lane] = sine
         phi, drift = w[_PHI_MEASURE + lane], w[_DRIFT_MEASURE + lane]
-        bad = met | (pivot < warn) | (w[_RANK + lane] != gauges[_FIRST_RANK + lane])
+        best = pivot if pivot > gauges[_CHOSEN + lane] else gauges[_CHOSEN + lane]
+        gauges[_CHOSEN + lane] = best
+        bad = met | (pivot < warn) | (pivot < gauges[_LEAST_PART + lane] * best)
+        bad |= w[_RANK + lane] != gauges[_FIRST_RANK + lane]
         bad |= not phi <= gauges[_LIMIT_PHI + lane] * length
         bad |= not drift <= gauges[_LIMIT_DRIFT + lane] * w[_SPEED + lane]
         least = _NEGLIGIBLE * (kinetic + abs(w[_POTENTIAL + lane]))
@@ -211,10 +215,11 @@ def load(chunk: Any, sizes: Any, state: Any, g: int, z: Any, gauges: Any) -> Non
         begin_run(state, chunk.limits)
         for i in range(abi.N_GAUGES):
             gauges[i * _L + lane] = state.gauges[i]
-        rank = 0.0
+        rank = part_of_best = 0.0
         for i in range(sizes.m):
             rank += 1.0 if chunk.ws[r * nw + sizes.pivots + i] >= SKIP else 0.0
-        gauges[_FIRST_RANK + lane], gauges[_ODD + lane] = rank, 0.0
+            part_of_best = FALLEN if chunk.ws[r * nw + sizes.mask + i] > 0.0 else part_of_best
+        gauges[_FIRST_RANK + lane], gauges[_ODD + lane], gauges[_LEAST_PART + lane] = rank, 0.0, part_of_best
 
 
 def unload(lane: int, sizes: Any, lanes: Any, state: Any, outputs: Any, kept: Any) -> None:

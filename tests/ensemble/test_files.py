@@ -70,6 +70,31 @@ def test_runs_together_have_one_dimension():
         assert grid["crank.theta"][i, i, 0] == found["crank.theta"][i, 0]
 
 
+def test_names_of_a_mechanism_give_way_to_those_that_every_data_set_has(tmp_path):
+    """x = t + w t^3/6; a parameter and an output are called as numbers of every run are, a parameter as a dimension."""
+    times = np.array([0.1, 0.3])
+    for name, label in (("steps", "parameter.steps"), ("run", "parameter.run"), ("time", "parameter.time")):
+        built = symgen.MechanismBuilder("pushed").parameter(name, 3.0).output("end", "2*block.x")
+        built = built.body("block", type="point", mass=1.0, velocity=(1.0, 0.0))
+        model = symgen.Model(built.force("push", "force", body="block", force=(f"{name}*t", 0.0)).build())
+        asked = {"quantities": ("smallest_pivot", "end"), "times": times, "until": 0.3, "step": 0.1}
+        varied = {"vary" if name == "steps" else "runs": {name: [1.0, 2.0]}}
+        found = symgen.sweep(model, **varied, **asked, method="lagrange", integrator="rk4")
+        data = found.to_xarray()
+        twice = 2.0 * (times + np.outer([1.0, 2.0], times**3 / 6.0))
+        np.testing.assert_allclose(data["output.end"], twice, rtol=1e-12)
+        np.testing.assert_array_equal(data[label], [1.0, 2.0])
+        np.testing.assert_array_equal(data["time"], times)
+        np.testing.assert_array_equal(data["end"], 0.3)
+        np.testing.assert_array_equal(data["steps"], 3)
+        assert data["smallest_pivot"].shape == (2, 2) and data["smallest_pivot_min"].shape == (2,)
+        lines = found.save(tmp_path / "few.csv").read_text(encoding="utf-8").splitlines()
+        heading = f"run,{label},t [s],smallest_pivot [1],output.end,end [s],status,reason"
+        assert lines[0] == heading
+        np.testing.assert_allclose([float(line.split(",")[4]) for line in lines[1:]], twice.ravel(), rtol=1e-12)
+        assert [line.split(",")[5] for line in lines[1:]] == ["0.3"] * 4
+
+
 def test_any_number_of_threads_gives_the_same_bits():
     one, three = (symgen.sweep("four-bar", **FEW, jobs=jobs) for jobs in (1, 3))
     np.testing.assert_array_equal(one.values, three.values)

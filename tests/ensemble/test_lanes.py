@@ -114,6 +114,29 @@ def test_runs_that_do_not_go_well_are_left_to_single_runs():
     np.testing.assert_array_equal(lanes.summary, single.summary)
 
 
+def test_runs_that_choose_rows_anew_are_left_to_single_runs():
+    """Two bodies with two pins: the row that repeats is that along the line through these, which turns."""
+    spinning = {"mass": 1.0, "inertia": 0.1, "angular_velocity": "w"}
+    first = {**spinning, "position": [0.5, 0.0], "velocity": [0.0, "0.5*w"]}
+    second = {**spinning, "position": [0.75, 0.0], "velocity": [0.0, "0.75*w"]}
+    first["points"] = {"O": [-0.5, 0.0], "P": [0.0, 0.0], "Q": [0.5, 0.0]}
+    second["points"] = {"P": [-0.25, 0.0], "Q": [0.25, 0.0]}
+    raw = {"mechanism": {"name": "turning"}, "parameters": {"w": 1.0}, "bodies": {"a": first, "b": second}}
+    raw["joints"] = {
+        "pin": {"type": "revolute", "between": ["ground", "a"], "at": [[0.0, 0.0], "O"]},
+        "p": {"type": "revolute", "between": ["a", "b"], "at": ["P", "P"]},
+        "q": {"type": "revolute", "between": ["a", "b"], "at": ["Q", "Q"]},
+    }
+    turned = np.array([0.3, 1.4])  # rad, within 1 s
+    chosen = {"method": "lagrange", "integrator": "rk4", "step": 1e-2, "until": 1.0, "max_violation": 1e-3}
+    single, lanes = both(mechanism_of(raw), {"w": turned}, **chosen)
+    np.testing.assert_allclose(lanes["a.theta"][:, -1], turned, rtol=0, atol=1e-9)
+    np.testing.assert_array_equal(lanes.values[1], single.values[1])
+    pivots = np.array([found["smallest_pivot"] for found in (single, lanes)])
+    np.testing.assert_allclose(pivots[1], pivots[0], rtol=1e-9)
+    assert pivots[0, 1] > 0.05
+
+
 def test_results_do_not_depend_on_the_neighbours():
     """A row has the same bits whatever stands in the other lanes."""
     chosen = {"method": "direct-correction", "integrator": "rk4", "step": 1e-3, "until": 0.1, "target": "lanes"}

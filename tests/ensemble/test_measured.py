@@ -75,6 +75,17 @@ def test_a_rod_and_a_spring_pull_as_newton_says():
     np.testing.assert_allclose(found["reaction.link.F"], np.abs(pull), rtol=1e-7)
 
 
+def test_a_rail_whose_rows_are_constant_carries_weights():
+    """Nothing of D varies: the rail is pressed down by m g, whatever else happens along it."""
+    rail = {"type": "translational", "between": ["ground", "b"], "at": [[0.0, 0.0], "centre"], "axis": [1.0, 0.0]}
+    description = {"mechanism": {"name": "rail", "gravity": [0.0, -9.81]}, "parameters": {"m": 1.0}}
+    description |= {"bodies": {"b": {"mass": "m", "inertia": 0.1, "velocity": [1.0, 0.0]}}, "joints": {"rail": rail}}
+    found = symgen.sweep(mechanism_of(description), {"m": [1.0, 2.5]}, quantities=("reactions", "b.x"), **TIMES)
+    np.testing.assert_allclose(found["reaction.rail.Fy"], np.outer([-9.81, -24.525], np.ones(3)), rtol=1e-12)
+    np.testing.assert_allclose(found["reaction.rail.Fx"], 0.0, atol=1e-12)
+    np.testing.assert_allclose(found["b.x"], [TIMES["times"]] * 2, rtol=0, atol=1e-12)
+
+
 def test_integrals_are_for_processors():
     with pytest.raises(InputError, match=r"target 'lanes'.*integral.*'spent'"):
         symgen.sweep(sprung(), {"stiffness": [1.0]}, quantities=("spent",), target="lanes", **TIMES)

@@ -6,6 +6,7 @@ from support.emitted import mechanism_of
 
 import symgen
 from symgen.describe.evaluate import evaluate
+from symgen.describe.parser import Names, parse
 from symgen.ensemble.starts import Columns, make_rows
 from symgen.errors import InputError
 from symgen.vocabulary.expressions import FUNCTIONS, Call, Name
@@ -39,6 +40,30 @@ def test_what_is_undefined_inside_stays_undefined_unless_it_is_left_aside():
     np.testing.assert_array_equal(columns.value(chosen), [1.0, 0.5])
     assert one.value(chosen) == 1.0
     assert np.isnan(one.value(Call("where", (inverse, Name("b"), Name("b")))))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("1 if a > 0 and sqrt(a) > 1 else 0", [0.0, 0.0, 1.0]),
+        ("1 if sqrt(a) > 1 and a > 0 else 0", [0.0, 0.0, 1.0]),
+        ("2 if a < 0 or sqrt(a) > 1 else 3", [2.0, 3.0, 2.0]),
+        ("2 if sqrt(a) > 1 or a < 0 else 3", [2.0, 3.0, 2.0]),
+        ("2 if sqrt(a) > 1 or a > 1 else 3", [np.nan, 3.0, 2.0]),
+        ("2 if sqrt(a) > 1 and a < 1 else 3", [np.nan, 3.0, 3.0]),
+    ],
+)
+def test_an_undefined_condition_counts_for_nothing_where_the_other_one_decides(text, expected):
+    values = np.array([-1.0, 0.25, 4.0])
+    formula = parse(text, Names("a formula", {"a": "a"}), "b")
+    np.testing.assert_array_equal(Columns({"a": values}).value(formula), expected)
+    for a, x in zip(values, expected, strict=True):
+        np.testing.assert_array_equal(Columns({"a": float(a)}).value(formula), x)
+        if np.isfinite(x):
+            assert evaluate(formula, {"a": a}) == x
+        else:
+            with pytest.raises(InputError, match="which is not defined"):
+                evaluate(formula, {"a": a})
 
 
 ORIENTATIONS = {

@@ -1,0 +1,56 @@
+"""What the parts of an ensemble are called in data sets and tables: what a mechanism names gives way to what all have.
+
+A parameter may be called ``steps``, an output ``end``, and each run has numbers of these names besides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from symgen.ensemble.axes import Axis
+
+#: Numbers of every run that data sets hold: name -> (unit, whether it is a whole number).
+NUMBERS: Mapping[str, tuple[str, bool]] = {
+    "end": ("s", False),
+    "steps": ("1", True),
+    "rejected": ("1", True),
+    "evaluations": ("1", True),
+    "iterations": ("1", True),
+    "position_violation_max": ("m", False),
+    "velocity_violation_max": ("m/s", False),
+    "energy_drift_max": ("J", False),
+    "energy_jump": ("J", False),
+    "energy_scale": ("J", False),
+    "smallest_pivot": ("1", False),
+    "rank_event_count": ("1", True),
+    "start_moved": ("m or rad", False),
+    "start_velocities": ("1", True),
+    "redundant_rows": ("1", True),
+    "light": ("1", True),
+}
+#: What numbers are called that have the name of a quantity.
+_NUMBER = {"smallest_pivot": "smallest_pivot_min"}
+_TAKEN = {"run", "time", "status", "reason", *NUMBERS, *_NUMBER.values()}
+
+
+def of_number(name: str) -> str:
+    """Return what one of `NUMBERS` is called."""
+    return _NUMBER.get(name, name)
+
+
+def of_quantity(name: str) -> str:
+    """Return what a quantity is called: an output may have a name that is taken."""
+    return f"output.{name}" if name in _TAKEN and name not in _NUMBER else name
+
+
+def of_varied(name: str, axis: Axis) -> str:
+    """Return what a name that varies is called: that of its dimension, or where names vary together one like it."""
+    label = axis.dimension if not axis.together else f"{name}(0)" if "." in name else name
+    return f"parameter.{label}" if label in _TAKEN else label
+
+
+def of_dimension(axis: Axis) -> str:
+    """Return what a dimension is called."""
+    return axis.dimension if axis.together else of_varied(next(iter(axis.values)), axis)
