@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symgen.ensemble.labels import of_quantity, of_varied
+from symgen.ensemble.verdicts import column
 from symgen.files import headed
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
     times, quantities = ensemble.recipe.spec.times, ensemble.recipe.quantities
     varied = ensemble.grid.values(0, len(found))
     names = {name: of_varied(name, axis) for axis in ensemble.grid.axes for name in axis.values}
-    events = {name: found.summary[:, column] for name, (column, _) in found.events.items()}
+    events = {name: found.summary[:, at] for name, (at, _) in found.events.items()}
     heading = [
         "run",
         *(headed(names[name], units[name]) for name in varied),
@@ -40,7 +41,7 @@ def csv_of(found: Sweep) -> tuple[list[str], Iterator[list[object]]]:
         "status",
         "reason",
     ]
-    end = found.number("end").ravel()
+    end = column(found.summary, "end")
 
     def lines() -> Iterator[list[object]]:
         for i in range(len(found)):

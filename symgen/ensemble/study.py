@@ -124,17 +124,13 @@ class Sweep:
             if q.name == name:
                 return self.values[:, i, :].reshape(*shape, -1)
         if name in NUMBERS:
-            return self.number(name)
+            return column(self.summary, name).reshape(shape)
         if name in self.events:
             return np.asarray(self.summary[:, self.events[name][0]]).reshape(shape)
         known = [*(q.name for q in self.ensemble.recipe.quantities), *NUMBERS, *self.events]
         raise InputError(
             "sweep", "a quantity that was kept, or a number of every run", shown(name), nearest(str(name), known)
         )
-
-    def number(self, name: str) -> Array:
-        """Return a number of every run over the grid, also where a quantity has its name."""
-        return column(self.summary, name).reshape(self.ensemble.grid.shape)
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -215,7 +211,7 @@ class Sweep:
         variables["status"] = (dimensions, self.status.reshape(shape))
         variables["reason"] = (dimensions, self.reason.reshape(shape))
         for name, (unit, counts) in NUMBERS.items():
-            numbers = self.number(name)
+            numbers = column(self.summary, name).reshape(shape)
             variables[of_number(name)] = (dimensions, numbers.astype(np.int64) if counts else numbers, {"units": unit})
         for name, (_, unit) in self.events.items():
             variables[name] = (dimensions, self[name], {"units": unit})
