@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 
 from symgen import arguments
 from symgen.analyses.algebra import eigenvalues_of, split
-from symgen.analyses.equilibrium import Equilibrium, equilibria, judged, stability_in_motion
+from symgen.analyses.equilibrium import Equilibrium, at_rest_from, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
-from symgen.analyses.settle import settle
+from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, system
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
@@ -92,6 +92,27 @@ class Asked:
     def __post_init__(self) -> None:
         object.__setattr__(self, "at", place_of(self.at))
         object.__setattr__(self, "cyclic", arguments.words("cyclic", self.cyclic))
+        if self.cyclic and self.at != "steady":
+            raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(self.cyclic))
+
+
+def arrived(asked: Asked) -> Asked:
+    """Return the same about the start, which is the state of a run where a time is asked for.
+
+    Raises
+    ------
+    AnalysisError
+        If the run fails or does not come to the time.
+    """
+    if isinstance(asked.at, str):
+        return asked
+    settings, at = asked.settings, asked.at
+    result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
+    if result.status == "failed":
+        raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
+    if result.end < at:
+        raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
+    return replace(asked, settings=replace(settings, start=result), at="start")  # type: ignore[arg-type]  # gone on from
 
 
 def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
@@ -111,28 +132,22 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     AnalysisError
         If no equilibrium or steady motion is found, or the run fails or does not come to the time asked for.
     """
+    asked = arrived(asked)
     mechanism, settings, at = asked.mechanism, asked.settings, asked.at
     if at == "steady":
         subject = subject_of(mechanism, replace(settings, coordinates="joint"), by)
-        return subject, steady_motion(subject, asked.cyclic)[0]
-    if asked.cyclic:
-        raise InputError("cyclic", "names where a steady motion is searched (at steady)", ", ".join(asked.cyclic))
-    if isinstance(at, float):
-        result = asked.run(replace(settings, until=at, output_step=None, times=(at,), **FOLLOWED))  # type: ignore[arg-type]  # of settings
-        if result.status == "failed":
-            raise AnalysisError(f"the run to t = {at:g} s failed: {result.reason}")
-        if result.end < at:
-            raise AnalysisError(f"the run to t = {at:g} s is over at t = {result.end:.6g} s: an event ends it")
-        settings = replace(settings, start=result)  # type: ignore[arg-type]  # a result is gone on from
+        moving = steady_motion(subject, asked.cyclic)
+        return moving.subject, moving.y
     subject = subject_of(mechanism, settings, by)
     if at == "equilibrium":
-        return subject, equilibria(subject)[0].y
+        rest = at_rest_from(subject)
+        return rest.subject, rest.y
     if not subject.closed:
         raise InputError("at start", "a start that closes the mechanism", "one that does not", "ask for an equilibrium")
     return subject, subject.y
 
 
-def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, int]:
+def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
     """Return a motion in which cyclic coordinates turn on at the speed of the start and nothing else changes.
 
     Parameters
@@ -141,13 +156,6 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
         In joint coordinates.
     cyclic : sequence of str
         Names of these coordinates; those that nothing depends on by default.
-
-    Returns
-    -------
-    state : Array
-        q and v.
-    steps : int
-        Steps of Newton's method.
 
     Raises
     ------
@@ -178,9 +186,9 @@ def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> tuple[Array, 
     _refuse_spins(subject, v, kept, driven=bool(np.any(e.by("positions", "t"))))
     begun = v.copy()
     v[~kept] = 0.0
-    at, _, steps = settle(subject, y)
-    _refuse_lost(subject, at, np.where(kept, 0.0, begun))
-    return at, steps
+    found = settle(subject, y)
+    _refuse_lost(found.subject, found.y, np.where(kept, 0.0, begun))
+    return found
 
 
 def _refuse_spins(subject: Subject, v: Array, kept: NDArray[np.bool_], driven: bool) -> None:
@@ -249,9 +257,10 @@ def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str]
     """Return a steady motion as an equilibrium; see `symgen.api.Model.steady`."""
     subject = subject_of(mechanism, replace(settings, coordinates="joint"))
     found = steady_motion(subject, arguments.words("cyclic", cyclic))
-    x = tangent(subject, found[0])
+    subject = found.subject
+    x = tangent(subject, found.y)
     names = named_states(subject, x, (), False, "steady")
-    told = judged(subject, *found)
+    told = judged(subject, found.y, found.steps)
     if at_rest(subject, x):
         return told
     # what turns on may slow down as the rest moves out: the stiffness at constant speeds does not tell
@@ -293,7 +302,7 @@ def _of_bodies(
     for one in found:
         y = np.zeros_like(bodies.y)
         y[: bodies.nq] = [one.q[name] for name in bodies.state_names[: bodies.nq]]
-        own = judged(bodies, y, one.iterations)
+        own = judged(bodies.turned(one.q), y, one.iterations)
         whole.append(replace(own, y=one.y, lam=one.lam))
     return tuple(whole)
 
@@ -324,6 +333,7 @@ def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = No
         if asked.settings.coordinates == "joint":
             raise InputError("count", "coordinates of bodies", "those of joints", "ask for all modes")
         return lowest_modes(asked.mechanism, asked.settings, arguments.whole("count", count, 1, 10_000))
+    asked = arrived(asked)  # inputs may be others there than at the start
     subject, y = subject_at(asked)
 
     def bodies() -> Subject:

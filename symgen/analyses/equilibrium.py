@@ -6,14 +6,14 @@ and share the load afterwards, by the smallest multipliers.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
-from symgen.analyses.settle import settle
+from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
@@ -23,6 +23,11 @@ Array = NDArray[np.float64]
 FLAT, REAL = 1e-9, 1e-6
 #: A real part of up to this share of an eigenvalue is what rounding leaves of two that are one.
 GROWS = 1e-6
+#: A force that holds a coordinate below this part of that at the next value is nothing.
+NOTHING = 1e-9
+#: Halvings of an interval that has an equilibrium before Newton's method is tried, and at most; so far beside the
+#: interval, as a part of it, an equilibrium at its end may be found.
+FIRST_HALVINGS, HALVINGS, BESIDE = 4, 12, 1e-6
 STABLE, UNSTABLE, INDIFFERENT = "stable", "unstable", "indifferent"
 
 
@@ -165,25 +170,25 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
     AnalysisError
         If none is found.
     """
-    y = subject.y.copy()
-    y[subject.nq :] = 0.0
     if scan is None:
-        at, _, steps = settle(subject, y)
-        return (judged(subject, at, steps),)
+        rest = at_rest_from(subject)
+        return (judged(rest.subject, rest.y, rest.steps),)
     name, values = scan
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
-    found, before, seen = list[Equilibrium](), None, 0
+    found, before, seen, y = list[Equilibrium](), None, 0, _still(subject)
     for value in values:
         try:
-            at, lam, _ = settle(subject, y, [(name, float(value))])
+            rest = settle(subject, y, [(name, float(value))])
         except AnalysisError:
             before = None  # it cannot be there, or nothing else rests
             continue
         seen += 1
-        y, now = at, (float(value), float(lam[-1]), at)
-        if before is not None and before[1] * now[1] <= 0.0:
-            _add(subject, found, name, *_between(subject, name, before, now))
+        subject, y, now = rest.subject, rest.y, (float(value), rest)
+        if before is not None and _changes_sign(before, now):
+            between = _between(name, before, now)
+            if between is not None:
+                _add(found, between)
         before = now
     if not seen:
         expected = "values that the coordinate can have"
@@ -193,30 +198,76 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
     return tuple(found)
 
 
-Held = tuple[float, float, Array]
+def at_rest_from(subject: Subject) -> Settled:
+    """Return the equilibrium that the start leads to."""
+    return settle(subject, _still(subject))
 
 
-def _between(subject: Subject, name: str, a: Held, b: Held) -> tuple[Array, int]:
-    """Return the equilibrium between two values of a coordinate: by halves, and by Newton's method from there."""
-    steps = 0
-    for _ in range(4):
-        middle = 0.5 * (a[0] + b[0])
-        near = a if abs(a[1]) < abs(b[1]) else b
-        at, lam, more = settle(subject, near[2], [(name, middle)])
-        steps += more
-        c = middle, float(lam[-1]), at
-        a, b = (a, c) if a[1] * c[1] <= 0.0 else (c, b)
-    near = a if abs(a[1]) < abs(b[1]) else b
-    at, _, more = settle(subject, near[2])
-    return at, steps + more
+def _still(subject: Subject) -> Array:
+    y = subject.y.copy()
+    y[subject.nq :] = 0.0
+    return y
 
 
-def _add(subject: Subject, found: list[Equilibrium], name: str, at: Array, steps: int) -> None:
-    new = judged(subject, at, steps)
+#: A value of a coordinate, and the rest of everything else where it is held there by the last multiplier.
+Held = tuple[float, Settled]
+
+
+def _changes_sign(a: Held, b: Held) -> bool:
+    """Whether what holds a coordinate at two values has other signs there, or is nothing at one of them."""
+    one, other = float(a[1].lam[-1]), float(b[1].lam[-1])
+    return one * other <= 0.0 or min(abs(one), abs(other)) <= NOTHING * max(abs(one), abs(other))
+
+
+def _between(name: str, a: Held, b: Held) -> Settled | None:
+    """Return the equilibrium between two values of a coordinate: by halves, and by Newton's method from there.
+
+    From too far away Newton's method may lead elsewhere; where it does from everywhere, that is returned.
+    """
+    low, high, steps, elsewhere = min(a[0], b[0]), max(a[0], b[0]), 0, None
+    slack = BESIDE * (high - low)
+    for halved in range(HALVINGS):
+        middle, near = 0.5 * (a[0] + b[0]), _nearer(a, b)
+        try:
+            rest = settle(near.subject, near.y, [(name, middle)])
+        except AnalysisError:
+            break
+        steps, c = steps + rest.steps, (middle, rest)
+        a, b = (a, c) if _changes_sign(a, c) else (c, b)
+        if halved + 1 < FIRST_HALVINGS:
+            continue
+        near = _nearer(a, b)
+        try:
+            rest = settle(near.subject, near.y)
+        except AnalysisError:
+            continue
+        steps += rest.steps
+        rest = replace(rest, steps=steps)
+        if low - slack <= _value(rest, name) <= high + slack:
+            return rest
+        elsewhere = rest
+    return elsewhere
+
+
+def _nearer(a: Held, b: Held) -> Settled:
+    return (a if abs(a[1].lam[-1]) < abs(b[1].lam[-1]) else b)[1]
+
+
+def _value(rest: Settled, name: str) -> float:
+    space, at = rest.subject.position(name)
+    return float(rest.y[at] if space == "q" else rest.subject.evaluated(rest.y).value("functions")[at])
+
+
+def _add(found: list[Equilibrium], rest: Settled) -> None:
+    subject, at = rest.subject, rest.y
+    new = judged(subject, at, rest.steps)
     for known in found:
         apart = known.y[: subject.nq] - at[: subject.nq]
         turns = np.array([q.unit == "rad" for q in subject.compiled.info.coordinates])
         apart[turns] -= 2.0 * np.pi * np.round(apart[turns] / (2.0 * np.pi))
+        for first, _ in subject.compiled.info.spins:  # both signs of Euler parameters are one orientation
+            one, other = known.y[first : first + 4], at[first : first + 4]
+            apart[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
         if np.abs(apart).max(initial=0.0) < 1e-7 * max(1.0, subject.length):
             return
     found.append(new)

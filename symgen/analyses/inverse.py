@@ -15,6 +15,7 @@ from symgen.analyses.actuators import WHERE, actuated
 from symgen.analyses.balancing import balance, checked_weights
 from symgen.analyses.kinematics import Kinematics, kinematics
 from symgen.analyses.prescribed import drivers_of
+from symgen.describe.evaluate import parameter_values
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import InputError
 from symgen.result.derived import OfForces
@@ -23,11 +24,13 @@ from symgen.result.reactions import Forces, seats
 from symgen.result.recorded import Recorded, read_recorded, recorded
 from symgen.result.tables import Tables
 from symgen.run_setup import give_inputs
+from symgen.runtime.pieces import pieces_of
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from symgen.describe.mechanism import Mechanism
+    from symgen.run_setup import Given
     from symgen.settings import Settings
 
 Array = NDArray[np.float64]
@@ -240,10 +243,8 @@ def _of_record(
     end = float(found.t[-1]) if found.t[-1] > 0.0 else 1.0
     asked = replace(settings, method="lagrange", integrator=None, until=end, times=(end,), step=end, output_step=None)
     given = give_inputs(mechanism, replace(asked, start={}, coordinates="absolute", inputs=known))
-    if any(piece.values for piece in given.pieces):  # at a kink no number becomes another one
-        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.told))
     made = actuated(given.mechanism, names)
-    balanced = balance(made, given.settings, found, checked_weights(made, weights))
+    balanced = balance(made, _during(given, found, end), found, checked_weights(made, weights))
     motion, info = balanced.motion, balanced.motion.compiled.info
     values = {q.name: float(x) for q, x in zip(info.parameters, motion.p, strict=False)}
     forces = Forces(motion, seats(made.mechanism, values))
@@ -262,6 +263,24 @@ def _of_record(
         parameters={q.name: values[q.name] for q in info.parameters if q.name not in made.mechanism.inputs},
         notes=(*motion.start.notes, *balanced.said(bool(weights)), *_unique(forces)),
     )
+
+
+def _during(given: Given, found: Recorded, end: float) -> Settings:
+    """Return settings with what inputs that jump elsewhere are during a motion.
+
+    Raises
+    ------
+    InputError
+        If one jumps within it, or smooth data begin behind it.
+    """
+    if given.driven is None:
+        return given.settings
+    values = parameter_values(given.mechanism, given.settings.parameters)
+    pieces = pieces_of(given.driven, values, end, float(found.t[0]))
+    if any(piece.values for piece in pieces[1:] if piece.begin < found.t[-1]):  # at a kink no number becomes another
+        raise InputError("inverse: inputs", "inputs without jumps", ", ".join(given.told))
+    now = pieces[0].values if pieces else {}
+    return replace(given.settings, parameters={**given.settings.parameters, **now})
 
 
 def _unique(forces: Forces) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,8 +78,30 @@ def balance(subject: Subject, y: Array, lam: Array, held: Sequence[tuple[str, fl
     return Balance(e.value("balance") - d.T @ lam[:m], np.vstack(rows), np.concatenate(gaps), stiffness, motion)
 
 
-def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> tuple[Array, Array, int]:
-    """Return a position where all forces balance, the multipliers of all rows, and the steps taken.
+@dataclass(frozen=True)
+class Settled:
+    """A position where all forces balance.
+
+    Attributes
+    ----------
+    subject : Subject
+        The mechanism, with angles that count turns as they were followed there.
+    y : Array
+        The state.
+    lam : Array
+        Multipliers of all rows, then of what is held.
+    steps : int
+        Steps taken.
+    """
+
+    subject: Subject
+    y: Array
+    lam: Array
+    steps: int
+
+
+def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -> Settled:
+    """Return a position where all forces balance.
 
     Where that gets nowhere it is tried again behind some steps downhill, whatever becomes of the balance; then Newton's
     method alone, from both.
@@ -98,22 +120,23 @@ def settle(subject: Subject, y: Array, held: Sequence[tuple[str, float]] = ()) -
     AnalysisError
         If none is found.
     """
-    lower = None
+    lower: tuple[Subject, Array] | None = None
     for attempt in range(ATTEMPTS):
         sinking, again = attempt < 2, attempt % 2 == 1
         if again and lower is None:
             lower = _sunk(subject, y, held)
+        begun, place = (subject, y) if lower is None or not again else lower
         try:
-            at, lam, steps = _search(subject, y if lower is None or not again else lower, held, sinking)
+            found = _search(begun, place, held, sinking)
         except AnalysisError:
             if attempt == ATTEMPTS - 1:
                 raise
         else:
-            return at, lam, steps + SINKING * again
+            return replace(found, steps=found.steps + SINKING * again)
     raise AssertionError("the last attempt returns or raises")
 
 
-def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> Array:
+def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> tuple[Subject, Array]:
     """Return where a few bounded steps downhill lead that also close what is open."""
     lam = np.zeros(subject.m + len(held))
     for _ in range(SINKING):
@@ -122,7 +145,8 @@ def _sunk(subject: Subject, y: Array, held: Sequence[tuple[str, float]]) -> Arra
         lam = _all_rows(subject, multipliers)
         longest = (np.abs(now.motion @ change) / lengths(subject)).max(initial=0.0)
         y = subject.moved(y, now.motion @ (min(1.0, REACH / max(longest, 1e-300)) * change))
-    return y
+        subject = subject.wound(y)
+    return subject, y
 
 
 def _all_rows(subject: Subject, multipliers: Array) -> Array:
@@ -134,7 +158,7 @@ def _all_rows(subject: Subject, multipliers: Array) -> Array:
     return whole
 
 
-def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinking: bool) -> tuple[Array, Array, int]:
+def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinking: bool) -> Settled:
     count = int(np.sum(~subject.redundant)) + len(held)
     now = balance(subject, y, _all_rows(subject, np.zeros(count)), held)
     lam = np.asarray(np.linalg.lstsq(now.rows.T, -now.force, rcond=1e-12)[0], dtype=np.float64)
@@ -149,14 +173,15 @@ def _search(subject: Subject, y: Array, held: Sequence[tuple[str, float]], sinki
         if good and (error >= 0.5 * left or error <= EXACT):
             # a step that balances no more may lead anywhere
             y, lam = before if error >= left else (y, lam)
-            return y, _all_rows(subject, lam), step
+            return Settled(subject, y, _all_rows(subject, lam), step)
         left, before = error if good else np.inf, (y, lam)
         found = _stepped(subject, y, lam, now, held, size, good, sinking)
         if found is None and good:
-            return y, _all_rows(subject, lam), step
+            return Settled(subject, y, _all_rows(subject, lam), step)
         if found is None:
             break
         y, lam, now = found
+        subject = subject.wound(y)
     raise AnalysisError(
         f"no equilibrium was found from this start: after {step} steps {error:.3g} of the forces is not balanced; "
         "another start may lead to one"

@@ -62,7 +62,7 @@ def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] |
     if subject.coordinates == "joint":
         if bodies is None:
             return Shares({}, {}, {})
-        subject = bodies()
+        subject = bodies().turned(x.subject.named(x.y))
         y, dq, dv = _of_bodies(x, subject, vectors)
     first = subject.evaluated(y, t=x.t)
     basis, inverse, _ = split(subject.rows(first))

@@ -17,10 +17,12 @@ from symgen.describe.evaluate import parameter_values, scalars
 from symgen.describe.holds import holds_of
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
+from symgen.lower.windings import winding_order
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import Given, give_inputs, held_of, ready
 from symgen.runtime import abi
 from symgen.runtime.pieces import pieces_of
+from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
 
@@ -156,6 +158,25 @@ class Subject:
         for first, _ in self.compiled.info.spins:
             found[first : first + 4] /= np.linalg.norm(found[first : first + 4])
         return found
+
+    def wound(self, y: Array) -> Subject:
+        """Return the same with the angles that count turns as they are at a state less than half a turn away."""
+        count, model = self.compiled.info.windings, self.compiled.model
+        if not count:
+            return self
+        there, w = self.w.copy(), self.w.copy()
+        for function in (model.geometry, model.measure):
+            Ready(function, abi.MEASURE)(self.t, y.copy(), self.p, there)
+        w[abi.WINDING : abi.WINDING + count] = there[abi.WINDING : abi.WINDING + count]
+        return replace(self, w=w)
+
+    def turned(self, values: Mapping[str, float]) -> Subject:
+        """Return the same with the angles that count turns as coordinates of joints are that are known by name."""
+        w = self.w.copy()
+        names = {m: f"{joint.name}.{label}" for joint in self.mechanism.joints for label, m in joint.coordinates}
+        for i, measure in enumerate(winding_order(self.mechanism, self.compiled.shape)):
+            w[abi.WINDING + i] = values.get(names.get(measure, ""), w[abi.WINDING + i])
+        return replace(self, w=w)
 
     def values_of_inputs(self, y: Array, t: float) -> dict[str, float]:
         """Return what the inputs are at a state: numbers, or what formulas of the state are there."""

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import minimize
+from support.emitted import mechanism_of
 
 import symgen
 from analyses import rods
+from analyses.linkages import four_bar, meeting
 from symgen.errors import AnalysisError, InputError
 
 #: The reference's four-bar: angles of the crank and squares of frequencies, by minimal coordinates with 30 digits.
@@ -107,6 +109,51 @@ def test_parameters_and_drivers_are_held():
 def test_bad_scans_are_refused(scan, says):
     with pytest.raises(InputError, match=says):
         rods.four_bar().equilibria(scan)
+
+
+@pytest.mark.parametrize(
+    ("values", "angles"),
+    [(np.linspace(0.1, math.pi, 5), [math.pi]), (np.linspace(-math.pi, math.pi, 5), [-math.pi, 0.0])],
+)
+def test_a_scan_finds_what_rests_at_its_ends(values, angles):
+    """A rod on its head: at the number beside pi a force of 1e-16 N m is left, of either sign."""
+    rod = {"mass": 1.0, "inertia": 0.1, "points": {"top": [0.0, 0.5]}, "position": [0.0, -0.5]}
+    model = rods.model({"rod": rod}, {"pin": rods.pin("ground", "rod", rods.GROUND2, "top")})
+    found = model.equilibria(("rod.theta", values))
+    assert_allclose([x.q["rod.theta"] for x in found], angles, atol=1e-12)
+    assert [x.stability for x in found] == ["unstable" if a else "stable" for a in angles]
+
+
+def test_a_scan_finds_what_is_between():
+    """A point that two springs push out of the middle, from near there: Newton's method led down, out of the range."""
+    spring = {"type": "spring-damper", "stiffness": 10.0, "free_length": 1.2}
+    forces = {
+        f"s{i}": {**spring, "between": ["ground", "mass"], "at": [[x, 0.0], "centre"]} for i, x in ((1, -1), (2, 1))
+    }
+    model = rods.model(
+        {"mass": {"type": "point", "mass": 2.0, "position": [0.0, 0.02]}}, {}, gravity=[0.0, 0.0], forces=forces
+    )
+    (found,) = model.equilibria(("mass.y", [-0.5, 0.6]))
+    assert abs(found.q["mass.y"]) < 1e-12 and found.stability == "unstable"
+    assert_allclose(found.omega_squared, [2 * 10 * (1 - 1.2) / 2, 10.0], rtol=1e-12)
+
+
+def test_a_scan_goes_over_angles_that_do_not_close():
+    """A crank that cannot lie between 2.87 and 3.42 rad: what holds it beside these has other signs on either side."""
+    links, values = (4.0, 2.0, 3.0, 2.95), [1.0, 1.8, 2.8, 3.45, 4.2, 5.2]
+    model = symgen.load(mechanism_of(four_bar(links, math.pi / 3.0, None)))
+    found = [x.q["crank.theta"] for x in model.equilibria(("crank.theta", values))]
+
+    def height(angle, above):
+        b = 2.0 * np.array([math.cos(angle), math.sin(angle)])
+        c = meeting(b, 3.0, np.array([4.0, 0.0]), 2.95, above)
+        return float(b[1] + c[1])  # twice the sum of the middles' heights, each with the same mass
+
+    def slope(angle, above):
+        return (height(angle + 1e-5, above) - height(angle - 1e-5, above)) / 2e-5
+
+    assert len([x for x in found if x < 2.0]) == len([x for x in found if x > 4.2]) == 1
+    assert all(min(abs(slope(x, True)), abs(slope(x, False))) < 1e-6 for x in found)
 
 
 def test_no_equilibrium_is_said():

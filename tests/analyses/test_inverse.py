@@ -262,6 +262,36 @@ def test_inputs_with_kinks_are_what_they_are_at_each_time(pendulum, push):
         pendulum.inverse(run, actuators=["held"], inputs={"push": stepped})
 
 
+@pytest.mark.parametrize("times", [[-0.5, -0.3], [0.1, 0.4], [0.7]])
+def test_inputs_that_jump_beside_a_motion_are_what_they_are_in_it(times):
+    """A cart of 2 kg with 0.4 m/s^2 by a driver: held at what was given from 0 on, and refused for jumps elsewhere."""
+    raw = {
+        "mechanism": {"name": "cart"},
+        "inputs": {"push": 0.0},
+        "bodies": {"cart": {"mass": 2.0, "inertia": 0.1}},
+        "joints": {
+            "rail": {"type": "prismatic", "between": ["ground", "cart"], "at": [[0, 0], "centre"], "axis": [1.0, 0.0]},
+            "drive": {"type": "driver", "joint": "rail", "value": "0.2*t**2"},
+        },
+        "forces": {"pushed": {"type": "force", "body": "cart", "force": ["push", 0.0]}},
+    }
+    cart = model(raw)
+
+    def push(t):
+        return 1.0 if t < -0.2 else 5.0 if t < 0.5 else 7.0
+
+    steps = {"t": [-1.0, -0.2, 0.5], "u": [1.0, 5.0, 7.0], "interpolation": "hold"}
+    for given in ("1 if t < -0.2 else (5 if t < 0.5 else 7)", steps):
+        found = cart.inverse(times=times, actuators=["rail"], inputs={"push": given})
+        assert np.abs(found.efforts["rail"] - [0.8 - push(t) for t in times]).max() < 1e-12
+        with pytest.raises(InputError, match="inputs without jumps"):
+            cart.inverse(times=[-0.5, *times, 0.8], actuators=["rail"], inputs={"push": given})
+    before = cart.kinematics([-0.5, -0.1])
+    late = {"t": [0.0, 0.4, 0.7, 1.0], "u": [0.0, 1.0, 0.5, 0.0], "interpolation": "cubic"}
+    with pytest.raises(InputError, match=r"data from -0\.5 to"):
+        cart.inverse(before, actuators=["rail"], inputs={"push": late})
+
+
 def test_a_motion_of_some_drivers_is_taken_from_a_run(linkage):
     """A double pendulum whose first rod is driven: the motor's torque is what the run reports."""
     raw = four_bar((4.0, 1.0, 3.0, 3.0), math.pi / 3.0, CRANK, (1.0, 3.0, 3.0))

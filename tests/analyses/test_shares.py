@@ -80,3 +80,19 @@ def test_a_riding_bicycle_weaves_with_its_frame():
     assert_allclose(sum(found.participation.values()), 1.0, rtol=1e-12)
     restoring = sum(found.stiffening.values(), np.zeros(len(found.of_shapes)))
     assert_allclose(restoring[np.abs(restoring) > 0.0], 1.0, rtol=1e-9)
+
+
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+def test_shares_at_a_time_know_what_inputs_are_there(coordinates):
+    """The stiffness is an input that jumps on the way; where the state is that of joints it was that of the start."""
+    rod = {**rods.ROD, "position": [0.0, -0.5], "angle": -np.pi / 2}
+    model = rods.model(
+        {"rod": rod},
+        {"pin": rods.pin("ground", "rod", rods.GROUND2, "A")},
+        inputs={"stiff": 1.0},
+        forces={"spring": {"type": "torque", "body": "rod", "torque": "-stiff*(rod.theta + pi/2)"}},
+    )
+    found = model.modes(at=0.02, inputs={"stiff": "1 if t < 0.01 else 20"}, coordinates=coordinates)
+    weight = 2.0 * rods.GRAVITY * 0.5
+    assert_allclose(found.stiffening["spring"], [20.0 / (20.0 + weight)], rtol=1e-12)
+    assert_allclose(found.omega_squared, [(20.0 + weight) * 1.5], rtol=1e-12)
