@@ -12,7 +12,7 @@ import numpy as np
 from symgen.arguments import shown
 from symgen.compiling.choose_coordinates import choose_coordinates, weighed
 from symgen.compiling.choose_shape import choose_shape
-from symgen.compiling.pipeline import MethodChoice, choose_method
+from symgen.compiling.pipeline import MethodChoice, choose_method, for_masses
 from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
@@ -131,11 +131,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     )
     free = "solver" in choice.options and not _asked(s, "solver")
     massless = any(body.massless for body in mechanism.bodies)
-    if massless:
-        if method.needs_regular_mass(choice.options):
-            raise InputError(f"method '{method.name}'", "one that does with massless bodies", "one that inverts M")
-        if free:
-            choice, free = choice.given(solver="augmented"), False
+    choice, free = for_masses(mechanism, choice, free), free and not massless
     asked_shape, events = _shape(s, last), events_asked(mechanism, s)
     if s.coordinates == "joint":
         choose_coordinates(mechanism, s.coordinates, asked_shape)

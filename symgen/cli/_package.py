@@ -4,17 +4,21 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import msgspec
 
 from symgen.describe.events import RESET, STOP
 from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
     from symgen.api import Model
-    from symgen.cli._reading import Started
     from symgen.compiling.pipeline import MethodChoice
+    from symgen.plan import Plan
+    from symgen.runtime.assembly import Start
+    from symgen.runtime.compiled import CompiledModel
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 _SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
@@ -69,10 +73,10 @@ class Run:
 '''
 
 _SIMULATE = '''"""Simulate this mechanism: python simulate.py [METHOD [UNTIL [STEP]]]. Written by symgen."""
-import json, pathlib, sys  # the package needs numpy and numba, and nothing else
-here = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(here.parent))
-package = __import__(here.name)
+import importlib.util as load, json, pathlib, sys  # the package needs numpy and numba, and nothing else
+spec = load.spec_from_file_location("emitted", pathlib.Path(__file__).resolve().with_name("__init__.py"))
+package = sys.modules["emitted"] = load.module_from_spec(spec)  # whatever its folder is called
+spec.loader.exec_module(package)
 
 def simulate(method=package.START["method"], until=package.START["until"], h=package.START["step"]):
     """Return times and states (q, v, work) of a run by the classical Runge-Kutta scheme with steps h."""
@@ -99,31 +103,39 @@ def may_write(path: Path) -> bool:
         return False
 
 
-def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, str]:
-    """Return the files that make emitted modules a package that runs, by name.
+def package(
+    model: Model, choices: Sequence[MethodChoice], coordinates: str, free: Container[str] = ()
+) -> tuple[tuple[MethodChoice, ...], dict[str, str]]:
+    """Return methods as they are to be emitted, and the files that make them a package that runs, by name.
 
-    Where no method is for explicit integrators, or the mechanism does not close, there is no start and nothing to
-    simulate, and the README says why.
+    Where bodies are so light at the start that a run takes another solver, so does the package. Where no method is for
+    explicit integrators, or the mechanism does not close, there is no start and nothing to simulate, and the README
+    says why.
 
     Parameters
     ----------
     model : Model
-        What was generated.
+        What is to be generated.
     choices : sequence of MethodChoice
-        The methods, as they were generated.
+        The methods, as they were asked for.
     coordinates : {"absolute", "joint"}
         Whose coordinates the state has.
+    free : container of str
+        Methods whose solver was not asked for.
     """
-    from symgen.cli._reading import Asked, Started
     from symgen.errors import AssemblyError
 
+    why, files = "no method here is for explicit integrators", dict[str, str]()
     explicit = [choice for choice in choices if not choice.implicit]
     usual = next((c for c in explicit if c.method.name == "direct-correction"), explicit[0] if explicit else None)
-    why, files = "no method here is for explicit integrators", dict[str, str]()
     if usual is not None:
         try:
-            started = Started.of(model, Asked(usual.method.name, usual.options, {}, "straight", coordinates))
-            settled = _start(model, started, usual)
+            light = _finds_light(model, [c for c in explicit if _may_change(c, free)], coordinates)
+            if light:
+                choices = [c.given(solver="augmented") if _may_change(c, free) else c for c in choices]
+                explicit = [choice for choice in choices if not choice.implicit]
+                usual = next(choice for choice in explicit if choice.method is usual.method)
+            settled = _settled(model, usual, coordinates)
             files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
         except AssemblyError as error:
             why = harmless(error)
@@ -131,20 +143,54 @@ def package(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> 
     bare = f'"""Emitted code of `{name}`; see README.md. Written by symgen."""\n'
     files["__init__.py"] = _PACKAGE.replace("MECHANISM", name) if "start.json" in files else bare
     files["README.md"] = _readme(model, explicit, why if "start.json" not in files else "")
-    return files
+    return tuple(choices), files
 
 
-def _start(model: Model, started: Started, choice: MethodChoice) -> dict[str, Any]:
+def _may_change(choice: MethodChoice, free: Container[str]) -> bool:
+    """Whether a method has a solver, and another one was not asked for."""
+    return choice.method.name in free and "solver" in choice.options
+
+
+def _finds_light(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> bool:
+    """Whether a run by one of these methods would take another solver than they have."""
+    for choice in choices[:1]:
+        _, compiled, _ = _begun(model, choice, coordinates, leave=("solver",))
+        return bool(compiled.law.options["solver"] != choice.options["solver"])
+    return False
+
+
+def _begun(
+    model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()
+) -> tuple[Plan, CompiledModel, Start]:
+    """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
+    from symgen.plan import make_plan
+    from symgen.run_setup import ready
+    from symgen.settings import Settings
+    from symgen.tree_run import tree_run
+
+    mechanism = msgspec.structs.replace(model.mechanism, outputs=())  # integrals of outputs are the runtime's
+    options = {f"method.{name}": value for name, value in choice.options.items() if name not in leave}
+    plan = make_plan(
+        mechanism, Settings(choice.method.name, "rk4", options=options, shape="straight", coordinates=coordinates)
+    )
+    if plan.coordinates == "joint":
+        tree = tree_run(mechanism, plan, {})
+        return plan, tree.compiled, tree.start
+    return plan, *ready(mechanism, plan)
+
+
+def _settled(model: Model, choice: MethodChoice, coordinates: str) -> dict[str, Any]:
     """Return parameters and a consistent start, as functions of the package take them."""
     import numpy as np
 
     from symgen.ir.program import COUNTERS, STATUS
     from symgen.runtime.simulation import Simulation
 
-    info, plan = started.compiled.info, started.plan
-    run = Simulation(started.compiled, plan.tableau, started.start, plan.spec)
+    plan, compiled, start = _begun(model, choice, coordinates)
+    info, defaults = compiled.info, model.mechanism.defaults
+    run = Simulation(compiled, plan.tableau, start, plan.spec)
     run.enter(run.outputs(np.zeros(0)), until=0.0)
-    state, defaults = run.state, model.mechanism.defaults
+    state = run.state
     kept = {name: info.sections[name] for name in _SETTLED if name in info.sections}
     return {
         "mechanism": model.name,

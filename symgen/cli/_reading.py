@@ -96,9 +96,8 @@ class Started:
             parameters=parameters,
         )
         plan = make_plan(model.mechanism, settings)
-        choice = replace(choice, shape=plan.choice.shape)
+        choice = replace(choice, shape=plan.choice.shape, options=plan.choice.options)
         if plan.coordinates == "joint":
-            choice = replace(choice, options=plan.choice.options)
             run = tree_run(model.mechanism, plan, settings.parameters)
             bodies = run.body_start.y[: run.bodies.info.nq]
             return cls(plan, choice, run.mechanism, run.compiled, run.start, tuple(map(float, bodies)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -51,7 +51,7 @@ def command(
     """
     from symgen.compiling.choose_coordinates import choose_coordinates, weighed
     from symgen.compiling.choose_tree import on_tree
-    from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, generate
+    from symgen.compiling.pipeline import MethodChoice, choose_method, for_coordinates, for_masses, generate
     from symgen.describe.load import load
     from symgen.lower.looped.law import is_loopable
     from symgen.methods import METHODS
@@ -63,8 +63,12 @@ def command(
         if owner not in wanted and not (owner == "method" and len(names) == 1):
             raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(names)}", f"'{key}'")
         wanted[names[0] if owner == "method" else owner][name] = value
-    choices: list[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
+    choices: Sequence[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
+    free = [name for name, given in wanted.items() if "solver" not in given]
     mechanism = load(model)
+    if not methods and any(body.massless for body in mechanism.bodies):
+        choices = [c for c in choices if not c.method.needs_regular_mass(c.options)]
+    choices = [for_masses(mechanism, c, c.method.name in free) for c in choices]
     chosen = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped")
     if chosen.name == "joint":
         mechanism = on_tree(mechanism)
@@ -79,14 +83,14 @@ def command(
         choices = [c for c in choices if is_loopable(c.method, c.options, c.implicit)]
     if target == "cuda" and not methods:
         choices = [c for c in choices if not c.implicit]
-    generated = generate(mechanism, tuple(choices), shape, target)
     beside: dict[str, str] = {}
     if shape == "straight" and target == "cpu":
         from symgen.api import Model
         from symgen.cli._package import may_write, package
 
-        found = package(Model(load(model)), choices, chosen.name)
+        choices, found = package(Model(load(model)), choices, chosen.name, free)
         beside = {name: text for name, text in found.items() if may_write(folder / name)}
+    generated = generate(mechanism, tuple(choices), shape, target)
     written = write_modules(folder, generated.modules, beside)
     if as_json:
         files = [{"path": str(path), "bytes": path.stat().st_size} for path in written]

@@ -83,6 +83,21 @@ def for_coordinates(mechanism: Mechanism, choice: MethodChoice) -> MethodChoice:
     return choice.given(weight="identity")
 
 
+def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) -> MethodChoice:
+    """Return a choice as massless bodies need it: v' is not eliminated, where the solver is `free` to be chosen.
+
+    Raises
+    ------
+    InputError
+        If a body is massless, and the method inverts M.
+    """
+    if not any(body.massless for body in mechanism.bodies):
+        return choice
+    if choice.method.needs_regular_mass(choice.options):
+        raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")
+    return choice.given(solver="augmented") if free and "solver" in choice.options else choice
+
+
 def folder_of(mechanism: Mechanism) -> str:
     """Return the name of the folder that holds everything emitted for `mechanism`; needs no SymPy."""
     digest = hashlib.sha256(f"{mechanism_digest(mechanism)} {generator_digest()}".encode()).hexdigest()

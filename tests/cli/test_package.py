@@ -121,6 +121,55 @@ def test_what_does_not_close_is_generated_without_a_start(tmp_path):
     compile((folder / "__init__.py").read_text(), "x", "exec")
 
 
+def three_rods(path, link):
+    """Three rods on pins, the middle one with the masses `link`."""
+    pin = '[joints.{}]\ntype = "revolute"\nbetween = ["{}", "{}"]\nat = [{}, {}]\n'
+    ends = "points = { P = [-0.5, 0], Q = [0.5, 0] }\n"
+    path.write_text(
+        '[mechanism]\nname = "rods"\ngravity = [0, -9.81]\n[run]\nuntil = 0.01\nstep = 1e-3\n'
+        f"[bodies.a]\nmass = 2.0\ninertia = 0.1\nangle = 0.4\n{ends}"
+        f"[bodies.link]\n{link}\nangle = -1.1\nposition = [1.15, -0.1]\n{ends}"
+        f"[bodies.b]\nmass = 1.0\ninertia = 0.1\nangle = 0.5\nposition = [1.8, -0.3]\n{ends}"
+        + pin.format("j", "ground", "a", "[0, 0]", '"P"')
+        + pin.format("k", "a", "link", '"Q"', '"P"')
+        + pin.format("l", "link", "b", '"Q"', '"P"')
+        + pin.format("m", "b", "ground", '"Q"', "[2.2, 0]")
+    )
+    return str(path)
+
+
+@pytest.mark.parametrize("link", ["mass = 0\ninertia = 0", "mass = 1e-12\ninertia = 1e-14"], ids=["none", "little"])
+def test_packages_of_massless_and_light_bodies_give_the_numbers_of_runs(link, alone, tmp_path):
+    """Eliminating v' divides by the mass, or leaves half of the digits: runs take another solver, packages too."""
+    agrees(three_rods(tmp_path / "rods.toml", link), alone, tmp_path, steps=3)
+    stem = json.loads((tmp_path / "emitted" / "start.json").read_text())["method"]
+    assert stem == "direct_correction_augmented"
+
+
+def test_a_solver_that_was_asked_for_is_emitted(tmp_path):
+    model, folder = three_rods(tmp_path / "rods.toml", "mass = 1e-12\ninertia = 1e-14"), tmp_path / "emitted"
+    wanted = ["--method", "lagrange", "--method", "baumgarte", "--option", "lagrange.solver=elimination"]
+    assert main(["generate", model, "-o", str(folder), *wanted]) == 0
+    assert (folder / "lagrange.py").exists() and (folder / "baumgarte_augmented.py").exists()
+
+
+def test_methods_that_invert_m_are_not_emitted_for_massless_bodies(tmp_path, capsys):
+    model, folder = three_rods(tmp_path / "rods.toml", "mass = 0\ninertia = 0"), tmp_path / "emitted"
+    assert main(["generate", model, "-o", str(folder), "--shape", "looped"]) == 0
+    assert (folder / "law_lagrange_augmented.py").exists()
+    assert not list(folder.glob("*udwadia_kalaba*")) and not list(folder.glob("*augmented_hamiltonian*"))
+    assert main(["generate", model, "-o", str(folder), "--method", "udwadia-kalaba"]) == 2
+    assert "expected one that does with massless bodies" in capsys.readouterr().err
+    assert main(["inspect", model, "--method", "lagrange", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "augmented"
+
+
+@pytest.mark.parametrize("name", ["json", "numpy", "version-1.0"])
+def test_a_package_runs_whatever_its_folder_is_called(name, alone, tmp_path):
+    assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(tmp_path / name)]) == 0
+    assert simulated(tmp_path / name, alone, tmp_path, "lagrange", 2e-3)["t"] == 2e-3
+
+
 def test_files_of_other_people_stay_as_they_are(tmp_path):
     folder = tmp_path / "emitted"
     folder.mkdir()
