@@ -53,8 +53,9 @@ class Traced:
 
     def reversed(self) -> Traced:
         """Return the same in the other order."""
-        arrays = self.times[::-1], self.states[::-1], self.accelerations[::-1], self.status[::-1]
-        return Traced(*arrays, self.passages[::-1], self.ended, self.steps)
+        # copies, as compiled code takes rows that follow each other
+        moved = self.times[::-1].copy(), self.states[::-1].copy(), self.accelerations[::-1].copy()
+        return Traced(*moved, self.status[::-1].copy(), self.passages[::-1], self.ended, self.steps)
 
 
 def trace(found: Prescribed, times: Array) -> Traced:
