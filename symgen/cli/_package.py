@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import msgspec
 
-from symgen.describe.events import RESET, STOP
+from symgen.describe.events import DOES
 from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
@@ -130,8 +130,8 @@ def package(
     usual = next((c for c in explicit if c.method.name == "direct-correction"), explicit[0] if explicit else None)
     if usual is not None:
         try:
-            light = _finds_light(model, [c for c in explicit if _may_change(c, free)], coordinates)
-            if light:
+            first = next((c for c in explicit if _may_change(c, free)), None)
+            if first is not None and _finds_light(model, first, coordinates):
                 choices = [c.given(solver="augmented") if _may_change(c, free) else c for c in choices]
                 explicit = [choice for choice in choices if not choice.implicit]
                 usual = next(choice for choice in explicit if choice.method is usual.method)
@@ -151,12 +151,10 @@ def _may_change(choice: MethodChoice, free: Container[str]) -> bool:
     return choice.method.name in free and "solver" in choice.options
 
 
-def _finds_light(model: Model, choices: Sequence[MethodChoice], coordinates: str) -> bool:
-    """Whether a run by one of these methods would take another solver than they have."""
-    for choice in choices[:1]:
-        _, compiled, _ = _begun(model, choice, coordinates, leave=("solver",))
-        return bool(compiled.law.options["solver"] != choice.options["solver"])
-    return False
+def _finds_light(model: Model, choice: MethodChoice, coordinates: str) -> bool:
+    """Whether a run by a method would take another solver than it has."""
+    _, compiled, _ = _begun(model, choice, coordinates, leave=("solver",))
+    return bool(compiled.law.options["solver"] != choice.options["solver"])
 
 
 def _begun(
@@ -241,6 +239,5 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
 
 def _events(model: Model) -> list[str]:
     """Return what events of the mechanism would do that nothing here looks for."""
-    does = {STOP: "ends runs", RESET: "changes velocities"}
-    found = [f"`{e.name}` {does[e.action]}" for e in model.mechanism.events if e.action in does]
+    found = [f"`{e.name}` {DOES[e.action]}" for e in model.mechanism.events if e.action in DOES]
     return [f"Nothing here looks for events, as `symgen run` does: {', '.join(found)}.", ""] if found else []

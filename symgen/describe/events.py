@@ -18,6 +18,8 @@ from symgen.vocabulary.expressions import Call, Expr, Name, Number, call, names
 
 RISING, FALLING, ANY = "rising", "falling", "any"
 RECORD, STOP, RESET = "record", "stop", "reset"
+#: What those do to a motion that are more than noted, in words.
+DOES = {STOP: "ends runs", RESET: "changes velocities"}
 _LOGIC = frozenset(("lt", "le", "gt", "ge", "and", "or", "not"))
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symgen.describe.evaluate import parameter_values, said
-from symgen.describe.events import RECORD, STOP
+from symgen.describe.events import DOES
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
@@ -160,9 +160,8 @@ def _live_of(
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
     for name, action in (*((event.name, event.action) for event in mechanism.events), *happened):
-        if action != RECORD:
-            does = "ends runs" if action == STOP else "changes velocities"
-            return None, f"{NONE}: the event '{name}' {does}, and pages do not look for events"
+        if action in DOES:
+            return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
     parameters, step = said(mechanism, parameter_values(mechanism, parameters)), step or mechanism.defaults.step
     plan = make_plan(mechanism, Settings(shape="straight", coordinates=coordinates, parameters=parameters, step=step))
     told = {**begun["q"], **begun["v"]}

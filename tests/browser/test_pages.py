@@ -263,7 +263,7 @@ def test_a_page_begins_with_what_its_run_had(coordinates: str, chromium: Chromiu
     """A number in place of a formula, and another start: the page's own motion is the run's."""
     kind: dict[str, object] = {"integrator": "rk4", "step": 1e-5, "until": 1e-4, "coordinates": coordinates}
     changed: dict[str, dict[str, float]] = {"parameters": {"throw": 0.03}, "start": {"crank.theta": 1.0}}
-    result = load("engine").simulate(**changed, **kind)  # type: ignore[arg-type]
+    result = load("engine").simulate(**changed, **kind)  # type: ignore[arg-type]  # of settings
     chromium.open(result.view().save(tmp_path / "page.html"))
     found = np.array(chromium.run("window.symgen.run({}, 1e-4, 1e-5)"))
     names = chromium.run("window.symgen.state")
