@@ -130,7 +130,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         },
     )
     free = "solver" in choice.options and not _asked(s, "solver")
-    massless = any(body.massless for body in mechanism.bodies)
+    massless = mechanism.has_massless
     choice, free = for_masses(mechanism, choice, free), free and not massless
     asked_shape, events = _shape(s, last), events_asked(mechanism, s)
     if s.coordinates == "joint":

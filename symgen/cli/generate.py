@@ -66,13 +66,13 @@ def command(
     choices: Sequence[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     free = [name for name, given in wanted.items() if "solver" not in given]
     mechanism = load(model)
-    if not methods and any(body.massless for body in mechanism.bodies):
+    if not methods and mechanism.has_massless:
         choices = [c for c in choices if not c.method.needs_regular_mass(c.options)]
     choices = [for_masses(mechanism, c, c.method.name in free) for c in choices]
     chosen = choose_coordinates(mechanism, coordinates, shape if target == "cpu" else "looped")
     if chosen.name == "joint":
         mechanism = on_tree(mechanism)
-        massless = any(body.massless for body in mechanism.bodies)
+        massless = mechanism.has_massless
         given = {name for name, asked in wanted.items() if "weight" in asked}
         choices = [c if c.method.name in given else weighed(c, massless) for c in choices]
     choices = [for_coordinates(mechanism, c) for c in choices]

@@ -91,7 +91,7 @@ def for_masses(mechanism: Mechanism, choice: MethodChoice, free: bool = True) ->
     InputError
         If a body is massless, and the method inverts M.
     """
-    if not any(body.massless for body in mechanism.bodies):
+    if not mechanism.has_massless:
         return choice
     if choice.method.needs_regular_mass(choice.options):
         raise InputError(f"method '{choice.method.name}'", "one that does with massless bodies", "one that inverts M")

@@ -346,6 +346,11 @@ class Mechanism(msgspec.Struct, frozen=True, weakref=True):
         return tuple(p.name for p in self.parameters if p.input)
 
     @property
+    def has_massless(self) -> bool:
+        """Whether a body has no mass, so that M cannot be inverted."""
+        return any(body.massless for body in self.bodies)
+
+    @property
     def body_coordinates(self) -> int:
         """How many coordinates all bodies have together."""
         return sum(len(body.coordinates) for body in self.bodies)
