@@ -14,8 +14,11 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+#: Random inputs of a test that does not say how many it draws; every run draws others.
+EXAMPLES = 30
+
 # no test depends on how fast a machine is or how busy: neither an example's time nor that of drawing it is bounded
-settings.register_profile("any machine", deadline=None, suppress_health_check=list(HealthCheck))
+settings.register_profile("any machine", max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck))
 settings.load_profile("any machine")
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go

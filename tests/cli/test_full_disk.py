@@ -44,6 +44,9 @@ CASES = {
     "template": (("new", "crane"), "-o", "crane.toml", 100),
 }
 
+#: Files that are written as others are, and the longest.
+LONGER = ("parquet", "svg", "pdf", "markdown", "sweep")
+
 
 def full(folder, command, option, name, limit):
     """Return exit code and what is said under the limit."""
@@ -55,7 +58,7 @@ def full(folder, command, option, name, limit):
 
 @pytest.mark.parametrize(
     ("command", "option", "name", "limit"),
-    [pytest.param(*case, id=name, marks=pytest.mark.slow if name == "sweep" else ()) for name, case in CASES.items()],
+    [pytest.param(*case, id=name, marks=pytest.mark.slow if name in LONGER else ()) for name, case in CASES.items()],
 )
 def test_one_sentence_and_nothing_lost(tmp_path, command, option, name, limit):
     old = tmp_path / name

@@ -21,7 +21,7 @@ from symgen.methods import METHODS
 from symgen.compiling.pipeline import choose_method, generate
 
 for name in names():
-    for method in METHODS if name == "four-bar" else ("lagrange", "baumgarte", "direct-correction"):
+    for method in METHODS if name == "four-bar" else ("lagrange", "direct-correction"):
         options = [{}] + [{o.name: v} for o in METHODS.get(method).options for v in o.values]
         choices = tuple({c.stem: c for c in (choose_method(method, o) for o in options)}.values())
         made = [generate(load(name).mechanism, choices)]
@@ -30,7 +30,7 @@ for name in names():
         loops = [choose_method(method, o, implicit) for o in options for implicit in forms]
         loops = tuple(c for c in loops if is_loopable(c.method, c.options, c.implicit))
         made.append(generate(load(name).mechanism, loops, "looped"))
-        if method in ("lagrange", "baumgarte", "direct-correction"):
+        if method in ("lagrange", "direct-correction"):
             made.append(generate(load(name).mechanism, choices[:1], target="lanes"))
             made.append(generate(load(name).mechanism, choices[:1], target="cuda"))
         for modules in made:

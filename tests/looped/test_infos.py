@@ -71,7 +71,7 @@ def agree(raw: dict[str, Any]) -> tuple[dict[str, Any], int]:
     return straight, sum(name.endswith("_again") for name in raw["joints"])
 
 
-SLOW = settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+SLOW = settings(max_examples=16, deadline=None, suppress_health_check=list(HealthCheck))
 
 
 @SLOW

@@ -58,9 +58,8 @@ CASES = {
 }
 
 
-@pytest.mark.parametrize(
-    "case", [pytest.param(case, marks=() if i == 0 else pytest.mark.slow) for i, case in enumerate(CASES)]
-)
+@pytest.mark.slow  # Numba compiles the loops once more
+@pytest.mark.parametrize("case", CASES)
 def test_runs_are_numbas_to_the_last_bit(case):
     """Where nothing can be contracted, as emitted functions are judged (`test_judge`)."""
     found = []

@@ -149,6 +149,7 @@ def test_runs_of_looped_code_are_numbas_to_the_last_bit(case):
     assert direct.stdout == plain.stdout
 
 
+@pytest.mark.slow
 def test_a_part_that_is_left_to_numba_changes_nothing(tmp_path):
     """Either calls the other: by address, and as functions of one module."""
     case, names = CASES["elimination"], {"motion", "accept", "solve_code"}

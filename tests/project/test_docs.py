@@ -84,7 +84,14 @@ def name(page: Path) -> str:
 
 
 #: Pages whose commands take longer than those of all others together.
-LONG = ("docs/command-line.md", "docs/stress.md", "docs/tutorial.md", "docs/tutorial-space.md", "docs/sweeps.md")
+LONG = (
+    "README.md",
+    "docs/command-line.md",
+    "docs/stress.md",
+    "docs/tutorial.md",
+    "docs/tutorial-space.md",
+    "docs/sweeps.md",
+)
 
 
 def with_language(language: str) -> list[object]:

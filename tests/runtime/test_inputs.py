@@ -13,6 +13,7 @@ from symgen.describe.inputs import driven
 from symgen.describe.load import load as load_mechanism
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
+from symgen.runtime import pieces
 from symgen.runtime.pieces import crossings, pieces_of
 
 STIFFNESS = 40.0
@@ -340,14 +341,18 @@ def test_random_crossings_are_all_found():
             "expected data from 0 to 1 s",
         ),
         ({"push": "no.csv:force"}, "input 'push': no.csv: expected a file that can be read, got No such file"),
-        # as many as are allowed are looked for first
-        pytest.param({"push": "sign(sin(1e6*t))"}, "inputs: expected at most 100000 jumps", marks=pytest.mark.slow),
     ],
 )
 def test_bad_inputs_are_told_in_a_sentence(model, inputs, message):
     with pytest.raises(InputError) as caught:
         model.simulate(until=1.0, inputs=inputs)
     assert message in str(caught.value)
+
+
+def test_more_jumps_than_are_looked_for_are_told(model, monkeypatch):
+    monkeypatch.setattr(pieces, "MOST_PIECES", 1000)
+    with pytest.raises(InputError, match="inputs: expected at most 1000 jumps"):
+        model.simulate(until=1.0, inputs={"push": "sign(sin(1e4*t))"})
 
 
 @pytest.mark.parametrize(

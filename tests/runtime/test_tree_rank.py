@@ -34,8 +34,8 @@ def run(tmp_path, text, units, until, method):
     [
         ("four-bar", None, 0.5, "direct-correction", 8, 0),
         ("n-four-bar", 1, 2.7, "direct-correction", 8, 1),  # the flat four-bar, through the line of its bars
-        ("n-four-bar", 2, 2.7, "coordinate-partitioning", 14, 1),
-        ("bricard", None, 0.2, "direct-correction", 29, 0),
+        pytest.param("n-four-bar", 2, 2.7, "coordinate-partitioning", 14, 1, marks=pytest.mark.slow),
+        pytest.param("bricard", None, 0.2, "direct-correction", 29, 0, marks=pytest.mark.slow),
     ],
 )
 def test_units_change_nothing(tmp_path, name, size, until, method, rank, events):

@@ -20,6 +20,7 @@ def away(result, model):
     return Points.of(model.mechanism, model.parameters()).distance(columns(result, model.mechanism), q)
 
 
+@pytest.mark.slow
 def test_two_formulations_agree_for_ten_seconds():
     """24 Cartesian velocities and 20 rows by an explicit integrator, against two coordinates by an implicit one."""
     times = np.linspace(0.0, 10.0, 101)

@@ -13,15 +13,15 @@ from symgen.study.references.independent_space import SpatialEquations, independ
 GROUPS = [
     (("revolute", "spherical"), ("force",)),
     (("translational", "distance"), ("spring-damper",)),
-    (("cylindrical", "point-on-plane"), ("torque",)),
+    pytest.param(("cylindrical", "point-on-plane"), ("torque",), marks=pytest.mark.slow),
     (("universal", "driver"), ("torsional-spring-damper",)),
-    (("screw", "pin-in-slot"), ()),
-    (("rolling-disc", "knife-edge"), ("bushing",)),
+    pytest.param(("screw", "pin-in-slot"), (), marks=pytest.mark.slow),
+    pytest.param(("rolling-disc", "knife-edge"), ("bushing",), marks=pytest.mark.slow),
     (("rolling-sphere", "revolute-spherical"), ()),
     pytest.param(("gear",), ("force",), marks=pytest.mark.slow),
     pytest.param(("rack-and-pinion",), (), marks=pytest.mark.slow),
     (("constant-velocity",), ("torque",)),
-    (("planar", "rigid"), ()),
+    pytest.param(("planar", "rigid"), (), marks=pytest.mark.slow),
 ]
 
 

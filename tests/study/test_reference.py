@@ -91,7 +91,7 @@ def test_another_mechanism_of_the_same_name_gets_the_general_route(tmp_path):
     assert energy[-1] < -0.4
 
 
-@pytest.mark.parametrize("windows", [1, 2])
+@pytest.mark.parametrize("windows", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_singular_positions_are_passed_by_runs_whose_steps_fall_differently(windows):
     """Ten passages in 10 s, against the equation of the regular branch, which knows no singular position."""
     closed, general, points = both(f"n-four-bar:{windows}", np.linspace(0.0, 10.0, 41))

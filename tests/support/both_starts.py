@@ -12,7 +12,7 @@ from symgen.runtime import decisions
 from symgen.runtime.assembly import Held, Start
 from symgen.runtime.compiled import CompiledModel
 
-SEEDS = range(8)
+SEEDS = range(4)
 
 
 def start_or_reason(model: Model, compiled: CompiledModel, held: Held | None) -> Start | str:

@@ -172,7 +172,13 @@ def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
     assert abs(in_tree[own.work]) > 1.0, "the motors do work"
 
 
-@pytest.mark.parametrize("method", ["direct-correction", "augmented-hamiltonian", "null-space", "udwadia-kalaba"])
+@pytest.mark.parametrize(
+    "method",
+    [
+        "direct-correction",
+        *(pytest.param(m, marks=pytest.mark.slow) for m in ("augmented-hamiltonian", "null-space", "udwadia-kalaba")),
+    ],
+)
 def test_work_of_motors_balances_the_energy(method, tmp_path):
     model = written(spatial(False), tmp_path)
     result = model.simulate(method=method, coordinates="joint", until=0.2, step=1e-3, max_energy_error=1e-6)

@@ -28,16 +28,10 @@ def verified(output: Path, *words: str) -> list[dict]:
     return [line for line in lines(output) if "runs" in line]
 
 
-@pytest.mark.parametrize(
-    ("space", "shape"),
-    [
-        *(("planar", "straight"), ("planar", "joint")),
-        *(pytest.param("spatial", shape, marks=pytest.mark.slow) for shape in ("straight", "joint")),
-    ],
-)
-def test_a_few_random_mechanisms(space: str, shape: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("shape", ["straight", "joint"])
+def test_a_few_random_mechanisms(shape: str, tmp_path: Path) -> None:
     """Emitted code is run as Python here, so that nothing has to be compiled."""
-    words = ("--interpreted", "--shapes", shape, "--mechanisms", "3", "--seed", "21", "--space", space)
+    words = ("--interpreted", "--shapes", shape, "--mechanisms", "2", "--seed", "21", "--space", "planar")
     moving = [line for line in verified(tmp_path / "verify.jsonl", *words) if "contradiction" not in line]
     assert moving and all(run["right"] and run["status"] == "ok" for line in moving for run in line["runs"])
     again = run("benchmarks.verify", "--output", str(tmp_path / "verify.jsonl"), "--jobs", "1", *words)
@@ -45,21 +39,22 @@ def test_a_few_random_mechanisms(space: str, shape: str, tmp_path: Path) -> None
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("space", ["planar", "spatial"])
-def test_random_mechanisms_in_all_shapes(space: str, tmp_path: Path) -> None:
-    words = ("--shapes", "straight,looped,auto", "--mechanisms", "12", "--seed", "22", "--space", space)
-    assert len(verified(tmp_path / "verify.jsonl", *words)) > 6
+@pytest.mark.parametrize(("space", "count"), [("planar", 8), ("spatial", 4)])
+def test_random_mechanisms_in_all_shapes(space: str, count: int, tmp_path: Path) -> None:
+    words = ("--shapes", "straight,looped,auto", "--mechanisms", str(count), "--seed", "22", "--space", space)
+    assert len(verified(tmp_path / "verify.jsonl", *words)) > count // 2
 
 
 @pytest.mark.slow
 def test_many_random_mechanisms(tmp_path: Path) -> None:
-    words = ("--interpreted", "--shapes", "straight,joint", "--mechanisms", "60", "--seed", "23")
-    assert len(verified(tmp_path / "verify.jsonl", *words)) > 40
+    words = ("--interpreted", "--shapes", "straight,joint", "--mechanisms", "20", "--seed", "23")
+    assert len(verified(tmp_path / "verify.jsonl", *words)) > 12
 
 
 @pytest.mark.slow
 def test_random_mechanisms_by_every_method(tmp_path: Path) -> None:
-    words = ("--interpreted", "--shapes", "straight", "--methods", "--mechanisms", "4", "--seed", "24")
+    """Looped code where a method has it: compiled once for all mechanisms."""
+    words = ("--shapes", "looped", "--methods", "--mechanisms", "3", "--seed", "24")
     assert len(verified(tmp_path / "verify.jsonl", *words)) > 1
 
 
@@ -75,23 +70,14 @@ def test_a_few_hundred_broken_files(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_thousands_of_broken_files(tmp_path: Path) -> None:
-    fuzzed(tmp_path / "fuzz.jsonl", "--files", "4000", "--seed", "22", "--whole", "0.2")
-
-
-def flipped(output: Path, count: int) -> None:
-    done = run("benchmarks.flips", "--flips", str(count), "--seed", "21", "--output", str(output))
-    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
-    assert len(lines(output)) == count
+    fuzzed(tmp_path / "fuzz.jsonl", "--files", "1500", "--seed", "22", "--whole", "0.2")
 
 
 @pytest.mark.slow
 def test_a_few_flipped_bits(tmp_path: Path) -> None:
-    flipped(tmp_path / "flips.jsonl", 4)
-
-
-@pytest.mark.slow
-def test_many_flipped_bits(tmp_path: Path) -> None:
-    flipped(tmp_path / "flips.jsonl", 60)
+    done = run("benchmarks.flips", "--flips", "20", "--seed", "21", "--output", str(tmp_path / "flips.jsonl"))
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
+    assert len(lines(tmp_path / "flips.jsonl")) == 20
 
 
 def in_units(output: Path, *words: str) -> None:
@@ -101,12 +87,12 @@ def in_units(output: Path, *words: str) -> None:
 
 
 def test_a_few_mechanisms_in_other_units(tmp_path: Path) -> None:
-    in_units(tmp_path / "units.jsonl", "--entries", "pendulum,four-bar", "--mechanisms", "1", "--seed", "21")
+    in_units(tmp_path / "units.jsonl", "--entries", "pendulum", "--mechanisms", "1", "--seed", "21")
 
 
 @pytest.mark.slow
 def test_mechanisms_in_other_units_compiled(tmp_path: Path) -> None:
-    in_units(tmp_path / "units.jsonl", "--mechanisms", "12", "--seed", "22", "--compiled")
+    in_units(tmp_path / "units.jsonl", "--mechanisms", "4", "--seed", "22", "--compiled")
 
 
 def test_commands_of_the_page_are_there() -> None:
