@@ -170,6 +170,14 @@ class Subject:
         w[abi.WINDING : abi.WINDING + count] = there[abi.WINDING : abi.WINDING + count]
         return replace(self, w=w)
 
+    def as_long_as(self, length: float) -> Subject:
+        """Return the same as a mechanism of at least such a length [m]."""
+        if length <= self.length:
+            return self
+        w = self.w.copy()
+        w[abi.LENGTH] = length
+        return replace(self, w=w)
+
     def turned(self, values: Mapping[str, float]) -> Subject:
         """Return the same with the angles that count turns as coordinates of joints are that are known by name."""
         w = self.w.copy()
