@@ -15,10 +15,8 @@ from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.cli._reading import Started
     from symgen.compiling.pipeline import MethodChoice
-    from symgen.plan import Plan
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 _SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
@@ -190,28 +188,19 @@ def _may_change(choice: MethodChoice, free: Container[str]) -> bool:
 
 def _finds_light(model: Model, choice: MethodChoice, coordinates: str) -> bool:
     """Whether a run by a method would take another solver than it has."""
-    _, compiled, _ = _begun(model, choice, coordinates, leave=("solver",))
-    return bool(compiled.law.options["solver"] != choice.options["solver"])
-
-
-def _begun(
-    model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()
-) -> tuple[Plan, CompiledModel, Start]:
-    """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
-    from symgen.plan import make_plan
-    from symgen.run_setup import ready
-    from symgen.settings import Settings
-    from symgen.tree_run import tree_run
-
-    mechanism = msgspec.structs.replace(model.mechanism, outputs=())  # integrals of outputs are the runtime's
-    options = {f"method.{name}": value for name, value in choice.options.items() if name not in leave}
-    plan = make_plan(
-        mechanism, Settings(choice.method.name, "rk4", options=options, shape="straight", coordinates=coordinates)
+    return bool(
+        _begun(model, choice, coordinates, leave=("solver",)).choice.options["solver"] != choice.options["solver"]
     )
-    if plan.coordinates == "joint":
-        tree = tree_run(mechanism, plan, {})
-        return plan, tree.compiled, tree.start
-    return plan, *ready(mechanism, plan)
+
+
+def _begun(model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()) -> Started:
+    """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
+    from symgen.api import Model
+    from symgen.cli._reading import Asked, Started
+
+    options = {name: str(value) for name, value in choice.options.items() if name not in leave}
+    without = Model(msgspec.structs.replace(model.mechanism, outputs=()))  # integrals of outputs are the runtime's
+    return Started.of(without, Asked(choice.method.name, options, {}, "straight", coordinates), "rk4")
 
 
 def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, Any]:
@@ -225,10 +214,9 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
     from symgen.runtime.simulation import Simulation
     from symgen.runtime.watch import NEGLIGIBLE, VANISHING
 
-    plan, compiled, start = _begun(model, choice, coordinates)
-    info, defaults = compiled.info, model.mechanism.defaults
-    spec = plan.spec
-    run = Simulation(compiled, plan.tableau, start, spec)
+    begun = _begun(model, choice, coordinates)
+    info, defaults, spec = begun.compiled.info, model.mechanism.defaults, begun.plan.spec
+    run = Simulation(begun.compiled, begun.plan.tableau, begun.start, spec)
     run.enter(run.outputs(np.zeros(0)), until=0.0)
     state, most = run.state, spec.max_violation
     kept = {name: info.sections[name] for name in _SETTLED if name in info.sections}

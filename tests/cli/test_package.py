@@ -202,6 +202,16 @@ def test_methods_that_invert_m_are_not_emitted_for_massless_bodies(tmp_path, cap
     assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "augmented"
 
 
+def test_inspect_tells_the_solver_that_runs_take_for_light_bodies(tmp_path, capsys):
+    model = three_rods(tmp_path / "rods.toml", "mass = 1e-12\ninertia = 1e-13")
+    assert main(["inspect", model, "--method", "lagrange", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["method"]["options"]["solver"]
+    run = symgen.load(model).simulate(method="lagrange", integrator="rk4", step=1e-3, until=1e-3)
+    assert told == run.outcome.compiled.law.options["solver"] == "augmented"
+    assert main(["inspect", model, "--method", "lagrange", "--option", "solver=elimination", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "elimination"
+
+
 @pytest.mark.parametrize("name", ["json", "numpy", "version-1.0"])
 def test_a_package_runs_whatever_its_folder_is_called(name, alone, tmp_path):
     assert main(["generate", "pendulum", "--method", "lagrange", "-o", str(tmp_path / name)]) == 0
