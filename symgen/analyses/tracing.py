@@ -164,10 +164,9 @@ class Tracer:
             self._cross(f.DONE, seen)  # the last states are beside a singular position
         n = int(self.stand.counts[f.AT])
         taken = int(self.stand.counts[f.TAKEN])
-        arrays = [array[:n] for array in (self.times, seen.states, seen.accelerations, seen.status)]
-        if not self.asked.all():
-            arrays = [array[self.asked[:n]] for array in arrays]
-        return Traced(*arrays, (*self.passages,), ended, taken)
+        here: Any = slice(n) if self.asked.all() else np.flatnonzero(self.asked[:n])
+        moved = self.times[here], seen.states[here], seen.accelerations[here]
+        return Traced(*moved, seen.status[here], (*self.passages,), ended, taken)
 
     def follow(self, times: Array, seen: Any) -> int:
         """Enter the compiled loop."""

@@ -29,7 +29,7 @@ NOTHING, SAME = 1e-12, 1e-9
 _GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
-def with_stops(found: Prescribed, times: Array) -> tuple[Array, Array]:
+def with_stops(found: Prescribed, times: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Return times with those between them at which drivers turn back or have gone far, and where the first ones are.
 
     Parameters
