@@ -28,6 +28,7 @@ from symgen.settings import Settings
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
+    from symgen.methods._base import Method
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.last_state import LastState
 
@@ -118,8 +119,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         relative=s.atol is None,
         largest_step=np.inf if limit is None else limit,
         max_violation=s.max_violation,
-        # an error of the discretisation, not drift: half the digits are asked of it
-        max_velocity_violation=math.sqrt(s.max_violation) if method.velocities_follow else None,
+        max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
         pieces=_pieces(mechanism, s.parameters, until) if adaptive else (),
@@ -156,6 +156,12 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         coordinates.name,
         coordinates.reason,
     )
+
+
+def limit_of_velocities(method: Method, max_violation: float) -> float | None:
+    """Return the largest violation of velocities that a run by a method may have, None where it is `max_violation`."""
+    # where velocities follow it is an error of the discretisation, not drift: half the digits are asked of it
+    return math.sqrt(max_violation) if method.velocities_follow else None
 
 
 def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> tuple[Piece, ...]:

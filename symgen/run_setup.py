@@ -70,8 +70,8 @@ class Given:
     driven: Driven | None = None
 
 
-def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
-    """Return a mechanism and settings with inputs put in their places.
+def give_inputs(mechanism: Mechanism, settings: Settings, behind: float = 0.0) -> Given:
+    """Return a mechanism and settings with inputs put in their places; `behind` is that of `pieces_of`.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def give_inputs(mechanism: Mechanism, settings: Settings) -> Given:
     parameters = {**settings.parameters, **found.numbers}
     until = mechanism.defaults.until if settings.until is None else settings.until
     values = parameter_values(found.mechanism, parameters)
-    pieces = pieces_of(found, values, until)
+    pieces = pieces_of(found, values, until, behind=behind)
     parameters |= pieces[0].values if pieces else {}
     told = {name: x if isinstance(x, str) else values[name] for name, x in found.told.items()}  # defaults follow others
     return Given(found.mechanism, replace(settings, parameters=parameters, inputs={}), pieces, told, found)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
-from symgen.analyses.settle import Settled, settle
+from symgen.analyses.settle import Settled, lengths, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
 
@@ -28,6 +28,8 @@ NOTHING = 1e-9
 #: Halvings of an interval that has an equilibrium before Newton's method is tried, and at most; so far beside the
 #: interval, as a part of it, an equilibrium at its end may be found.
 FIRST_HALVINGS, HALVINGS, BESIDE = 4, 12, 1e-6
+#: Equilibria nearer to each other than this are one [rad, or the length of the mechanism].
+SAME = 1e-7
 STABLE, UNSTABLE, INDIFFERENT = "stable", "unstable", "indifferent"
 
 
@@ -176,6 +178,7 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
     name, values = scan
     if len(values) < 2:
         raise InputError(f"scan {name}", "two values or more", f"{len(values)}")
+    subject = _reaching(subject, name, values)
     found, before, seen, y = list[Equilibrium](), None, 0, _still(subject)
     for value in values:
         try:
@@ -196,6 +199,15 @@ def equilibria(subject: Subject, scan: tuple[str, Array] | None = None) -> tuple
     if not found:
         raise AnalysisError(f"no equilibrium was found with {name} from {values[0]:g} to {values[-1]:g}")
     return tuple(found)
+
+
+def _reaching(subject: Subject, name: str, values: Array) -> Subject:
+    """Return a subject as long as a scan leads it: steps are bounded by its length, and its start may have none."""
+    space, at = subject.position(name)
+    unit = subject.compiled.info.coordinates[at].unit if space == "q" else subject.form.units[name]
+    if unit != "m":
+        return subject
+    return subject.as_long_as(float(np.abs(values - _value(subject, subject.y, name)).max()))
 
 
 def at_rest_from(subject: Subject) -> Settled:
@@ -243,7 +255,7 @@ def _between(name: str, a: Held, b: Held) -> Settled | None:
             continue
         steps += rest.steps
         rest = replace(rest, steps=steps)
-        if low - slack <= _value(rest, name) <= high + slack:
+        if low - slack <= _value(rest.subject, rest.y, name) <= high + slack:
             return rest
         elsewhere = rest
     return elsewhere
@@ -253,9 +265,9 @@ def _nearer(a: Held, b: Held) -> Settled:
     return (a if abs(a[1].lam[-1]) < abs(b[1].lam[-1]) else b)[1]
 
 
-def _value(rest: Settled, name: str) -> float:
-    space, at = rest.subject.position(name)
-    return float(rest.y[at] if space == "q" else rest.subject.evaluated(rest.y).value("functions")[at])
+def _value(subject: Subject, y: Array, name: str) -> float:
+    space, at = subject.position(name)
+    return float(y[at] if space == "q" else subject.evaluated(y).value("functions")[at])
 
 
 def _add(found: list[Equilibrium], rest: Settled) -> None:
@@ -268,6 +280,6 @@ def _add(found: list[Equilibrium], rest: Settled) -> None:
         for first, _ in subject.compiled.info.spins:  # both signs of Euler parameters are one orientation
             one, other = known.y[first : first + 4], at[first : first + 4]
             apart[first : first + 4] = min(one - other, one + other, key=lambda x: float(np.linalg.norm(x)))
-        if np.abs(apart).max(initial=0.0) < 1e-7 * max(1.0, subject.length):
+        if np.abs(apart / lengths(subject)).max(initial=0.0) < SAME:
             return
     found.append(new)

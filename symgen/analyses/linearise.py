@@ -129,9 +129,10 @@ def named_states(
     """Return the names of the states that are asked for or found, after a check that they make a linear system."""
     resting = at_rest(subject, x)
     if states:
-        names = with_rates(subject, states)
-        rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-        if np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)) < len(names):
+        given = tuple(dict.fromkeys(states))
+        # what tells all needs no more rates, also where Euler parameters are in it, whose rates have no names
+        names = given if _independent(x, given) == x.size else with_rates(subject, states)
+        if _independent(x, names) < len(names):
             raise InputError("states", "states that do not depend on each other", ", ".join(names))
     elif resting or instantaneous:
         names = chosen(subject, x)
@@ -145,6 +146,12 @@ def named_states(
     if not instantaneous:
         check_steady(subject, x, names, where)
     return names
+
+
+def _independent(x: Tangent, names: Sequence[str]) -> int:
+    """Return how many of some states do not depend on each other."""
+    rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
+    return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
 
 
 def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from symgen import arguments
 from symgen.analyses.asked import Array, Asked, asked_modes, range_of
 from symgen.describe.evaluate import parameter_values
-from symgen.errors import InputError
+from symgen.errors import InputError, SymgenError
 from symgen.files import write_whole
 from symgen.result.export import PLOTTED, check_path
 from symgen.result.plots import COLOURS
@@ -26,6 +27,8 @@ Complex = NDArray[np.complex128]
 LEVEL = 1e-9
 #: Spans in which branches pass both ways are parted here, not in the middle, where a crossing may well be, so often.
 PARTED, HALVINGS = 0.3819660112501051, 40
+#: A span is looked into, so often, where real parts may bend by as much as this part of what they are at its ends.
+BENT, LOOKS = 0.25, 12
 #: So far beside a crossing, as a part of its span, eigenvalues that pass are told from those that stay on the axis.
 BESIDE = 1e-5
 
@@ -144,29 +147,38 @@ def locus(asked: Asked, over: tuple[str, Sequence[float] | Array], states: Seque
         changed = replace(settings, parameters={**settings.parameters, name: value})
         return asked_modes(replace(asked, settings=changed), states).eigenvalues
 
-    found = [eigenvalues(float(values[0]))]
+    count = len(eigenvalues(float(values[0])))
     for value in values[1:]:
-        now = eigenvalues(float(value))
-        if len(now) != len(found[0]):
-            expected = f"{len(found[0])} eigenvalues at all values, as at {values[0]:g}; give states"
-            raise InputError(f"over {name}", expected, f"{len(now)} at {value:g}")
-        found.append(_followed(found, now))
+        if (now := len(eigenvalues(float(value)))) != count:
+            expected = f"{count} eigenvalues at all values, as at {values[0]:g}; give states"
+            raise InputError(f"over {name}", expected, f"{now} at {value:g}")
+    largest = max(float(np.abs(eigenvalues(float(value))).max(initial=1e-300)) for value in values)
+    search = _Search(eigenvalues, LEVEL * largest)
+    every = np.array(search.looked_at([float(value) for value in values]))
+    found = list[Complex]()
+    for k, value in enumerate(every):
+        further = (value - every[k - 1]) / (every[k - 1] - every[k - 2]) if k > 1 else 0.0
+        found.append(_followed(found, eigenvalues(float(value)), further))
     branches = np.array(found)
-    return Locus(name, values, branches, _crossings(values, branches, eigenvalues))
+    return Locus(name, values, branches[np.isin(every, values)], _crossings(every, branches, search))
 
 
-def _followed(before: Sequence[Complex], now: Complex) -> Complex:
-    """Return eigenvalues in the order of the ones before, which are gone on from in straight lines."""
+def _followed(before: Sequence[Complex], now: Complex, further: float = 0.0) -> Complex:
+    """Return eigenvalues in the order of the ones before, which are gone on from in straight lines.
+
+    `further` is how much of the last step this one is.
+    """
     from scipy.optimize import linear_sum_assignment
 
-    expected = before[-1] if len(before) < 2 else 2.0 * before[-1] - before[-2]
+    if not before:
+        return now
+    expected = before[-1] if len(before) < 2 else before[-1] + further * (before[-1] - before[-2])
     far = np.abs(expected[:, None] - now[None, :]) + np.abs(before[-1][:, None] - now[None, :])
     return np.asarray(now[linear_sum_assignment(far)[1]])
 
 
-def _crossings(values: Array, branches: Complex, eigenvalues: Callable[[float], Complex]) -> tuple[Crossing, ...]:
+def _crossings(values: Array, branches: Complex, search: _Search) -> tuple[Crossing, ...]:
     """Return where branches pass the imaginary axis, each pair of conjugates once."""
-    search = _Search(eigenvalues, LEVEL * np.abs(branches).max(initial=1e-300))
     spans = [(k, k + 1) for k in range(len(values) - 1) if search.parted(branches[k], branches[k + 1])]
     for branch in branches.T:
         # a value at which nothing decays or grows may be the one that is passed
@@ -203,6 +215,46 @@ class _Search:
         left, right = self.sides(a), self.sides(b)
         same = np.count_nonzero(left) == np.count_nonzero(right)
         return bool(same and np.count_nonzero(left > 0.0) != np.count_nonzero(right > 0.0))
+
+    def looked_at(self, values: Sequence[float]) -> list[float]:
+        """Return values with those between them where a real part may have passed zero and come back.
+
+        In their order real parts are continuous. Where one is on the same side at both ends of a span, it has been on
+        the other one only if it bends there, by more than what is left of it: as the values beside the span show, and
+        those in it.
+        """
+        found = [values[0]]
+        for k in range(len(values) - 1):
+            a, b = values[k : k + 2]
+            beside = [values[i - 1 : i + 2] for i in (k, k + 1) if 0 < i < len(values) - 1]
+            bends = [self.bend(*three) for three in beside]
+            bend = np.max(bends, axis=0) if bends else np.array(math.inf)
+            found += [*self.inside(a, b, bend, LOOKS), b]
+        return found
+
+    def inside(self, a: float, b: float, bend: Array, looks: int) -> list[float]:
+        """Return values between two at which real parts are looked at, which may bend by so much there."""
+        zeros = [np.count_nonzero(self.sides(self.eigenvalues(value)) == 0.0) for value in (a, b)]
+        first, last = (self.ordered(value, int(min(zeros))).real for value in (a, b))
+        bend = bend if bend.ndim == 0 or len(bend) == len(first) else bend.max(initial=0.0)
+        left = np.minimum(np.abs(first), np.abs(last))
+        if not looks or not np.any((first * last > 0.0) & (left > self.level) & (bend > BENT * left)):
+            return []
+        middle = a + PARTED * (b - a)
+        try:
+            if not a < middle < b or len(self.eigenvalues(middle)) != len(self.eigenvalues(a)):
+                return []
+        except SymgenError:  # there is no such motion between
+            return []
+        now = self.bend(a, middle, b)
+        return [*self.inside(a, middle, now, looks - 1), middle, *self.inside(middle, b, now, looks - 1)]
+
+    def bend(self, a: float, b: float, c: float) -> Array:
+        """Return by how much real parts at the middle one of three values are beside the line between the others."""
+        found = [self.eigenvalues(value) for value in (a, b, c)]
+        leave = int(min(np.count_nonzero(self.sides(x) == 0.0) for x in found))
+        first, middle, last = (self.ordered(value, leave).real for value in (a, b, c))
+        return np.asarray(np.abs(middle - first - (last - first) * ((b - a) / (c - a))))
 
     def within(self, a: float, b: float, halvings: int = HALVINGS) -> list[Crossing]:
         """Return the crossings between two values that branches followed between them show."""

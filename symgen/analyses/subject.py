@@ -21,7 +21,6 @@ from symgen.lower.windings import winding_order
 from symgen.plan import Plan, make_plan
 from symgen.run_setup import Given, give_inputs, held_of, ready
 from symgen.runtime import abi
-from symgen.runtime.pieces import pieces_of
 from symgen.runtime.probe import Ready
 from symgen.settings import Settings
 from symgen.tree_run import tree_run
@@ -170,6 +169,14 @@ class Subject:
         w[abi.WINDING : abi.WINDING + count] = there[abi.WINDING : abi.WINDING + count]
         return replace(self, w=w)
 
+    def as_long_as(self, length: float) -> Subject:
+        """Return the same as a mechanism of at least such a length [m]."""
+        if length <= self.length:
+            return self
+        w = self.w.copy()
+        w[abi.LENGTH] = length
+        return replace(self, w=w)
+
     def turned(self, values: Mapping[str, float]) -> Subject:
         """Return the same with the angles that count turns as coordinates of joints are that are known by name."""
         w = self.w.copy()
@@ -265,10 +272,8 @@ def given_at_start(mechanism: Mechanism, settings: Settings) -> Given:
     """Return a mechanism and settings with inputs in their places: known up to the start, which may be one of a run."""
     if isinstance(settings.start, Mapping) or (begin := settings.start.last_state.t) <= 0.0:
         return give_inputs(mechanism, settings)
-    found = give_inputs(mechanism, replace(settings, until=begin))
-    if found.driven is not None:  # a run from here on begins behind what jumps here; smooth data may end here
-        values, smooth = parameter_values(found.mechanism, found.settings.parameters), replace(found.driven, curves={})
-        found = replace(found, pieces=pieces_of(smooth, values, begin * (1.0 + BEYOND)))
+    # a run from here on begins behind what jumps here; smooth data may end here
+    found = give_inputs(mechanism, replace(settings, until=begin), behind=BEYOND)
     return replace(found, settings=replace(found.settings, until=2.0 * begin))  # nothing is run
 
 

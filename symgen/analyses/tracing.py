@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.passing import Curve, Passage, curve_through, rates_of
 from symgen.analyses.prescribed import CUTOFF, DRIVER, Prescribed, jacobian_at
+from symgen.analyses.travelling import with_stops
 from symgen.runtime import abi, decisions
 from symgen.runtime import following as f
 from symgen.runtime.exact import compiled_form
@@ -109,6 +110,7 @@ class Tracer:
         info, model = compiled.info, compiled.model
         self.info, self.p, self.w = info, start.p, start.w.copy()
         self.span = max(float(np.abs(self.times).max()), 1e-9)
+        self.times, self.asked = with_stops(self.found, self.times)
         sections = (info.sections[name][0] for name in ("residual", "change", "mask", "jacobian"))
         length = float(self.w[abi.LENGTH])
         numbers = (info.nq, info.nv, info.m, info.ny, info.windings, *sections, len(start.redundant_rows), info.nv)
@@ -162,9 +164,9 @@ class Tracer:
             self._cross(f.DONE, seen)  # the last states are beside a singular position
         n = int(self.stand.counts[f.AT])
         taken = int(self.stand.counts[f.TAKEN])
-        return Traced(
-            self.times[:n], seen.states[:n], seen.accelerations[:n], seen.status[:n], (*self.passages,), ended, taken
-        )
+        here: Any = slice(n) if self.asked.all() else np.flatnonzero(self.asked[:n])
+        moved = self.times[here], seen.states[here], seen.accelerations[here]
+        return Traced(*moved, seen.status[here], (*self.passages,), ended, taken)
 
     def follow(self, times: Array, seen: Any) -> int:
         """Enter the compiled loop."""

@@ -15,10 +15,8 @@ from symgen.emit.text import harmless
 
 if TYPE_CHECKING:
     from symgen.api import Model
+    from symgen.cli._reading import Started
     from symgen.compiling.pipeline import MethodChoice
-    from symgen.plan import Plan
-    from symgen.runtime.assembly import Start
-    from symgen.runtime.compiled import CompiledModel
 
 #: Sections of ``w`` that a start settles; all others are written before they are read.
 _SETTLED = ("status", "winding", "mask", "saved", "pivot", "gauge", "row_weight", "mass", "mass_entry")
@@ -52,6 +50,8 @@ class Run:
         model.prepare(self.p)
         self.law.prepare(self.p)
         self.w, self.iw = np.zeros(told["nw"]), np.zeros(START["counters"], np.int64)
+        self.limits = {name: x[method] if name == "velocity" else x for name, x in START["limits"].items()}
+        self.taken, self.energy, self.moved = 0, None, 0.0
         for at, numbers in START["w"].values():
             self.w[at : at + len(numbers)] = [float(number) for number in numbers]
         self.y = self.corrected(0.0, np.array(START["y"]))
@@ -70,6 +70,41 @@ class Run:
         if self.law.accept(t, y, self.p, self.w, self.iw) & 1:
             raise ArithmeticError(f"the state at t = {t} cannot be corrected")
         return y
+
+    def accepted(self, t, y):
+        """Return the next state of a run, corrected; an ArithmeticError says why `symgen run` would end there."""
+        y = self.corrected(t, y)
+        if why := self.wrong(y):
+            raise ArithmeticError(f"{why} at t = {t}")
+        self.taken += 1
+        return y
+
+    def wrong(self, y):
+        """Return why the corrected state that comes next in a run cannot be relied on, or an empty text."""
+        now, limits, n = dict(zip(START["status"], self.w.tolist())), self.limits, START["coordinates"]
+        sizes = np.abs(y[: len(START["metric"])]) * START["metric"]
+        length, speed = max(now["length_scale"], *sizes[:n], 0.0), max(now["speed_scale"], *sizes[n:], 0.0)
+        self.w[START["status"].index("speed_scale")] = speed
+        whole = now["kinetic"] + now["potential"]
+        if self.energy is None:
+            self.energy = whole - y[-1], now["potential"]
+        begun, level = self.energy
+        self.moved = max(self.moved, now["kinetic"], abs(now["potential"] - level), abs(y[-1]))
+        error = abs(whole - begun - y[-1])
+        if not (np.isfinite(error) and np.isfinite(y).all()):
+            return "the state is not finite"
+        if now["shortest_row"] < limits["shortest_row"]:
+            return "the gradient of a constraint has vanished"
+        if not now["position_measure"] <= limits["position"] * length:
+            return f"positions violate the constraints by {now['position_violation']:.3g}"
+        if not now["velocity_measure"] <= limits["velocity"] * speed:
+            return f"velocities violate the constraints by {now['velocity_violation']:.3g}"
+        rounding = limits["rounding"] * (now["kinetic"] + abs(now["potential"]))
+        if self.taken >= limits["setting_out"] and error > limits["energy"] * self.moved + rounding:
+            return f"the energy is off by {error:.3g} J"
+        if START["redundant"] and now["smallest_pivot"] < limits["pivot"]:
+            return "the rows that stand for those left out hardly hold, and nothing here chooses others,"
+        return ""
 '''
 
 _SIMULATE = '''"""Simulate this mechanism: python simulate.py [METHOD [UNTIL [STEP]]]. Written by symgen."""
@@ -88,7 +123,7 @@ def simulate(method=package.START["method"], until=package.START["until"], h=pac
         k2 = run.rate(t + h / 2, y + h / 2 * k1)
         k3 = run.rate(t + h / 2, y + h / 2 * k2)
         k4 = run.rate(t + h, y + h * k3)
-        states.append((i * h, run.corrected(i * h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))))
+        states.append((i * h, run.accepted(i * h, y + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4))))
     return states
 t, y = simulate(*sys.argv[1:2], *map(float, sys.argv[2:4]))[-1]
 print(json.dumps({"t": t, **dict(zip(package.START["names"], y.tolist()))}, indent=1))
@@ -135,7 +170,7 @@ def package(
                 choices = [c.given(solver="augmented") if _may_change(c, free) else c for c in choices]
                 explicit = [choice for choice in choices if not choice.implicit]
                 usual = next(choice for choice in explicit if choice.method is usual.method)
-            settled = _settled(model, usual, coordinates)
+            settled = _settled(model, usual, explicit, coordinates)
             files = {"start.json": json.dumps(settled, allow_nan=False, indent=1) + "\n", "simulate.py": _SIMULATE}
         except AssemblyError as error:
             why = harmless(error)
@@ -153,42 +188,37 @@ def _may_change(choice: MethodChoice, free: Container[str]) -> bool:
 
 def _finds_light(model: Model, choice: MethodChoice, coordinates: str) -> bool:
     """Whether a run by a method would take another solver than it has."""
-    _, compiled, _ = _begun(model, choice, coordinates, leave=("solver",))
-    return bool(compiled.law.options["solver"] != choice.options["solver"])
-
-
-def _begun(
-    model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()
-) -> tuple[Plan, CompiledModel, Start]:
-    """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
-    from symgen.plan import make_plan
-    from symgen.run_setup import ready
-    from symgen.settings import Settings
-    from symgen.tree_run import tree_run
-
-    mechanism = msgspec.structs.replace(model.mechanism, outputs=())  # integrals of outputs are the runtime's
-    options = {f"method.{name}": value for name, value in choice.options.items() if name not in leave}
-    plan = make_plan(
-        mechanism, Settings(choice.method.name, "rk4", options=options, shape="straight", coordinates=coordinates)
+    return bool(
+        _begun(model, choice, coordinates, leave=("solver",)).choice.options["solver"] != choice.options["solver"]
     )
-    if plan.coordinates == "joint":
-        tree = tree_run(mechanism, plan, {})
-        return plan, tree.compiled, tree.start
-    return plan, *ready(mechanism, plan)
 
 
-def _settled(model: Model, choice: MethodChoice, coordinates: str) -> dict[str, Any]:
-    """Return parameters and a consistent start, as functions of the package take them."""
+def _begun(model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()) -> Started:
+    """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
+    from symgen.api import Model
+    from symgen.cli._reading import Asked, Started
+
+    options = {name: str(value) for name, value in choice.options.items() if name not in leave}
+    without = Model(msgspec.structs.replace(model.mechanism, outputs=()))  # integrals of outputs are the runtime's
+    return Started.of(without, Asked(choice.method.name, options, {}, "straight", coordinates), "rk4")
+
+
+def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, Any]:
+    """Return parameters, a consistent start and the limits of runs, as the package takes them for some methods."""
     import numpy as np
 
     from symgen.ir.program import COUNTERS, STATUS
+    from symgen.plan import limit_of_velocities
+    from symgen.runtime import abi
+    from symgen.runtime.frame import SETTING_OUT
     from symgen.runtime.simulation import Simulation
+    from symgen.runtime.watch import NEGLIGIBLE, VANISHING
 
-    plan, compiled, start = _begun(model, choice, coordinates)
-    info, defaults = compiled.info, model.mechanism.defaults
-    run = Simulation(compiled, plan.tableau, start, plan.spec)
+    begun = _begun(model, choice, coordinates)
+    info, defaults, spec = begun.compiled.info, model.mechanism.defaults, begun.plan.spec
+    run = Simulation(begun.compiled, begun.plan.tableau, begun.start, spec)
     run.enter(run.outputs(np.zeros(0)), until=0.0)
-    state = run.state
+    state, most = run.state, spec.max_violation
     kept = {name: info.sections[name] for name in _SETTLED if name in info.sections}
     return {
         "mechanism": model.name,
@@ -199,6 +229,19 @@ def _settled(model: Model, choice: MethodChoice, coordinates: str) -> dict[str, 
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
         "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),
+        "status": list(STATUS),
+        "coordinates": info.nq,
+        "metric": state.metric[: info.work].tolist(),
+        "redundant": int(state.control[abi.MASKED]),
+        "limits": {
+            "position": most,
+            "velocity": {c.stem: limit_of_velocities(c.method, most) or most for c in choices},
+            "energy": spec.max_energy_error,
+            "rounding": NEGLIGIBLE,
+            "setting_out": SETTING_OUT,
+            "shortest_row": VANISHING**2,
+            "pivot": float(state.gauges[abi.WARN_PIVOT]),
+        },
         "step_at": info.sections["status"][0] + STATUS.index("step"),
         "w": {name: [at, [_json(x) for x in state.w[at : at + size]]] for name, (at, size) in kept.items()},
     }
@@ -229,7 +272,8 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             "    python simulate.py [METHOD [UNTIL [STEP]]]",
             "",
             f"runs it with numpy and numba alone, from the start in `start.json`. METHOD is one of {methods}. `Run` in"
-            " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states."
+            " `__init__.py` has the start and the functions: `rate(t, y)`, and `corrected(t, y)` for accepted states;"
+            " `accepted(t, y)` also ends a run where `symgen run` would end it, with the reason."
             " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
             *_events(model),

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
+import msgspec
 
 from symgen.errors import InputError
 
@@ -61,11 +62,11 @@ class Started:
     Attributes
     ----------
     plan, choice : Plan, MethodChoice
-        What was decided, and the method as it is compiled.
+        What was decided, and the method as it is compiled: with the solver that the start asks for.
     mechanism : Mechanism
         With its tree where coordinates are those of joints.
     compiled : CompiledModel
-        The emitted functions.
+        The emitted functions; integrals of outputs are the runtime's.
     start : Start
         The consistent start.
     bodies : tuple of float
@@ -80,31 +81,36 @@ class Started:
     bodies: tuple[float, ...]
 
     @classmethod
-    def of(cls, model: Model, asked: Asked) -> Started:
+    def of(cls, model: Model, asked: Asked, integrator: str | None = None) -> Started:
         """Return a model at its start; raises as `symgen.api.Model.start` does."""
-        from symgen.compiling.pipeline import compile_model
         from symgen.plan import make_plan
+        from symgen.run_setup import ready
         from symgen.settings import Settings
         from symgen.tree_run import tree_run
 
         choice, parameters = asked.chosen(), asked.parameters
         settings = Settings(
             choice.method.name,
+            integrator,
             options={f"method.{k}": v for k, v in asked.options.items()},
             shape=asked.shape,
             coordinates=asked.coordinates,
             parameters=parameters,
         )
         plan = make_plan(model.mechanism, settings)
-        choice = replace(choice, shape=plan.choice.shape, options=plan.choice.options)
         if plan.coordinates == "joint":
             run = tree_run(model.mechanism, plan, settings.parameters)
+            mechanism, compiled, start = run.mechanism, run.compiled, run.start
             bodies = run.body_start.y[: run.bodies.info.nq]
-            return cls(plan, choice, run.mechanism, run.compiled, run.start, tuple(map(float, bodies)))
-        compiled = compile_model(model.mechanism, choice)
-        start = model.assemble(compiled, parameters)
-        bodies = start.y[: compiled.info.nq]
-        return cls(plan, choice, model.mechanism, compiled, start, tuple(map(float, bodies)))
+        else:
+            mechanism, without = model.mechanism, msgspec.structs.replace(model.mechanism, outputs=())
+            compiled, start = ready(without, plan, parameters)
+            bodies = start.y[: compiled.info.nq]
+        solver = str(compiled.law.options.get("solver", ""))
+        choice = replace(choice, shape=plan.choice.shape, options=plan.choice.options)
+        if solver and solver != choice.options["solver"]:  # bodies are light
+            choice = choice.given(solver=solver)
+        return cls(plan, choice, mechanism, compiled, start, tuple(map(float, bodies)))
 
 
 def refuse(wanted: bool, shape: str) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
+from symgen.cli import INTERRUPTED, complain
 from symgen.cli._options import output_file, units_option
 from symgen.errors import InputError
 
@@ -114,3 +115,9 @@ def sketches_of(
     """Return sketches for the head of a report, by the names of mechanisms, where runs begin."""
     small = [model for model in models if len(model.mechanism.bodies) <= MOST_BODIES]
     return {model.name: model.draw(parameters, start).svg for model in small}
+
+
+def interrupted(row: str, kept: bool) -> int:
+    """Say that a study was interrupted and whether a journal keeps its rows, and return the exit code."""
+    how = "the same command goes on behind them" if kept else "--resume FILE would have kept them for another time"
+    return complain(f"interrupted; the {row}s that were done are shown; {how}", INTERRUPTED)

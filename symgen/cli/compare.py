@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
+from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import (
     examples,
     jobs_option,
@@ -18,7 +18,7 @@ from symgen.cli._options import (
     setting_options,
     words,
 )
-from symgen.cli._report import StudyFiles, command_again, sketches_of, study_files
+from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -86,7 +86,7 @@ def command(
 
     The error is the largest distance [m] to a reference motion, over bodies, output times and points (centre of mass,
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
-    --steps. Ctrl-C keeps the rows that are done; with --resume the same command goes on behind them.
+    --steps. Ctrl-C shows the rows that are done; with --resume the same command goes on behind them.
     """
     if files.csv is not None and files.csv.suffix.lower() != ".csv":
         raise InputError("--csv", "a file ending in .csv", f"'{files.csv}'")
@@ -154,8 +154,7 @@ def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Stu
 
 def _exit_code(studies: list[Study], kept: bool) -> int:
     if studies[-1].interrupted:
-        how = "the same command goes on behind them" if kept else "--resume FILE would have kept them for another time"
-        return complain(f"interrupted; the rows that were done are shown; {how}", INTERRUPTED)
+        return interrupted("row", kept)
     for study in studies:
         if study.failed:
             return complain(f"{study.mechanism}: every run failed", FAILURE)

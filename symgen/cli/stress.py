@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen import arguments
-from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
+from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._options import examples, jobs_option, json_option, setting_options, words
-from symgen.cli._report import StudyFiles, command_again, sketches_of, study_files
+from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
 
 if TYPE_CHECKING:
     from symgen.study.runner import Status
@@ -48,7 +48,7 @@ def command(
 ) -> int:
     """Run every method on stiff and extreme cases made of each MODEL (four-bar by default).
 
-    Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C keeps
+    Each cell is compared with an independent reference; what the run says of itself stands beside that. Ctrl-C shows
     the cells that are done; with --resume the same command goes on behind them. Exit code 1 if auto reports success
     with an error above 1e-3 m.
     """
@@ -92,14 +92,14 @@ def command(
 
     report = files.report if study.rows else None
     written = {files.csv: lambda file: save_csv(study, file, files.units), report: write_report}
-    return write_files(_exit_code(study), written)
+    return write_files(_exit_code(study, files.journal is not None), written)
 
 
-def _exit_code(study: Stress) -> int:
+def _exit_code(study: Stress, kept: bool) -> int:
     from symgen.auto import AUTO
 
     if study.interrupted:
-        return complain("interrupted; the cells that were done are kept", INTERRUPTED)
+        return interrupted("cell", kept)
     wrong = sum(row.method == AUTO for row in study.false_successes)
     if wrong:
         cells = "1 cell" if wrong == 1 else f"{wrong} cells"

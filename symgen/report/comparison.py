@@ -68,7 +68,8 @@ def _settings(studies: Sequence[Study]) -> list[tuple[str, str]]:
     repeat = max(study.repeat for study in studies)
     text = f"at least {words.counted(repeat, 'timed run')} a row after a warm-up" if repeat > 1 else "one run a row"
     found.append(("Timing", f"{text}, one at a time, nothing else running in this process"))
-    for label, changed in (("Parameters", studies[0].parameters), ("Options", studies[0].options)):
+    first = studies[0]
+    for label, changed in (("Parameters", first.parameters), ("Start", first.start), ("Options", first.options)):
         if changed:
             found.append((f"{label} changed", ", ".join(f"{name} = {value}" for name, value in changed.items())))
     return found

@@ -132,6 +132,7 @@ def build_result(
         accumulation=outcome.accumulation,
         inputs=dict(inputs or {}),
         coordinates=plan.coordinates,
+        watched=tuple((event.name, event.action) for event in plan.events),
         state=tuple(x.name for own in [(state or compiled).info] for x in (*own.coordinates, *own.velocities)),
         ended=partial(_last_state, mechanism, plan, compiled, outcome, parameters),
     )

@@ -56,6 +56,7 @@ def contract(result: Result) -> dict[str, Any]:
             "rank_event_count": result.rank_event_count,
             "end": result.end,
             "events": [event.to_json() for event in result.events],
+            "watched": [{"name": name, "action": action} for name, action in result.watched],
             "accumulation": result.accumulation,
             "start": result.start,
             "final": {

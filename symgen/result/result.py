@@ -103,6 +103,9 @@ class Result(Derived):
         What the state was made of: coordinates of bodies, or of the joints of a tree.
     state : tuple of str
         Names of the coordinates and velocities that were integrated.
+    watched : tuple of (str, str)
+        Names of the events that the run looked for, those of the file and others, and what each does: ``"record"``,
+        ``"stop"`` or ``"reset"``.
     error_estimate : float or None
         About how far from the exact motion a point of a body is at worst [m], by a second run with finer steps; None
         where there was none.
@@ -155,6 +158,7 @@ class Result(Derived):
     accumulation: float | None = None
     coordinates: str = "absolute"
     state: tuple[str, ...] = ()
+    watched: tuple[tuple[str, str], ...] = ()
 
     # -- copies and other processes ------------------------------------------------------------------------------------
 

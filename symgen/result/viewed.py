@@ -12,6 +12,7 @@ import numpy as np
 
 from symgen.describe.evaluate import parameter_values, said
 from symgen.describe.events import DOES
+from symgen.describe.input_data import are_words_of_data
 from symgen.errors import AssemblyError, InputError
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
@@ -134,15 +135,25 @@ def _groups(mechanism: Mechanism, q: Array, tables: Mapping[str, Labelled]) -> l
     return found
 
 
+#: Why a page has no live part where inputs are of several pieces, of which the code knows one.
+JUMPS = "what the run gave its inputs jumps, and pages do not look for times"
+
+
 def _live(result: Result, recording: Recording) -> tuple[Live | None, str]:
     """Return the live part of a page of a result: with its coordinates, its start, its parameters and its inputs."""
-    mechanism, given = recording.mechanism, dict(recording.mechanism.given)
-    held = [name for name, x in result.inputs.items() if isinstance(x, str) and name not in given]
-    if held or not set(mechanism.inputs) <= set(result.inputs):  # of inputs that jump the code knows one value
-        return None, f"{NONE}: what the run gave its inputs jumps, and pages do not look for times"
+    mechanism = recording.mechanism
+    if _jump(mechanism, result.inputs):
+        return None, f"{NONE}: {JUMPS}"
     numbers = {name: x for name, x in result.inputs.items() if not isinstance(x, str)}
-    actions = [(event.name, event.action) for event in result.events]
-    return _live_of(mechanism, {**result.parameters, **numbers}, result.coordinates, result.step, result.start, actions)
+    values = {**result.parameters, **numbers}
+    return _live_of(mechanism, values, result.coordinates, result.step, result.start, result.watched)
+
+
+def _jump(mechanism: Mechanism, inputs: Mapping[str, str | float]) -> bool:
+    """Whether inputs of a run jump: one is neither a number nor part of the formulas, or has switches beside it."""
+    given = dict(mechanism.given)
+    held = any(isinstance(x, str) and name not in given for name, x in inputs.items())
+    return held or not set(mechanism.inputs) <= set(inputs)
 
 
 def _live_of(
@@ -151,7 +162,7 @@ def _live_of(
     coordinates: str,
     step: float | None,
     begun: Mapping[str, Any],
-    happened: Sequence[tuple[str, str]],
+    watched: Sequence[tuple[str, str]],
 ) -> tuple[Live | None, str]:
     from symgen.plan import make_plan
     from symgen.run_setup import ready
@@ -159,7 +170,7 @@ def _live_of(
 
     if begun["t"]:
         return None, f"{NONE}: the run went on from another one at t = {begun['t']:.6g} s"
-    for name, action in (*((event.name, event.action) for event in mechanism.events), *happened):
+    for name, action in (*((event.name, event.action) for event in mechanism.events), *watched):
         if action in DOES:
             return None, f"{NONE}: the event '{name}' {DOES[action]}, and pages do not look for events"
     parameters, step = said(mechanism, parameter_values(mechanism, parameters)), step or mechanism.defaults.step
@@ -234,17 +245,37 @@ def view_file(option: str, path: Path, mechanism: Mechanism, beside: Path | None
 def _live_of_file(option: str, path: Path, mechanism: Mechanism) -> tuple[Live | None, str]:
     """Return the live part of a page of a file: of the mechanism by its name, with what the file says of the run."""
     run: dict[str, Any] = json.loads(_dataset(option, path).attrs["run"])
-    inputs = run.get("inputs", {})
-    if any(isinstance(x, str) for x in inputs.values()):
-        return None, f"{NONE}: what the run gave its inputs over time is not in the file"
     known = {p.name for p in mechanism.parameters}
-    values = {k: float(v) for k, v in {**run.get("parameters", {}), **inputs}.items() if k in known}
+    values = {k: float(v) for k, v in run.get("parameters", {}).items() if k in known and k not in mechanism.inputs}
+    inputs = {k: v for k, v in run.get("inputs", {}).items() if k in mechanism.inputs}
     begun = run.get("start", {"t": 0.0, "q": {}, "v": {}})
-    happened = [(e["name"], e["action"]) for e in run.get("events", [])]
+    # older files tell of events that happened alone
+    watched = [(e["name"], e["action"]) for e in (*run.get("watched", []), *run.get("events", []))]
     try:
-        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun, happened)
-    except AssemblyError as error:
+        mechanism, numbers, why = _as_given(mechanism, values, inputs, run.get("until"))
+        if why:
+            return None, f"{NONE}: {why}"
+        values |= numbers
+        return _live_of(mechanism, values, run.get("coordinates", "absolute"), run.get("step"), begun, watched)
+    except (AssemblyError, InputError) as error:
         return None, f"{NONE}: {' '.join(str(error).split())}"
+
+
+def _as_given(
+    mechanism: Mechanism, values: Mapping[str, float], inputs: Mapping[str, str | float], until: float | None
+) -> tuple[Mechanism, dict[str, float], str]:
+    """Return a mechanism with formulas in the places of inputs, the numbers of others, and why pages have not these."""
+    from symgen.run_setup import give_inputs
+    from symgen.settings import Settings
+
+    numbers = {name: float(x) for name, x in inputs.items() if not isinstance(x, str)}
+    formulas = {name: x for name, x in inputs.items() if isinstance(x, str)}
+    if any(are_words_of_data(x) for x in formulas.values()):
+        return mechanism, numbers, "what the run gave its inputs over time is not in the file"
+    if not formulas:
+        return mechanism, numbers, ""
+    found = give_inputs(mechanism, Settings(parameters={**values, **numbers}, inputs=formulas, until=until))
+    return found.mechanism, numbers, JUMPS if _jump(found.mechanism, inputs) else ""
 
 
 def mechanism_name(option: str, path: Path) -> str:

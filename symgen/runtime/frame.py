@@ -52,7 +52,7 @@ SHRINK, SHRINK_ACCEPTED, GROW, FLOOR = 0.2, 0.2, 10.0, 1e-10
 
 #: Constant steps at the beginning of a run in which its energy is not judged: from rest, n steps of a scheme of first
 #: order are off by an n-th of an energy that is only building up.
-_SETTING_OUT = 100
+SETTING_OUT = 100
 #: Above this multiple of the tolerance even a step across a singular position is refused: it leads nowhere.
 _HOPELESS = 1e6
 #: A zone is crossed in so many times the distance to its middle: not 2, so that no stage at half the step meets it.
@@ -277,7 +277,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         # -- it is: the state at `following` is accepted
         control[abi.STEPS] += 1
         code = watch(sizes, run, run.trial, following)
-        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= _SETTING_OUT and following < span.end - tiny:
+        if not ADAPTIVE and code == abi.ENERGY and control[abi.STEPS] <= SETTING_OUT and following < span.end - tiny:
             code = abi.DONE
         if code != abi.DONE:
             return code

@@ -45,7 +45,9 @@ class Piece:
     values: Mapping[str, float]
 
 
-def pieces_of(driven: Driven, values: Mapping[str, float], until: float, first: float = 0.0) -> tuple[Piece, ...]:
+def pieces_of(
+    driven: Driven, values: Mapping[str, float], until: float, first: float = 0.0, behind: float = 0.0
+) -> tuple[Piece, ...]:
     """Return the pieces of a motion from `first` to `until`, none where nothing jumps.
 
     Parameters
@@ -56,6 +58,8 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float, first: 
         Of all parameters.
     until, first : float
         End of the run, and its begin [s].
+    behind : float
+        So far behind the end, as a part of it, jumps are looked for as well: data need not reach there.
 
     Raises
     ------
@@ -68,6 +72,7 @@ def pieces_of(driven: Driven, values: Mapping[str, float], until: float, first: 
             got = f"those from {data.t[0]:g} to {data.t[-1]:g} s"
             raise InputError(f"input '{name}'", f"data from {first:g} to {until:g} s, as curves end where they do", got)
 
+    until *= 1.0 + behind
     found = {t for data in driven.samples.values() for t in data.t}
     for jump in driven.jumps:
         found.update(crossings(partial(at, jump.argument), line_of(jump, values), jump.levels, until, first))

@@ -138,6 +138,23 @@ def test_a_scan_finds_what_is_between():
     assert_allclose(found.omega_squared, [2 * 10 * (1 - 1.2) / 2, 10.0], rtol=1e-12)
 
 
+@pytest.mark.parametrize("coordinates", ["absolute", "joint"])
+@pytest.mark.parametrize(("size", "start"), [(1.0, 1e-6), (1.0, 0.5), (1e-8, 5e-9)], ids=["no start", "far", "tiny"])
+def test_a_scan_is_as_long_as_its_values(size, start, coordinates):
+    """A point between two springs that push it out, of twice the length that they have there: 3**0.5 to either side."""
+    spring = {"type": "spring-damper", "between": ["ground", "mass"], "stiffness": 100.0, "free_length": 2.0 * size}
+    raw = {
+        "mechanism": {"name": "pushed"},
+        "bodies": {"mass": {"type": "point", "mass": 1.0, "position": [start, 0.0]}},
+        "forces": {name: {**spring, "at": [[0.0, y * size], "centre"]} for name, y in (("low", -1.0), ("high", 1.0))},
+    }
+    found = symgen.load(mechanism_of(raw)).equilibria(
+        ("mass.x", size * np.linspace(-2.5, 2.5, 11)), coordinates=coordinates
+    )
+    assert_allclose([e.q["mass.x"] / size for e in found], [-(3.0**0.5), 0.0, 3.0**0.5], rtol=0.0, atol=1e-9)
+    assert [e.stability for e in found] == ["stable", "unstable", "stable"]
+
+
 def test_a_scan_goes_over_angles_that_do_not_close():
     """A crank that cannot lie between 2.87 and 3.42 rad: what holds it beside these has other signs on either side."""
     links, values = (4.0, 2.0, 3.0, 2.95), [1.0, 1.8, 2.8, 3.45, 4.2, 5.2]

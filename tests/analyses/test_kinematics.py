@@ -313,6 +313,32 @@ def test_random_linkages_go_as_far_as_circles_meet():
                 assert abs(found.passages[-1].t - end) < 1e-9
 
 
+@pytest.mark.parametrize(
+    ("start", "far", "turns", "power"),
+    [(0.7, 2.4, 1.0, 4), (0.7, 2.4, 6.0, 2), (0.7, 2.4, 1.0, 60), (2.8, 0.1, 1.0, 2)],
+    ids=["far", "more often than asked for", "resting long", "near the dead centre"],
+)
+def test_a_dead_centre_between_times_at_which_the_driver_rests_is_met(start, far, turns, power):
+    drive = f"start + {far}*sin({turns}*pi*t)**{power}"
+    linkage = model(four_bar((4.0, 2.0, 3.0, 2.95), start, drive))
+    limit = math.acos((4.0**2 + 2.0**2 - 5.95**2) / 16.0)  # coupler and rocker in one line
+    met = math.asin(((limit - start) / far) ** (1.0 / power)) / (turns * math.pi)
+    found = linkage.kinematics([0.0, 1.0, 2.0])
+    assert not found.ok and len(found.t) == 1 and abs(found.passages[-1].t - met) < 1e-9
+    needed = linkage.inverse(times=[-1.0, 0.0])
+    assert needed.ended.startswith("dead centre at t = -") and list(needed.t) == [0.0]
+
+
+def test_a_driver_that_comes_back_from_where_it_can_go_is_followed():
+    """Out and back between the asked times, and short of the dead centre: nothing else than at rest."""
+    linkage = model(four_bar((4.0, 2.0, 3.0, 2.95), 0.7, "start + 2*sin(pi*t)**4"))
+    found = linkage.kinematics([0.0, 1.0, 1.5, 3.0])
+    assert found.ok and list(found.t) == [0.0, 1.0, 1.5, 3.0]
+    assert np.abs(found.q.values[[1, 3]] - found.q.values[0]).max() < 1e-13
+    c = meeting([2.0 * math.cos(2.7), 2.0 * math.sin(2.7)], 3.0, [4.0, 0.0], 2.95)
+    assert np.abs(found.curve("coupler.far")[2] - c).max() < 1e-13
+
+
 def test_a_branch_near_another_one_is_not_left():
     """A hair's breadth from the rhombus there are two branches, which nearly meet where it is flat."""
     found = model(four_bar((1.0001, 1.0, 1.0, 1.0), 0.7, CRANK)).kinematics(np.linspace(0.0, 0.385, 78))

@@ -61,6 +61,10 @@ def known(x0, x1, y0, y1):
         ((0.0, 0.0, 0.0, 0.0, 1.0, 0.65, 0.7, 0.0), 20),
         # beside an oscillator that nothing damps
         ((7.0, 0.0, 0.0, 0.0, 1.0, 0.65, 0.7, 0.0), 20),
+        # one pair goes to the right and another one, of nearly the same frequency, to the left: as many at both ends
+        ((4.0, 0.0, -0.3, 1.0, 4.1, 0.0, -0.2, -1.0), 2),
+        ((4.0, 0.0, -0.3, 1.0, 4.1, 0.0, -0.2, -1.0), 4),
+        ((2.2, 0.8, 0.4, -0.6, 1.9, 0.8, 0.3, 0.55), 3),
     ],
 )
 def test_crossings_are_where_roots_are_on_the_axis(model, numbers, count):
@@ -86,3 +90,26 @@ def test_as_many_pass_as_stand_on_the_other_side_behind(model, seed):
     for k, change in enumerate(np.diff(right)):
         inside = [c for c in found.crossings if values[k] < c.value <= values[k + 1]]
         assert sum((1 if c.rising else -1) * (2 if c.eigenvalue.imag > 1e-6 else 1) for c in inside) == change
+
+
+@pytest.mark.parametrize("count", [2, 3, 5])
+def test_a_branch_that_passes_and_comes_back_between_two_values_is_seen(count):
+    """A mass whose damper is p^2 - 1/4: beside one that nothing damps, and alone."""
+    for sprung in (1.0, 0.0):
+        text = f"""
+[mechanism]
+name = "there-and-back"
+[parameters]
+p = 0.0
+[bodies.mass]
+type = "point"
+mass = 1.0
+[forces.pull]
+type = "force"
+body = "mass"
+force = ["-mass.x - (p*p - 0.25)*mass.vx", "-{9.0 * sprung}*mass.y - {1.0 - sprung}*mass.vy"]
+"""
+        model = Model(validate(tomllib.loads(text), "test"))
+        found = model.locus(("p", np.linspace(-2.0, 2.2, count)), at="start").crossings
+        assert_allclose([c.value for c in found], [-0.5, 0.5], rtol=0.0, atol=1e-7)
+        assert [c.rising for c in found] == [True, False]

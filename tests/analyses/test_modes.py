@@ -201,3 +201,19 @@ def test_a_joint_that_holds_nothing_takes_no_freedom(coordinates, far):
         assert_allclose(found.omega_squared, [square], rtol=1e-12)
     system = model.linearise(coordinates=coordinates)
     assert_allclose(system.eigenvalues(), [1j * math.sqrt(square), -1j * math.sqrt(square)], rtol=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["ball", "distances in space"])
+def test_states_that_were_chosen_can_be_given_back_where_bodies_have_euler_parameters(kind):
+    model = rods.hanging(kind)
+    found = model.linearise()
+    assert any(name.startswith("rod.e") for name in found.states)
+    again = model.linearise(states=found.states)
+    assert again.states == found.states and np.array_equal(again.A, found.A)
+    assert_allclose(np.sort(np.abs(model.modes(states=found.states).eigenvalues.imag))[-2:], 14.715**0.5, rtol=1e-9)
+    # in another order, which is that of the matrices
+    turned = model.linearise(states=found.states[::-1])
+    assert turned.states == found.states[::-1]
+    assert_allclose(turned.A, found.A[::-1, ::-1], rtol=0.0, atol=1e-12)
+    with pytest.raises(InputError, match="do not depend on each other"):
+        model.linearise(states=[*found.states, "rod.z"])

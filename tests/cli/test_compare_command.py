@@ -12,6 +12,7 @@ import pytest
 
 from symgen.api import load
 from symgen.cli import main
+from symgen.errors import SimulationError
 from symgen.study.comparison import compare as module
 from symgen.study.journal import Journal
 
@@ -148,6 +149,22 @@ def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_
         assert len(kept) == 5
         assert {key: kept.get(key) for key in before} == before
     assert rows_of(journal) == 5
+
+
+def test_why_there_is_no_reference_is_kept_for_those_who_go_on(cli, tmp_path, monkeypatch):
+    def none(*arguments):
+        raise SimulationError("nothing is near enough")
+
+    monkeypatch.setattr(module, "reference", none)
+    report, journal = tmp_path / "report.html", tmp_path / "rows.journal"
+    arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "--jobs", "1", "--json", "--journal", journal)
+    arguments = (*arguments, "-o", report, "--start", "bob.vy=0.5")
+    words = "there is no reference, so errors are unknown: nothing is near enough"
+    for _ in range(2):
+        code, out, err = cli(*arguments)
+        assert code == 1 and words in err and json.loads(out)["reference"]["note"] == words
+        assert "Start changed" in report.read_text() and "bob.vy = 0.5" in report.read_text()
+        monkeypatch.setattr(module, "timed", none)  # nothing is run again
 
 
 def test_the_sketch_at_the_head_of_a_report_is_where_runs_begin():

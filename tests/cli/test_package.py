@@ -42,15 +42,15 @@ def alone(tmp_path_factory):
     return folder
 
 
-def simulated(folder, alone, tmp_path, *arguments, compiled=False):
+def simulated(folder, alone, tmp_path, *arguments, compiled=False, fails=False):
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "NUMBA", "SYMGEN"))}
     environment |= {"NUMBA_CACHE_DIR": str(tmp_path / "numba")} | ({} if compiled else {"NUMBA_DISABLE_JIT": "1"})
     command = [sys.executable, "-I", "-S", "-c", RUN, str(alone), str(folder / "simulate.py"), *map(str, arguments)]
     done = subprocess.run(
         command, cwd=tmp_path, capture_output=True, text=True, timeout=600, check=False, env=environment
     )
-    assert done.returncode == 0, done.stderr[-2000:]
-    return json.loads(done.stdout)
+    assert done.returncode == int(fails), done.stderr[-2000:]
+    return done.stderr.strip().splitlines()[-1] if fails else json.loads(done.stdout)
 
 
 def agrees(name, alone, tmp_path, coordinates="absolute", steps=20, compiled=False):
@@ -79,6 +79,44 @@ def test_a_package_gives_the_numbers_of_a_run(alone, tmp_path):
     found = agrees("four-bar", alone, tmp_path)
     assert next(iter(found)) == "t" and list(found)[-1] == "work"
     assert len((tmp_path / "emitted" / "simulate.py").read_text().splitlines()) <= 20
+
+
+@pytest.mark.parametrize(
+    ("method", "step", "says"),
+    [
+        ("lagrange", 0.2, "velocities violate the constraints by "),
+        ("direct-correction", 0.4, "the energy is off by "),
+    ],
+)
+def test_a_package_ends_where_a_run_would(method, step, says, alone, tmp_path):
+    assert main(["generate", "pendulum", "--method", method, "-o", str(tmp_path / "emitted")]) == 0
+    until = 200 * step
+    found = simulated(tmp_path / "emitted", alone, tmp_path, method.replace("-", "_"), until, step, fails=True)
+    run = symgen.load("pendulum").simulate(method=method, integrator="rk4", step=step, until=until, shape="straight")
+    assert run.status == "failed"
+    assert found.startswith(f"ArithmeticError: {says}")
+    assert float(found.rpartition(" ")[2]) == pytest.approx(run.end, rel=1e-12)
+
+
+def test_a_package_says_where_rows_that_stand_for_others_hardly_hold(alone, tmp_path):
+    """Three parallel links under a bar, which fall until they lie flat: a run chooses other rows and goes on."""
+    ends, angle = "points = { P = [-0.5, 0], Q = [0.5, 0] }\n", 0.3
+    lines = ['[mechanism]\nname = "rack"\ngravity = [0, -9.81]\n[run]\nuntil = 0.4\nstep = 1e-3\n']
+    tip = np.array([np.cos(angle), np.sin(angle)])
+    lines.append(f"[bodies.bar]\nmass = 1.0\ninertia = 0.1\nposition = {tip.tolist()}\n")
+    lines.append("points = { a = [-1, 0], b = [0, 0], c = [1, 0] }\n")
+    for name, x in (("a", -1.0), ("b", 0.0), ("c", 1.0)):
+        middle = (np.array([x, 0.0]) + tip / 2.0).tolist()
+        lines.append(f"[bodies.l{name}]\nmass = 1.0\ninertia = 0.1\nposition = {middle}\nangle = {angle}\n{ends}")
+        pin = '[joints.{}]\ntype = "revolute"\nbetween = ["{}", "l{}"]\nat = [{}, "{}"]\n'
+        lines.append(pin.format(f"g{name}", "ground", name, [x, 0.0], "P"))
+        lines.append(pin.format(f"h{name}", "bar", name, f'"{name}"', "Q"))
+    path = tmp_path / "rack.toml"
+    path.write_text("".join(lines))
+    assert main(["generate", str(path), "--method", "direct-correction", "-o", str(tmp_path / "emitted")]) == 0
+    stem = json.loads((tmp_path / "emitted" / "start.json").read_text())["method"]
+    said = simulated(tmp_path / "emitted", alone, tmp_path, stem, fails=True)
+    assert "the rows that stand for those left out hardly hold, and nothing here chooses others, at t = 0." in said
 
 
 def test_a_package_says_what_it_is(tmp_path, capsys):
@@ -162,6 +200,16 @@ def test_methods_that_invert_m_are_not_emitted_for_massless_bodies(tmp_path, cap
     assert "expected one that does with massless bodies" in capsys.readouterr().err
     assert main(["inspect", model, "--method", "lagrange", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "augmented"
+
+
+def test_inspect_tells_the_solver_that_runs_take_for_light_bodies(tmp_path, capsys):
+    model = three_rods(tmp_path / "rods.toml", "mass = 1e-12\ninertia = 1e-13")
+    assert main(["inspect", model, "--method", "lagrange", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["method"]["options"]["solver"]
+    run = symgen.load(model).simulate(method="lagrange", integrator="rk4", step=1e-3, until=1e-3)
+    assert told == run.outcome.compiled.law.options["solver"] == "augmented"
+    assert main(["inspect", model, "--method", "lagrange", "--option", "solver=elimination", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["method"]["options"]["solver"] == "elimination"
 
 
 @pytest.mark.parametrize("name", ["json", "numpy", "version-1.0"])

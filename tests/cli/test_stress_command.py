@@ -60,11 +60,20 @@ def test_a_false_success_of_auto_is_a_failure(cli, monkeypatch, method, code):
     assert ("auto reports success with an error above 1e-3 m in 1 cell" in err) == bool(code)
 
 
-def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path):
+@pytest.mark.parametrize(
+    ("further", "says"),
+    [
+        ((), "--resume FILE would have kept them for another time"),
+        (("--resume", "cells"), "the same command goes on behind them"),
+    ],
+)
+def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, further, says):
     study = Stress(("four-bar",), (wrong("lagrange"),), (), (), (), interrupted=True)
     monkeypatch.setattr(module, "stress", lambda *a, **k: study)
-    code, out, err = cli("stress", "--json", "-o", tmp_path / "stress.html")
-    assert code == 130 and json.loads(out)["interrupted"] and "the cells that were done are kept" in err
+    monkeypatch.chdir(tmp_path)
+    code, out, err = cli("stress", "--json", "-o", tmp_path / "stress.html", *further)
+    assert code == 130 and json.loads(out)["interrupted"]
+    assert f"interrupted; the cells that were done are shown; {says}" in err
     assert "This study was interrupted" in (tmp_path / "stress.html").read_text()
 
 

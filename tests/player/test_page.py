@@ -145,9 +145,19 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
     # a formula is part of the code, and its input has no slider; what jumps is not
     (smooth,) = data_of(page("3*sin(t)").view().html)["live"]["parameters"]
     assert smooth["still"] is True and "sine(t)" in page("3*sin(t)").view().html
-    for jumping in ("3 if t < 0.05 else 5", {"t": [0.0, 0.05], "u": [1.0, 2.0], "interpolation": "hold"}):
-        found = page(jumping).view()
+    page("3*sin(t)").save(tmp_path / "b.nc")
+    of_file = view_file("view", tmp_path / "b.nc", model.mechanism)
+    assert data_of(of_file.html)["live"]["parameters"] == [smooth] and "sine(t)" in of_file.html
+    for jumping, why in (
+        ("3 if t < 0.05 else 5", "gave its inputs jumps"),
+        ({"t": [0.0, 0.05], "u": [1.0, 2.0], "interpolation": "hold"}, "gave its inputs over time is not in the file"),
+    ):
+        run = page(jumping)
+        found = run.view()
         assert not found.live and "gave its inputs jumps" in data_of(found.html)["note"]
+        run.save(tmp_path / "c.nc")
+        found = view_file("view", tmp_path / "c.nc", model.mechanism)
+        assert not found.live and why in data_of(found.html)["note"]
 
 
 @pytest.mark.parametrize(
@@ -159,18 +169,24 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
     ],
 )
 @pytest.mark.parametrize("asked", [False, True])
-def test_the_live_part_looks_for_no_events(event: dict[str, Any], does: str | None, asked: bool) -> None:
+def test_the_live_part_looks_for_no_events(
+    event: dict[str, Any], does: str | None, asked: bool, tmp_path: Path
+) -> None:
+    from symgen.result.viewed import view_file
+
     raw = {
         "mechanism": {"name": "ball", "gravity": [0.0, -9.81]},
         "bodies": {"a": {"type": "point", "mass": 2.0}},
     }
     where = {"events": {"floor": event}}
-    if asked and does == "ends runs":
-        where["events"]["floor"]["when"] = "a.y < -0.01"  # known of a run where it has happened
     model, settings = load(validate(raw if asked else raw | where, "test")), where if asked else {}
-    found = model.simulate(until=0.1, step=0.01, integrator="rk4", shape="straight", **settings).view()
-    assert found.live == (does is None)
-    assert does is None or f"the event 'floor' {does}" in data_of(found.html)["note"]
+    run = model.simulate(until=0.1, step=0.01, integrator="rk4", shape="straight", **settings)
+    run.save(tmp_path / "run.nc")
+    for found in (run.view(), view_file("view", tmp_path / "run.nc", model.mechanism)):
+        assert found.live == (does is None)
+        assert does is None or f"the event 'floor' {does}" in data_of(found.html)["note"]
+    action = {"changes velocities": "reset", "ends runs": "stop", None: "record"}[does]
+    assert run.to_json()["watched"] == [{"name": "floor", "action": action}]
 
 
 def test_the_live_part_in_joint_coordinates_begins_where_the_run_began() -> None:

@@ -34,7 +34,7 @@ RUN_KEYS = {
     ),
     *("parameters", "steps", "rejected", "evaluations", "iterations", "seconds", "position_violation_max"),
     *("velocity_violation_max", "energy_drift_max", "rank", "rank_events", "rank_event_count", "final"),
-    *("end", "events", "accumulation"),
+    *("end", "events", "watched", "accumulation"),
 }
 
 

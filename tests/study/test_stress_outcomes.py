@@ -164,5 +164,22 @@ def test_findings_about_steps_gains_and_penalties():
     assert "accurate for a = 1e+08 to 1e+12; smallest error 1.0e-05 m at a = 1e+08" in found
 
 
+def test_factors_between_accurate_ones_that_are_not_are_left_out():
+    penalties = tuple(
+        row("penalty", outcome, error, values=(a,), family="penalty-factor")
+        for a, outcome, error in (
+            (1e10, "diverged", None),
+            (1e4, "inaccurate", 0.1),
+            (1e8, "ok", 1e-5),
+            (1e12, "ok", 1e-4),
+            (1e14, "failed", None),
+            (1e6, "ok", 1e-4),
+            (1e16, "ok", 1e-3),
+        )
+    )
+    found = " ".join(findings(replace(STUDY, rows=(*ROWS, *penalties))))
+    assert "accurate for a = 1e+06 to 1e+08, 1e+12 and 1e+16; smallest error 1.0e-05 m at a = 1e+08" in found
+
+
 def test_an_empty_study_has_no_findings():
     assert sentences.findings(Stress(("four-bar",), (), (), (), ())) == ()

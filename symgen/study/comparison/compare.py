@@ -177,6 +177,7 @@ class _Work:
             parameters=dict(base.parameters),
             options=dict(base.options),
             repeat=base.repeat,
+            start=dict(base.start),
         )
 
 
@@ -297,6 +298,7 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     interrupted = False
     try:
         work.known = work.known or work.kept.reference(work.settings[0], work.times)
+        work.note = "" if work.known is not None else work.kept.why_none(work.settings[0])
         for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
             found = work.kept.row(s)
             if found is None:
@@ -335,6 +337,7 @@ def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress
         known = reference(mechanism, values, *state, work.times, progress, work.reference_by, not settings.start)
     except SimulationError as error:
         work.note = f"there is no reference, so errors are unknown: {error}"
+        work.kept.add_why_none(settings, work.note)
         return
     work.known = known
     work.kept.add_reference(settings, known)

@@ -43,7 +43,7 @@ class Kept:
         times = [] if settings.times is None else list(settings.times)
         shared = {"until": settings.until, "times": times, "parameters": dict(settings.parameters)}
         shared["start"] = dict(settings.start)
-        if what == "reference":
+        if what != "comparison":
             return cell_key(what=what, **self._base, **shared)
         own = {f.name: getattr(settings, f.name) for f in fields(settings) if f.name not in shared}
         if own["coordinates"] == "absolute":
@@ -81,6 +81,15 @@ class Kept:
     def add_reference(self, settings: Settings, known: Reference) -> None:
         """Keep the reference."""
         self._add(settings, "reference", as_entry(known))
+
+    def why_none(self, settings: Settings) -> str:
+        """Return why no reference was found, an empty text where that is not known."""
+        entry = self._get(settings, "no reference")
+        return "" if entry is None else str(entry["note"])
+
+    def add_why_none(self, settings: Settings, note: str) -> None:
+        """Keep why there is no reference."""
+        self._add(settings, "no reference", {"note": note})
 
 
 _NAN = float("nan")

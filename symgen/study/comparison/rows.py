@@ -195,7 +195,7 @@ class Study:
         Title and digest of the mechanism.
     step : float
         The mechanism's own step [s].
-    parameters, options : mapping
+    parameters, options, start : mapping
         What was changed.
     repeat : int
         Timed runs a row, at least.
@@ -215,6 +215,7 @@ class Study:
     parameters: Mapping[str, float] = field(default_factory=dict)
     options: Mapping[str, str | float] = field(default_factory=dict)
     repeat: int = 1
+    start: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         methods = len({row.label for row in self.rows})

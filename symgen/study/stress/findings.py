@@ -167,15 +167,28 @@ def _penalties(study: Stress) -> Iterator[str]:
         return
     for method, integrator, model in dict.fromkeys((row.method, row.integrator, row.model) for row in rows):
         own = [r for r in rows if (r.method, r.integrator, r.model) == (method, integrator, model)]
-        good = [row.values[0] for row in own if row.outcome == GOOD]
         best = min((row for row in own if row.error is not None), key=lambda row: row.error or 0.0, default=None)
         if best is None or len(own) < 2:
             continue
-        span = f"accurate for a = {min(good):g} to {max(good):g}" if good else "accurate for none of the factors"
+        spans = _good_spans(own)
+        span = f"accurate for a = {_listed(spans)}" if spans else "accurate for none of the factors"
         yield (
             f"Penalty of {_line((method, integrator))} on {model}: {span}; smallest error {best.error:.1e} m at "
             f"a = {best.values[0]:g}."
         )
+
+
+def _good_spans(rows: Sequence[Row]) -> list[str]:
+    """Return the spans of a factor in which every value that was tried is accurate."""
+    spans, going = list[list[float]](), False
+    for a in sorted({row.values[0] for row in rows}):
+        good = all(row.outcome == GOOD for row in rows if row.values[0] == a)
+        if good and going:
+            spans[-1].append(a)
+        elif good:
+            spans.append([a])
+        going = good
+    return [f"{span[0]:g} to {span[-1]:g}" if len(span) > 1 else f"{span[0]:g}" for span in spans]
 
 
 def _penalties_of_many(rows: Sequence[Row]) -> Iterator[str]:
