@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 STILL = 1e-7
 #: How far one quantity may follow from others, as a fraction of it.
 CLOSED = 1e-8
+#: Rates that change by less than this part of the largest change of any are compared with that part of it: a wheel by
+#: itself has none but rounding.
+ROUNDED = 1e-6
 #: The same later on, where the motion was followed by steps: their error is in it.
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants at which is asked again.
@@ -162,13 +165,19 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     rates = np.array([q.rate_changes for q in found]).reshape(len(found), width)
     a = np.linalg.lstsq(states[:, :n].T, rates[:, :n].T, rcond=1e-11)[0].T
     rest = rates[:, :n] - a @ states[:, :n]
-    return a, rates[:, n:] - a @ states[:, n:], rest, 1e-300 + np.abs(rates[:, :n]).max(initial=0.0) + np.zeros(len(a))
+    size = max(np.abs(rates[:, :n]).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
+    return a, rates[:, n:] - a @ states[:, n:], rest, np.full(len(a), size)
 
 
 def found_states(subject: Subject, x: Tangent) -> tuple[str, ...]:
-    """Return the named quantities that do not change and whose rates follow from each other: the steady ones."""
+    """Return the named quantities that do not change and whose rates follow from each other: the steady ones.
+
+    What is at an end of its swing does not change at the state either, so that it is looked at a little later as well.
+    """
     turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if _of_spin(subject, i)}
-    names = [n for n in quantities_of(subject) if n not in turning and still(subject, x, x.quantity(n))]
+    y, t = later(subject, x)
+    names, then = [n for n in quantities_of(subject) if n not in turning], tangent(subject, y, t)
+    names = [n for n in names if still(subject, x, x.quantity(n)) and still(subject, then, then.quantity(n))]
     while names:
         _, _, rest, sizes = system(x, names)
         follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * sizes
