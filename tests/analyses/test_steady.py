@@ -282,3 +282,32 @@ def test_a_wheel_by_itself_is_steady():
     found = rods.model({"wheel": wheel}, {"axle": axle}, gravity=[0.0, 0.0]).linearise(at="start")
     assert found.states == ("axle.angle.rate",)
     assert_allclose(found.A, [[0.0]], atol=1e-12)
+
+
+@pytest.mark.parametrize("driven", [None, "second"])
+def test_wheels_in_mesh_turn_on_together(driven):
+    """A bob on a spring along a spoke of the second wheel; the way along which nothing changes is that of both."""
+    speed, stiffness, mass = -2.0, 20.0, 0.5
+    bodies = {
+        "pinion": {"mass": 1.0, "inertia": 0.02, "position": [0.0, 0.0], "angular_velocity": -3.0 * speed},
+        "wheel": {"mass": 2.0, "inertia": 0.2, "position": [0.4, 0.0], "angular_velocity": speed},
+        "bob": {"mass": mass, "inertia": 0.01, "position": [0.6, 0.0]},
+    }
+    joints = {
+        "first": rods.pin("ground", "pinion", rods.GROUND2, "centre"),
+        "second": rods.pin("ground", "wheel", [0.4, 0.0], "centre"),
+        "teeth": {"type": "gear", "between": ["pinion", "wheel"], "radii": [0.1, 0.3]},
+        "spoke": rods.pin("wheel", "bob", "centre", "centre", "translational", axis=[1.0, 0.0]),
+    }
+    if driven is not None:
+        joints["motor"] = {"type": "driver", "joint": driven, "value": f"{speed}*t"}
+    spring = {"type": "spring-damper", "between": ["wheel", "bob"], "at": [[-1.0, 0.0], "centre"]}
+    spring |= {"stiffness": stiffness, "free_length": 1.2}
+    model = rods.model(bodies, joints, gravity=[0.0, 0.0], forces={"spring": spring})
+    radius = stiffness * 0.2 / (stiffness - mass * speed**2)
+    assert_allclose(model.steady().q["spoke.displacement"], radius, rtol=1e-10)
+    stiff = stiffness - mass * speed**2
+    if driven is None:
+        stiff += (2.0 * mass * radius * speed) ** 2 / (0.2 + 0.01 + 0.02 * 3.0**2 + mass * radius**2)
+    moving = [x for x in model.linearise(at="steady").eigenvalues() if x != 0.0]
+    assert_allclose(moving, [1j * math.sqrt(stiff / mass), -1j * math.sqrt(stiff / mass)], rtol=1e-9)
