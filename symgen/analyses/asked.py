@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen import arguments
-from symgen.analyses.algebra import eigenvalues_of, split
+from symgen.analyses.algebra import eigenvalues_of
+from symgen.analyses.cyclic import steady_motion
 from symgen.analyses.equilibrium import Equilibrium, at_rest_from, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
 from symgen.analyses.reduced import tangent
-from symgen.analyses.settle import Settled, settle
 from symgen.analyses.steady import at_rest, system
 from symgen.analyses.subject import LARGE, Subject, subject_of
 from symgen.errors import AnalysisError, AssemblyError, InputError, nearest, quoted
@@ -29,8 +29,6 @@ Array = NDArray[np.float64]
 
 #: Places that are asked for by a word; another one is a time of a run.
 PLACES = ("equilibrium", "start", "steady")
-#: A turning that changes rates by less than this part of the largest change changes nothing.
-SPUN = 1e-9
 #: Tolerances of a run that leads to a state that is linearised about.
 FOLLOWED = {"method": "direct-correction", "integrator": "dop853", "rtol": 1e-12, "atol": 1e-14}
 
@@ -145,112 +143,6 @@ def subject_at(asked: Asked, by: Sequence[str] = ()) -> tuple[Subject, Array]:
     if not subject.closed:
         raise InputError("at start", "a start that closes the mechanism", "one that does not", "ask for an equilibrium")
     return subject, subject.y
-
-
-def steady_motion(subject: Subject, cyclic: Sequence[str] = ()) -> Settled:
-    """Return a motion in which cyclic coordinates turn on at the speed of the start and nothing else changes.
-
-    Parameters
-    ----------
-    subject : Subject
-        In joint coordinates.
-    cyclic : sequence of str
-        Names of these coordinates; those that nothing depends on by default.
-
-    Raises
-    ------
-    InputError
-        If a name is no coordinate of the tree's joints, or something depends on it, or a body that no joint's angle
-        belongs to spins at the start and would go on.
-    AnalysisError
-        If there is no such motion.
-    """
-    names = [q.name for q in subject.compiled.info.coordinates]
-    free = _without_effect(subject)
-    for name in cyclic:
-        if name not in names:
-            expected = f"a coordinate of the joints of {subject.mechanism.name}"
-            raise InputError(f"cyclic '{name}'", expected, "none of that name", nearest(name, names))
-        if names.index(name) not in free:
-            raise InputError(
-                f"cyclic '{name}'", "a coordinate that no force and no row depends on", "one that changes them"
-            )
-    turning = [names.index(name) for name in cyclic] or free
-    e = subject.evaluated(subject.y)
-    motion = e.by("motion", "v")
-    kept = np.zeros(subject.nv, dtype=np.bool_)
-    for i in turning:
-        kept |= motion[i] != 0.0
-    y = subject.y.copy()
-    v = y[subject.nq : subject.nq + subject.nv]
-    _refuse_spins(subject, v, kept, driven=bool(np.any(e.by("positions", "t"))))
-    begun = v.copy()
-    v[~kept] = 0.0
-    found = settle(subject, y)
-    _refuse_lost(found.subject, found.y, np.where(kept, 0.0, begun))
-    return found
-
-
-def _refuse_spins(subject: Subject, v: Array, kept: NDArray[np.bool_], driven: bool) -> None:
-    """Refuse a start whose only turning is that of bodies free to turn about any axis: no coordinate is its angle."""
-    names = subject.compiled.info.velocities
-    turns = np.array([q.unit == "rad/s" for q in names], dtype=np.bool_) & (np.abs(v) > 0.0)
-    spins = [first + k for _, first in subject.compiled.info.spins for k in range(3) if turns[first + k]]
-    if spins and not driven and not np.any(turns & kept):
-        _refuse_spin(names[spins[0]].name)
-
-
-def _refuse_lost(subject: Subject, y: Array, lost: Array) -> None:
-    """Refuse to leave out a turning that would have gone on: of a body about an axis that nothing depends on.
-
-    What swings at the start comes to rest in a steady motion. What spins about an axis along which the body may be
-    turned, while nothing changes, would not.
-    """
-    spins = [first for _, first in subject.compiled.info.spins if np.any(lost[first : first + 3])]
-    if not spins:
-        return
-    x = tangent(subject, y)
-    free = split(subject.rows(x.base)[subject.holonomic])[0]
-    size = np.abs(x.matrix).max(initial=1.0)
-    for first in spins:
-        about = np.zeros((subject.nv, 3))
-        about[first : first + 3] = np.eye(3)
-        turned = free.T @ about
-        changes = np.vstack([x.matrix[:, : x.positions] @ turned / size, about - free @ turned])
-        _, felt, axes = np.linalg.svd(changes)
-        spin = axes[felt <= SPUN] @ lost[first : first + 3]
-        if np.abs(spin).max(initial=0.0) > SPUN * np.abs(lost).max():
-            k = int(np.argmax(np.abs(lost[first : first + 3])))
-            _refuse_spin(subject.compiled.info.velocities[first + k].name)
-
-
-def _refuse_spin(name: str) -> None:
-    expected = "joints whose angles or displacements turn on"
-    got = f"'{name}', the turning of a body about any axis, which no coordinate counts"
-    raise InputError("steady", expected, got, "give it joints with axes, such as three hinges")
-
-
-def _without_effect(subject: Subject) -> list[int]:
-    """Return the coordinates that nothing depends on: along which all derivatives vanish, here and elsewhere.
-
-    What a driver moves depends on time as its own row does, which therefore counts for nothing.
-    """
-    rng = np.random.default_rng(0)
-    found = np.ones(subject.nq, dtype=np.bool_)
-    for k in range(3):
-        y = subject.y.copy()
-        y[: subject.nq] += 0.3 * k * rng.standard_normal(subject.nq)
-        v = y[subject.nq : subject.nq + subject.nv]
-        v[:] = rng.standard_normal(subject.nv)
-        e = subject.evaluated(y, rng.standard_normal(subject.nv), rng.standard_normal(subject.m))
-        for group in ("motion", "balance", "accelerations", "velocities", "positions"):
-            by = np.abs(e.by(group, "q"))
-            # each row by itself: a soft spring is one beside a stiff one as well
-            size = np.max([np.abs(e.by(group, s)).max(axis=1, initial=1e-300) for s in ("q", "v", "a", "lam")], axis=0)
-            if group not in ("motion", "balance"):
-                size = np.where(e.by("positions", "t")[:, 0] == 0.0, size, np.inf)
-            found &= np.all(by <= 1e-11 * size[:, np.newaxis], axis=0)
-    return [int(i) for i in np.flatnonzero(found)]
 
 
 def asked_steady(mechanism: Mechanism, settings: Settings, cyclic: Sequence[str] = ()) -> Equilibrium:

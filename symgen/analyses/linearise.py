@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from symgen.analyses.algebra import eigenvalues_of, ranking
 from symgen.analyses.reduced import Tangent, tangent
-from symgen.analyses.steady import at_rest, check_steady, chosen, found_states, system, with_rates
+from symgen.analyses.steady import after, at_rest, check_steady, chosen, found_states, system, with_rates
 from symgen.analyses.subject import Subject
 from symgen.errors import InputError
 
@@ -127,7 +127,7 @@ def named_states(
     subject: Subject, x: Tangent, states: Sequence[str], instantaneous: bool, where: str
 ) -> tuple[str, ...]:
     """Return the names of the states that are asked for or found, after a check that they make a linear system."""
-    resting = at_rest(subject, x)
+    resting, soon = at_rest(subject, x), None
     if states:
         given = tuple(dict.fromkeys(states))
         # what tells all needs no more rates, also where Euler parameters are in it, whose rates have no names
@@ -137,14 +137,15 @@ def named_states(
     elif resting or instantaneous:
         names = chosen(subject, x)
     else:
-        names = found_states(subject, x)
+        soon = after(subject, x)
+        names = found_states(subject, x, soon)
         speeds = np.array([x.quantity(name).changes[x.positions : x.size] for name in names])
         if np.linalg.matrix_rank(speeds.reshape(len(names), x.velocities)) < x.velocities:  # some of them changes
             check_steady(subject, x, chosen(subject, x), where)
             expected = "a steady motion, or states that are named"
             raise InputError(where, expected, "one in which not all velocities stay as they are")
     if not instantaneous:
-        check_steady(subject, x, names, where)
+        check_steady(subject, x, names, where, soon)
     return names
 
 

@@ -25,6 +25,9 @@ Array = NDArray[np.float64]
 STILL = 1e-7
 #: How far one quantity may follow from others, as a fraction of it.
 CLOSED = 1e-8
+#: Rates that change by less than this part of the largest change of any are compared with that part of it: a wheel by
+#: itself has none but rounding.
+ROUNDED = 1e-6
 #: The same later on, where the motion was followed by steps: their error is in it.
 LATER = 1e-4
 #: Radians, or lengths of the mechanism, between the instants at which is asked again.
@@ -162,13 +165,18 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     rates = np.array([q.rate_changes for q in found]).reshape(len(found), width)
     a = np.linalg.lstsq(states[:, :n].T, rates[:, :n].T, rcond=1e-11)[0].T
     rest = rates[:, :n] - a @ states[:, :n]
-    return a, rates[:, n:] - a @ states[:, n:], rest, 1e-300 + np.abs(rates[:, :n]).max(initial=0.0) + np.zeros(len(a))
+    size = max(np.abs(rates[:, :n]).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
+    return a, rates[:, n:] - a @ states[:, n:], rest, np.full(len(a), size)
 
 
-def found_states(subject: Subject, x: Tangent) -> tuple[str, ...]:
-    """Return the named quantities that do not change and whose rates follow from each other: the steady ones."""
+def found_states(subject: Subject, x: Tangent, soon: Tangent) -> tuple[str, ...]:
+    """Return the named quantities that do not change and whose rates follow from each other: the steady ones.
+
+    What is at an end of its swing does not change at the state either, so that it is looked at `soon` as well.
+    """
     turning = {q.name for i, q in enumerate(subject.compiled.info.coordinates) if _of_spin(subject, i)}
-    names = [n for n in quantities_of(subject) if n not in turning and still(subject, x, x.quantity(n))]
+    names = [n for n in quantities_of(subject) if n not in turning]
+    names = [n for n in names if still(subject, x, x.quantity(n)) and still(subject, soon, soon.quantity(n))]
     while names:
         _, _, rest, sizes = system(x, names)
         follows = np.abs(rest).max(axis=1, initial=0.0) <= CLOSED * sizes
@@ -192,8 +200,10 @@ def _of_spin(subject: Subject, at: int) -> bool:
     return any(first <= at < first + 4 for first, _ in subject.compiled.info.spins)
 
 
-def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str) -> None:
+def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str, soon: Tangent | None = None) -> None:
     """Refuse a motion in which states change, or depend on what is no state.
+
+    `soon` is what is `after` the state, where that is known.
 
     Raises
     ------
@@ -217,10 +227,9 @@ def check_steady(subject: Subject, x: Tangent, names: Sequence[str], where: str)
     if at_rest(subject, x):
         return
     then = x
-    for _ in range(2):
-        y, t = later(subject, then)
-        then = tangent(subject, y, t)
-        b = system(then, names)[0]
+    for k in range(2):
+        then = soon if k == 0 and soon is not None else after(subject, then)
+        t, b = then.t, system(then, names)[0]
         if not np.abs(b - a).max(initial=0.0) <= LATER * (1.0 + np.abs(a).max(initial=0.0)):
             expected = "a steady motion, about which everything that is looked at stays as it is"
             raise InputError(where, expected, f"one whose linear system is another at t = {t:.4g} s")
@@ -243,6 +252,12 @@ def _check_still(subject: Subject, x: Tangent, names: Sequence[str], where: str)
         expected = "a state of rest, or of a motion in which no state changes"
         hint = "ask for an equilibrium, or name the states that stay as they are"
         raise InputError(where, expected, f"one where '{worst.name}' changes at a rate of {worst.rate:.4g}", hint)
+
+
+def after(subject: Subject, x: Tangent) -> Tangent:
+    """Return how everything changes a little later on the motion."""
+    y, t = later(subject, x)
+    return tangent(subject, y, t)
 
 
 def later(subject: Subject, x: Tangent) -> tuple[Array, float]:

@@ -218,3 +218,96 @@ def test_a_spin_is_not_lost_beside_a_wheel_that_turns_on():
             beside_a_wheel(spin).steady()
         with pytest.raises(InputError, match="the turning of a body about any axis"):
             beside_a_wheel(spin).modes(at="steady")
+
+
+def carousel(driven, speed=5.0):
+    """A disc that turns on a pin, without gravity, with an arm on a pin at its rim and a spring between both."""
+    bodies = {
+        "disc": {"mass": 1.0, "inertia": 0.1, "position": [0.0, 0.0], "angular_velocity": speed},
+        "arm": {
+            **{"mass": 2.0, "inertia": 0.03, "position": [0.8, 0.0], "angular_velocity": speed},
+            **{"velocity": [0.0, 0.8 * speed], "points": {"end": [-0.5, 0.0]}},
+        },
+    }
+    joints = {
+        "axle": rods.pin("ground", "disc", rods.GROUND2, "centre"),
+        "pin": rods.pin("disc", "arm", [0.3, 0.0], "end"),
+    }
+    if driven:
+        joints["motor"] = {"type": "driver", "joint": "axle", "value": f"{speed}*t"}
+    spring = {"type": "torsional-spring-damper", "between": ["disc", "arm"], "stiffness": 12.0, "free_angle": 0.8}
+    return rods.model(bodies, joints, gravity=[0.0, 0.0], forces={"spring": spring})
+
+
+@pytest.mark.parametrize("driven", [False, True])
+def test_what_a_turning_body_carries_turns_along_in_the_plane(driven):
+    """Angles in the plane are absolute: no coordinate turns on by itself, so that the disc was taken to be at rest."""
+    stiffness, speed, arm, product = 12.0, 5.0, 0.03 + 2.0 * 0.5**2, 2.0 * 0.3 * 0.5
+    angle = 0.4
+    for _ in range(20):  # what the spring pulls at, and what the turning does
+        pull = stiffness * (angle - 0.8) + product * speed**2 * math.sin(angle)
+        angle -= pull / (stiffness + product * speed**2 * math.cos(angle))
+    stiff = stiffness + product * speed**2 * math.cos(angle)
+    if driven:
+        squared = stiff / arm
+    else:  # the disc slows down and speeds up as the arm moves, with all momentum kept
+        both = 0.1 + 2.0 * 0.3**2 + arm + 2.0 * product * math.cos(angle)
+        stiff += 4.0 * (product * math.sin(angle) * speed) ** 2 / both
+        squared = stiff / (arm - (arm + product * math.cos(angle)) ** 2 / both)
+    found = carousel(driven).steady()
+    assert_allclose(found.q["pin.angle"], angle, rtol=1e-10)
+    assert found.stability == ("stable" if driven else "indifferent")
+    system = carousel(driven).linearise(at="steady")
+    moving = [x for x in system.eigenvalues() if x != 0.0]
+    assert_allclose(moving, [1j * math.sqrt(squared), -1j * math.sqrt(squared)], rtol=1e-9)
+    assert len(system.states) == len(moving) + (not driven)
+
+
+def test_a_turning_that_other_bodies_follow_can_be_named():
+    named = carousel(False).steady(cyclic=["arm.theta"])
+    assert_allclose(named.q["pin.angle"], carousel(False).steady().q["pin.angle"], rtol=1e-10)
+
+
+def test_what_is_at_an_end_of_its_swing_is_no_state():
+    """An Euler parameter of the shaft hardly changes next to where it is 1, and its rate follows from it by 1/0."""
+    found = symgen.load("flyball-governor").linearise(at="steady", start={"bearing.angle": 1e-9})
+    assert {"bearing.angle.rate", "hinge1.angle", "sleeve.displacement"} < set(found.states)
+    assert len(found.states) == 7
+
+
+def test_a_wheel_by_itself_is_steady():
+    """All its rates change by is rounding, with which they were compared."""
+    wheel = {"mass": 1.0, "inertia": 0.1, "position": [0.3, 3e-10], "angle": 1e-9, "angular_velocity": 4.0}
+    axle = rods.pin("ground", "wheel", rods.GROUND2, [-0.3, 0.0])
+    found = rods.model({"wheel": wheel}, {"axle": axle}, gravity=[0.0, 0.0]).linearise(at="start")
+    assert found.states == ("axle.angle.rate",)
+    assert_allclose(found.A, [[0.0]], atol=1e-12)
+
+
+@pytest.mark.parametrize("driven", [None, "second"])
+def test_wheels_in_mesh_turn_on_together(driven):
+    """A bob on a spring along a spoke of the second wheel; the way along which nothing changes is that of both."""
+    speed, stiffness, mass = -2.0, 20.0, 0.5
+    bodies = {
+        "pinion": {"mass": 1.0, "inertia": 0.02, "position": [0.0, 0.0], "angular_velocity": -3.0 * speed},
+        "wheel": {"mass": 2.0, "inertia": 0.2, "position": [0.4, 0.0], "angular_velocity": speed},
+        "bob": {"mass": mass, "inertia": 0.01, "position": [0.6, 0.0]},
+    }
+    joints = {
+        "first": rods.pin("ground", "pinion", rods.GROUND2, "centre"),
+        "second": rods.pin("ground", "wheel", [0.4, 0.0], "centre"),
+        "teeth": {"type": "gear", "between": ["pinion", "wheel"], "radii": [0.1, 0.3]},
+        "spoke": rods.pin("wheel", "bob", "centre", "centre", "translational", axis=[1.0, 0.0]),
+    }
+    if driven is not None:
+        joints["motor"] = {"type": "driver", "joint": driven, "value": f"{speed}*t"}
+    spring = {"type": "spring-damper", "between": ["wheel", "bob"], "at": [[-1.0, 0.0], "centre"]}
+    spring |= {"stiffness": stiffness, "free_length": 1.2}
+    model = rods.model(bodies, joints, gravity=[0.0, 0.0], forces={"spring": spring})
+    radius = stiffness * 0.2 / (stiffness - mass * speed**2)
+    assert_allclose(model.steady().q["spoke.displacement"], radius, rtol=1e-10)
+    stiff = stiffness - mass * speed**2
+    if driven is None:
+        stiff += (2.0 * mass * radius * speed) ** 2 / (0.2 + 0.01 + 0.02 * 3.0**2 + mass * radius**2)
+    moving = [x for x in model.linearise(at="steady").eigenvalues() if x != 0.0]
+    assert_allclose(moving, [1j * math.sqrt(stiff / mass), -1j * math.sqrt(stiff / mass)], rtol=1e-9)

@@ -86,6 +86,7 @@ CASES = [
     ),
     ("parameters.pi", 3.0, "expected a parameter name that has no meaning of its own, got 'pi'"),
     ("parameters.sin", 1.0, "expected a parameter name that has no meaning of its own, got 'sin'"),
+    ("outputs.s", "t", "expected an output name that has no meaning of its own, got 's'"),
     ("parameters.s", 1.0, "expected a parameter name that has no meaning of its own, got 's'"),
     ("parameters.lambda", 1.0, "expected a parameter name that has no meaning of its own, got 'lambda'"),
     ("parameters._a", 1.0, "of letters, digits and _, a letter first, got '_a'; for example 'a'"),
