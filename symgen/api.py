@@ -231,7 +231,10 @@ class Model(Analysed):
             arguments.of_kind("view", view, View, "a symgen.drawing.View")
         values = self.parameters(parameters)
         described = self.initial_state(values)[0]
-        if q is None and arguments.one_of("at", at, ("start", "described")) == "described":
+        placed = arguments.one_of("at", at, ("start", "described")) == "described" or q is not None
+        if placed and start:
+            raise InputError("start", "a picture of the start", "one of other coordinates, which are kept as they are")
+        if q is None and placed:
             q = described
         if q is not None:
             q = arguments.numbers("q", list(q) if isinstance(q, np.ndarray) else q)

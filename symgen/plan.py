@@ -244,9 +244,14 @@ def split_options(s: Settings, tableau: Integrator) -> tuple[MethodChoice, dict[
     structural: dict[str, str] = {}
     parameters: dict[str, float] = {}
     integrator: dict[str, str] = {}
+    seen = set[tuple[bool, str]]()
     for key, value in s.options.items():
         owner, _, name = key.partition(".")
-        if owner in ("method", base.name):
+        one = owner in ("method", base.name), name
+        if one in seen:
+            raise InputError(f"option {key}", "each option once", f"{name} by two names of its owner")
+        seen.add(one)
+        if one[0]:
             if name in numeric:
                 parameters[name] = _number(key, value)
                 if parameters[name] < numeric[name].minimum:

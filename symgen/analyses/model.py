@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 #: Settings that count for analyses about a state, and for motions that drivers prescribe.
 OF_STATES = ("parameters", "inputs", "start", "coordinates", "shape")
 OF_MOTIONS = ("parameters", "inputs", "start", "strict", "shape")
+#: Those of them that count where drivers say the motion, not where it was recorded.
+OF_DRIVEN = ("start", "strict")
 #: And beside those of states for a run that leads to one.
 OF_RUNS = (*OF_STATES, "options", "events", "strict", "max_violation", "max_energy_error", "max_steps")
 
@@ -334,6 +336,7 @@ class Analysed:
         """
         from symgen.analyses.inverse import inverse
 
+        known = OF_MOTIONS if motion is None else [name for name in OF_MOTIONS if name not in OF_DRIVEN]
         return inverse(
-            self.mechanism, _settings("inverse", settings, changes, OF_MOTIONS), motion, times, actuators, weights
+            self.mechanism, _settings("inverse", settings, changes, known), motion, times, actuators, weights
         )

@@ -227,7 +227,8 @@ def _stepped(
 
 
 def _error(subject: Subject, now: Balance, lam: Array, size: Array) -> float:
-    unbalanced = np.linalg.norm((now.force + now.rows.T @ lam) / size)
+    with np.errstate(over="ignore"):  # far away forces may be so large that their squares are not finite
+        unbalanced = np.linalg.norm((now.force + now.rows.T @ lam) / size)
     return float(np.hypot(unbalanced, np.linalg.norm(now.open) / subject.length))
 
 

@@ -173,7 +173,7 @@ def _sentence(error: click.ClickException) -> str:
     if isinstance(error, click.NoSuchOption):
         options = [o for p in context.command.params for o in p.opts] if context is not None else []
         hint = nearest(error.option_name, [o for o in options if o.startswith("--")])
-        text = f"there is no option '{error.option_name}'; {hint}"
+        text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -11,7 +12,7 @@ import click
 
 from symgen import arguments
 from symgen.errors import InputError, quoted
-from symgen.settings import about, default, flag
+from symgen.settings import Settings, about, default, flag, is_given
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -74,7 +75,7 @@ def _checked(name: str, value: Any) -> Any:
         return option_pairs(value)
     if name == "inputs":
         return _pairs(where, value)
-    return known.check(where, number_list(where, value) if known.kind is tuple else value)
+    return known.check(where, time_list(where, value) if known.kind is tuple else value)
 
 
 def jobs_option(text: str) -> Callable[[F], F]:
@@ -184,6 +185,47 @@ def output_file(option: str, text: str | None, kind: str = "") -> Path | None:
     else:
         check_writable(option, path)
     return path
+
+
+def differ(files: Mapping[str, Path | None]) -> None:
+    """Refuse one file for two things, of which the second would be written over the first.
+
+    Parameters
+    ----------
+    files : mapping
+        Options and their files; None: there is none.
+    """
+    seen = dict[str, str]()
+    for option, path in files.items():
+        if path is None:
+            continue
+        real = os.path.realpath(path)
+        if real in seen:
+            raise InputError(option, f"another file than {seen[real]} has", f"'{path}' for both")
+        seen[real] = option
+
+
+def refuse_tolerances(settings: Settings) -> None:
+    """Refuse tolerances that are given to a run whose steps are constant, where they count for nothing.
+
+    Raises
+    ------
+    InputError
+        If there are some, or there is no such method or integrator.
+    """
+    from symgen.auto import AUTO
+    from symgen.integrators import INTEGRATORS
+    from symgen.methods import METHODS
+
+    given = [name for name in ("rtol", "atol") if is_given(settings, name)]
+    if not given or AUTO in (settings.method, settings.integrator):
+        return
+    named = settings.integrator or METHODS.get(settings.method, "--method").default_integrator
+    known = INTEGRATORS.get(named, "--integrator")
+    switches = {settings.options.get(f"{owner}.adaptive", "true") for owner in ("integrator", known.name)}
+    if not known.adaptive or "false" in switches:
+        hint = "--step says how long they are"
+        raise InputError(flag(given[0]), "an integrator with adaptive steps", f"{known.name} with constant ones", hint)
 
 
 def time_list(option: str, text: str) -> tuple[float, ...]:

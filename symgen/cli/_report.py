@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 import click
 
 from symgen.cli import INTERRUPTED, complain
-from symgen.cli._options import output_file, units_option
+from symgen.cli._options import differ, output_file, units_option
 from symgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -70,6 +70,7 @@ def study_files(row: str) -> Callable[[F], F]:
             if units and rows is None:
                 raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
             journal = None if resume is None else Path(resume)
+            differ({"--resume": journal, "--output": report, "--csv": rows})
             return function(files=StudyFiles(report, rows, journal, units), **further)
 
         for option in reversed(options):

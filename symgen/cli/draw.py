@@ -51,7 +51,9 @@ def command(
 
     view = _view(angles)
     loaded = load(model)
-    file = check_picture("--output", Path(output or f"{loaded.name}.svg"))
+    if view is not None and loaded.mechanism.space == "planar":
+        raise InputError("--view", "a mechanism in space", f"{loaded.name}, which is planar")
+    file = check_picture("--output", Path(f"{loaded.name}.svg" if output is None else output))
     drawing = _drawing(loaded, at, parameters, start, view)
     drawing.save(file)
     marked = [item.name for item in drawing.scene.items if item.role == "fault"]

@@ -62,7 +62,10 @@ def command(
         owner, _, name = key.partition(".")
         if owner not in wanted and not (owner == "method" and len(names) == 1):
             raise InputError(f"--option {key}", f"METHOD.NAME with one of {', '.join(names)}", f"'{key}'")
-        wanted[names[0] if owner == "method" else owner][name] = value
+        own = wanted[names[0] if owner == "method" else owner]
+        if name in own:
+            raise InputError(f"--option {key}", "each option once", f"{name} twice")
+        own[name] = value
     choices: Sequence[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     free = [name for name, given in wanted.items() if "solver" not in given]
     mechanism = load(model)

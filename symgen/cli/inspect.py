@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     short_help="Show the equations of a mechanism, and what was left out.",
 )
 @click.argument("model")
-@click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), default="text", show_default=True)
+@click.option("--format", "form", type=click.Choice(["text", "latex", "json"]), show_default="text")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 @click.option("--document", is_flag=True, help="With --format latex: a document that compiles as it is.")
 @click.option(
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 )
 def command(
     model: str,
-    form: str,
+    form: str | None,
     as_json: bool,
     document: bool,
     select: str | None,
@@ -62,7 +62,9 @@ def command(
 
     asked = Asked(method, {}, parameters, shape, coordinates)
     asked = replace(asked, options=_own(options, asked.named))
-    form = "json" if as_json else form
+    if as_json and form not in (None, "json"):
+        raise InputError("--json", "the same as --format json", f"--format {form} as well")
+    form = "json" if as_json else form or "text"
     if output is not None:
         if as_json or document or select is not None or symbols or form != "text":
             raise InputError("inspect: -o", "a page, which has everything", "options of text, LaTeX or JSON beside it")
@@ -89,6 +91,8 @@ def _own(options: dict[str, str], method: str) -> dict[str, str]:
         owner, _, name = key.rpartition(".")
         if owner not in ("", "method", method):
             raise InputError(f"--option {key}", f"{method}.NAME, method.NAME or NAME", f"'{key}'")
+        if name in found:
+            raise InputError(f"--option {key}", "each option once", f"{name} twice")
         found[name] = value
     return found
 

@@ -9,7 +9,8 @@ import click
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._analyses import motion_options, table_options
 from symgen.cli._options import assignments, examples, json_option, output_file, time_list, words
-from symgen.settings import Settings
+from symgen.errors import InputError
+from symgen.settings import Settings, flag, is_given
 
 
 @click.command(
@@ -65,13 +66,19 @@ def command(
     symgen inverse andrews --from run.nc --actuators drive
     """
     settings = Settings(**asked)
+    for name in ("start", "strict"):
+        if whence is not None and is_given(settings, name):
+            raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
     chosen = None if times is None else time_list("--times", times)
     named, weighed = words("--actuators", actuators), assignments("--weight", weights)
     save_path, plot_path = output_file("--save", save, "tables"), output_file("--plot", plot, "plot")
+    if quantities and save_path is None and plot_path is None:
+        raise InputError("--quantity", "--save or --plot, where quantities go", "neither")
 
     from symgen.api import load
 
     result = load(model).inverse(whence, settings, chosen, named, weighed)
+    result.select(quantities)  # names that are wrong are told before anything is shown
     for sentence in result.notes:
         click.echo(f"symgen: {sentence}", err=True)
     if as_json:

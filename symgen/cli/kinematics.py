@@ -8,7 +8,7 @@ import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
 from symgen.cli._analyses import motion_options, table_options
-from symgen.cli._options import examples, json_option, output_file, time_list
+from symgen.cli._options import differ, examples, json_option, output_file, time_list
 from symgen.settings import Settings
 
 
@@ -55,6 +55,7 @@ def command(
     chosen = None if times is None else time_list("--times", times)
     save_path = output_file("--save", save, "tables")
     plot_path, curve_path = output_file("--plot", plot, "plot"), output_file("--curves", curves, "plot")
+    differ({"--plot": plot_path, "--curves": curve_path})
 
     from symgen.api import load
     from symgen.result.select import extremes

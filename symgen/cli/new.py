@@ -35,5 +35,12 @@ def command(name: str, output: str | None, space: str) -> int:
     path = Path(f"{name}.toml" if output is None else output)
     check_writable("-o", path)
     write_whole(path, text, replace=False)
-    click.echo(f"wrote {path}; try: symgen run {path}")
+    click.echo(f"wrote {path}; try: symgen run {_typed(path)}")
     return OK
+
+
+def _typed(path: Path) -> str:
+    """Return a path as it can be typed: in quotes where a shell would part it, and never like an option."""
+    import shlex
+
+    return shlex.quote(f"./{path}" if str(path).startswith("-") else str(path))

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_files, write_json
-from symgen.cli._options import examples, json_option, output_file, setting_options, units_option
+from symgen.cli._options import (
+    examples,
+    json_option,
+    output_file,
+    refuse_tolerances,
+    setting_options,
+    units_option,
+)
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -72,6 +79,7 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**asked)
+    refuse_tolerances(settings)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")

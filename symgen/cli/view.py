@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.cli._options import examples, json_option, refuse_tolerances, setting_options
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given, names
 
@@ -40,7 +40,7 @@ _OF_MODES = ("parameters", "inputs", "start", "coordinates")
 @click.option(
     "--model", "described", metavar="MODEL", help="The mechanism of RESULT.nc, where it is none of the catalogue."
 )
-@click.option("--live/--no-live", default=True, show_default=True, help="Put the equations into the page.")
+@click.option("--live/--no-live", default=None, show_default="live", help="Put the equations into the page.")
 @click.option("--mode", type=int, metavar="N", help="Play the mode shape of that number instead of a run.")
 @click.option(
     "--at",
@@ -59,7 +59,7 @@ def command(
     output: str | None,
     beside: str | None,
     described: str | None,
-    live: bool,
+    live: bool | None,
     mode: int | None,
     at: str,
     as_json: bool,
@@ -72,8 +72,9 @@ def command(
     """
     from symgen.api import load
 
-    stored = Path(what) if what.endswith(".nc") else None
+    stored = Path(what) if what.lower().endswith(".nc") else None
     settings = Settings(**asked)
+    refuse_tolerances(settings)
     if stored is not None:
         from symgen.result.viewed import mechanism_name
 
@@ -91,11 +92,14 @@ def command(
         raise InputError("--mode", "a model, about whose equilibrium modes are", f"the saved result '{what}'")
     if mode is None and at != "equilibrium":
         raise InputError("--at", "a mode shape, asked for with --mode", "no --mode")
-    file = _checked(Path(output or f"{model.name}.html"))
+    file = _checked(Path(f"{model.name}.html" if output is None else output))
+    if live and (mode is not None or file.suffix.lower() != ".html"):
+        expected = "a page of a run, which alone has equations in it"
+        raise InputError("--live", expected, f"'{file}'" if mode is None else "--mode as well")
     if mode is not None:
         return _mode(model, settings, mode, at, file, as_json)
     if stored is not None:
-        return _stored(stored, model, beside, live, file, as_json)
+        return _stored(stored, model, beside, live is not False, file, as_json)
     from symgen.cli._progress import Bar
 
     with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
@@ -108,7 +112,7 @@ def command(
 
         write_film(file, recorded(result))
         return _told(file, False, as_json, result.status) or _code(result)
-    made = result.view(live=live)
+    made = result.view(live=live is not False)
     made.save(file)
     return _told(file, made.live, as_json, result.status) or _code(result)
 

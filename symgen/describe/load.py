@@ -99,7 +99,7 @@ def read_toml(path: Path) -> dict[str, Any]:
     if len(content) > LARGEST_FILE:
         raise InputError(path.name, f"a file of at most {LARGEST_FILE} bytes", "a larger one")
     try:
-        text = content.decode()
+        text = content.decode("utf-8-sig")  # some editors begin files with a mark
     except UnicodeDecodeError as error:
         raise InputError(path.name, "text in UTF-8", f"another byte at position {error.start}") from None
     return parse_toml(text, path.name)

@@ -39,9 +39,9 @@ class Baumgarte(MultiplierMethod):
     def largest_step(self, parameters: Mapping[str, float], boundary: float) -> float | None:
         """Return ``boundary / |root|`` for the root farthest from the origin."""
         alpha, beta = parameters["alpha"], parameters["beta"]
-        inside = alpha**2 - beta**2
-        root = alpha + math.sqrt(inside) if inside >= 0.0 else beta
-        return boundary / root if root > 0.0 else None
+        a, b = 0.5 * alpha, 0.5 * beta  # half of the root, by factors: squares and sums of huge gains overflow
+        half = b if a < b else a + math.sqrt(a - b) * math.sqrt(a + b)
+        return 0.5 * boundary / half if half > 0.0 else None
 
 
 KIND = Baumgarte()

@@ -43,5 +43,5 @@ def read_saved(
     except InputError:
         raise
     except (OSError, ValueError, KeyError, IndexError, TypeError, StopIteration, csv.Error) as error:
-        why = " ".join(str(error).split())[:80]
+        why = " ".join(str(error).split())[:80] or "it has no rows"
         raise InputError(option, "a file of a result", f"'{path}', which cannot be read as one ({why})") from None

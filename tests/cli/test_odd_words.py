@@ -1,0 +1,140 @@
+"""Words of commands that contradict each other, or that would count for nothing: each is refused in one sentence."""
+
+import math
+
+import pytest
+
+import symgen
+from symgen.cli import main
+from symgen.errors import InputError
+
+ROD = """[mechanism]
+name = "rod"
+[run]
+until = 0.02
+step = 1e-2
+[bodies.bar]
+mass = 2.0
+inertia = 0.1
+position = [1.0, 0.0]
+[joints.pin]
+type = "revolute"
+between = ["ground", "bar"]
+at = [[0.0, 0.0], [-1.0, 0.0]]
+"""
+
+
+@pytest.fixture
+def said(capsys, tmp_path, monkeypatch):
+    """Return a function: words -> exit code, standard output, standard error; in a folder with a mechanism."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rod.toml").write_text(ROD, encoding="utf-8")
+
+    def run(*words):
+        code = main(list(words))
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        # tolerances of runs with constant steps, and steps or tolerances of comparisons that no run has
+        ("run rod.toml --rtol 1e-9", "--rtol: expected an integrator with adaptive steps, got rk4 with constant ones"),
+        ("view rod.toml --atol 1e-9 --integrator heun", "--atol: expected an integrator with adaptive steps, got heun"),
+        ("sweep rod.toml --vary bar.omega=lin(0,1,2) --rtol 1e-9", "--rtol: expected an integrator with adaptive"),
+        ("run rod.toml --integrator dopri5 --option dopri5.adaptive=false --rtol 1e-9", "got dopri5 with constant"),
+        ("compare rod.toml --methods lagrange --integrators rk4 --rtols 1e-3", "--rtols: expected an integrator with"),
+        ("compare rod.toml --methods lagrange --integrators dopri5 --steps 1e-3", "--steps: expected an integrator"),
+        # one option by two names
+        (
+            "run rod.toml --method baumgarte --option method.alpha=5 --option baumgarte.alpha=6",
+            "option baumgarte.alpha: expected each option once",
+        ),
+        ("inspect rod.toml --option weight=mass --option method.weight=body", "expected each option once"),
+        (
+            "generate rod.toml --method ggl --option method.solver=dense --option ggl.solver=augmented",
+            "--option ggl.solver: expected each option once",
+        ),
+        ("inspect rod.toml --json --format latex", "--json: expected the same as --format json, got --format latex"),
+        # pictures and pages
+        ("draw rod.toml --at described --start bar.theta=1", "start: expected a picture of the start"),
+        ("draw rod.toml --view 30,20", "--view: expected a mechanism in space, got rod, which is planar"),
+        ("view rod.toml --live -o rod.gif", "--live: expected a page of a run, which alone has equations in it"),
+        ("view rod.toml --live --mode 1", "--live: expected a page of a run"),
+        ("view RUN.NC", "view: expected a file of a result, got 'RUN.NC', which is none"),
+        # one file for two things
+        ("compare rod.toml --csv a.csv --resume ./a.csv", "--csv: expected another file than --resume has"),
+        ("stress rod.toml -o a.html --journal a.html", "--output: expected another file than --resume has"),
+        ("kinematics rod.toml --plot a.svg --curves a.svg", "--curves: expected another file than --plot has"),
+        # recorded motions
+        ("inverse rod.toml --from a.nc --start bar.theta=1", "--start: expected settings of a recorded motion"),
+        ("inverse rod.toml --from a.nc --strict", "--strict: expected settings of a recorded motion"),
+        (
+            "inverse rod.toml --quantity power",
+            "--quantity: expected --save or --plot, where quantities go, got neither",
+        ),
+        ("schema --json", "there is no option '--json' (symgen schema --help)"),
+    ],
+)
+def test_what_contradicts_or_counts_for_nothing_is_refused(said, tmp_path, words, sentence):
+    code, out, err = said(*words.split())
+    assert code == 2 and out == "" and err.count("\n") == 1 and sentence in err
+    assert [p.name for p in tmp_path.iterdir()] == ["rod.toml"]
+
+
+def test_names_that_are_wrong_are_told_before_efforts_are_shown(said):
+    code, out, err = said(
+        *("inverse", "driven-four-bar", "--times", "0,0.1", "--quantity", "nope", "--save", "a.csv"),
+    )
+    assert code == 2 and out == "" and "quantity 'nope'" in err
+
+
+def test_a_file_may_begin_with_a_mark_of_its_encoding(said, tmp_path):
+    (tmp_path / "marked.toml").write_bytes(b"\xef\xbb\xbf" + ROD.replace("\n", "\r\n").encode())
+    assert said("check", "marked.toml") == said("check", "rod.toml")
+
+
+def test_a_scan_without_any_force_says_nothing_of_its_arithmetic(said):
+    import warnings
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        code, _, err = said("equilibrium", "rod.toml", "--scan", "bar.theta=lin(6,0,7)")
+    assert code == 0 and err == ""
+
+
+def test_a_file_without_rows_is_said_to_have_none(said, tmp_path):
+    (tmp_path / "a.csv").write_text("t,bar.x\n", encoding="utf-8")
+    code, _, err = said("run", "rod.toml", "--from", "a.csv")
+    assert code == 2 and "which cannot be read as one (it has no rows)" in err
+
+
+def test_sweeps_may_ask_for_the_start(said):
+    code, out, _ = said("sweep", "rod.toml", "--vary", "bar.omega=lin(1,2,2)", "--times", "0,0.02", "--json")
+    assert code == 0 and '"runs"' in out
+
+
+def test_the_line_to_try_can_be_typed(said):
+    assert said("new", "crane", "-o", "my crane.toml")[1].endswith("try: symgen run 'my crane.toml'\n")
+    assert said("new", "crane", "-o", "-crane.toml")[1].endswith("try: symgen run ./-crane.toml\n")
+
+
+@pytest.mark.parametrize(("alpha", "beta"), [(1e308, 1.0), (1e308, 1e308), (5.0, 1e308), (3.0, 1.0), (5.0, 5.0)])
+def test_steps_of_huge_gains_are_those_of_their_roots(alpha, beta):
+    from decimal import Decimal
+
+    from symgen.methods import METHODS
+
+    a, b = Decimal(alpha), Decimal(beta)
+    root = a + (a * a - b * b).sqrt() if a >= b else b
+    found = METHODS.get("baumgarte").largest_step({"alpha": alpha, "beta": beta}, 2.785)
+    assert math.isclose(found, float(Decimal("2.785") / root), rel_tol=1e-14)
+
+
+def test_a_picture_of_given_coordinates_has_no_start():
+    model = symgen.load("pendulum")
+    with pytest.raises(InputError, match="start: expected a picture of the start"):
+        model.draw(start={"bob.x": 1.0}, q=[1.0, 0.0])
