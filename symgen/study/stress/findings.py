@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symgen.auto import AUTO
 from symgen.study.stress.map import Map, map_rows, plane_rows, shares_of_models
-from symgen.study.stress.outcome import ACCURATE, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
+from symgen.study.stress.outcome import ACCURATE, DIVERGED, GOOD, OUTCOMES, REFUSED, UNJUDGED, WRONG_BRANCH, counts
 
 if TYPE_CHECKING:
     from symgen.study.stress.rows import Limit, Row, Stress
@@ -78,8 +78,14 @@ def _toughest(study: Stress) -> Iterator[str]:
     if len(shares) < 2:
         return
     shares.sort(key=lambda s: -s[0])
-    for label, (_, good, judged, line) in (("Most", shares[0]), ("Least", shares[-1])):
-        yield f"{label} often accurate was {_line(line)}: {good} of {judged} cells."
+    if shares[0][0] == shares[-1][0]:
+        _, good, judged, line = shares[0]
+        yield f"All {len(shares)} pairs were accurate equally often: {_line(line)} in {good} of {judged} cells."
+        return
+    for label, (share, good, judged, line) in (("Most", shares[0]), ("Least", shares[-1])):
+        others = sum(other == share for other, *_ in shares) - 1
+        also = f", as often as {_many(others, 'other pair')}" if others else ""
+        yield f"{label} often accurate was {_line(line)}: {good} of {judged} cells{also}."
 
 
 def _families(study: Stress) -> Iterator[str]:
@@ -90,12 +96,16 @@ def _families(study: Stress) -> Iterator[str]:
         whole = [line for line, entry in entries.items() if entry.good == entry.judged]
         if not entries:
             continue
+        left = any(row.outcome in (REFUSED, UNJUDGED) for row in shown.rows if row.family == family)
         if len(whole) == len(entries):
-            yield f"{_title(family)}: accurate in every case with every pair of method and integrator."
+            of = " that was judged" if left else ""
+            yield f"{_title(family)}: accurate in every case{of} with every pair of method and integrator."
             continue
         rows = [row for entry in entries.values() for row in entry.rows if row.outcome not in (REFUSED, UNJUDGED)]
         hardest = _hardest(rows)
-        kept = f"{len(whole)} of {len(entries)} pairs stay accurate throughout"
+        kept = (
+            f"{len(whole)} of {len(entries)} pairs stay accurate {'in all that was judged' if left else 'throughout'}"
+        )
         if 0 < len(whole) <= 4:
             kept += f" ({'; '.join(_line(line) for line in whole)})"
         yield f"{_title(family)}: {kept}; {hardest}."
@@ -142,9 +152,11 @@ def _gains(study: Stress) -> Iterator[str]:
         if stable and unstable:
             reaches.append((_up_to(stable, unstable), min(unstable)))
         if stable and unstable and few:
+            reach = _up_to(stable, unstable)
+            below = f"all cells up to |root| h = {reach:.3g} are accurate and the first that is not has"
+            first = below if reach else "the cell of the smallest |root| h is not accurate,"
             yield (
-                f"Baumgarte's gains on {model}: with real roots all cells up to |root| h = "
-                f"{_up_to(stable, unstable):.3g} are accurate and the first that is not has {min(unstable):.3g}; "
+                f"Baumgarte's gains on {model}: with real roots {first} {min(unstable):.3g}; "
                 "rk4 is stable up to 2.785."
             )
     if reaches and not few:
@@ -163,35 +175,32 @@ def _up_to(stable: Sequence[float], unstable: Sequence[float]) -> float:
 def _penalties(study: Stress) -> Iterator[str]:
     rows = [row for row in study.rows if row.family == "penalty-factor" and row.outcome not in (UNJUDGED, REFUSED)]
     if len(study.models) > FEW_MODELS:
-        yield from _penalties_of_many(rows)
+        yield from _penalties_of_many(rows, len({r.model for r in study.rows if r.family == "penalty-factor"}))
         return
     for method, integrator, model in dict.fromkeys((row.method, row.integrator, row.model) for row in rows):
         own = [r for r in rows if (r.method, r.integrator, r.model) == (method, integrator, model)]
-        best = min((row for row in own if row.error is not None), key=lambda row: row.error or 0.0, default=None)
-        if best is None or len(own) < 2:
+        if len(own) < 2:
             continue
-        spans = _good_spans(own)
-        span = f"accurate for a = {_listed(spans)}" if spans else "accurate for none of the factors"
-        yield (
-            f"Penalty of {_line((method, integrator))} on {model}: {span}; smallest error {best.error:.1e} m at "
-            f"a = {best.values[0]:g}."
-        )
+        # a run that ended early has the error of what it reached
+        ended = [row for row in own if row.error is not None and row.outcome != DIVERGED and not row.note]
+        best = min(ended, key=lambda row: row.error or 0.0, default=None)
+        told = f"; smallest error {best.error:.1e} m at a = {best.values[0]:g}" if best is not None else ""
+        yield f"Penalty of {_line((method, integrator))} on {model}: {_span(own)}{told}."
 
 
-def _good_spans(rows: Sequence[Row]) -> list[str]:
-    """Return the spans of a factor in which every value that was tried is accurate."""
-    spans, going = list[list[float]](), False
-    for a in sorted({row.values[0] for row in rows}):
-        good = all(row.outcome == GOOD for row in rows if row.values[0] == a)
-        if good and going:
-            spans[-1].append(a)
-        elif good:
-            spans.append([a])
-        going = good
-    return [f"{span[0]:g} to {span[-1]:g}" if len(span) > 1 else f"{span[0]:g}" for span in spans]
+def _span(rows: Sequence[Row]) -> str:
+    """Return for which factors runs are accurate, those between them that are not named as well."""
+    good = sorted(row.values[0] for row in rows if row.outcome == GOOD)
+    if not good:
+        return "accurate for none of the factors"
+    if good[0] == good[-1]:
+        return f"accurate for a = {good[0]:g} alone"
+    between = sorted(row.values[0] for row in rows if row.outcome != GOOD and good[0] < row.values[0] < good[-1])
+    but = f" but not for {_listed([f'{a:g}' for a in between])}" if between else ""
+    return f"accurate for a = {good[0]:g} to {good[-1]:g}{but}"
 
 
-def _penalties_of_many(rows: Sequence[Row]) -> Iterator[str]:
+def _penalties_of_many(rows: Sequence[Row], models: int) -> Iterator[str]:
     for line in dict.fromkeys((row.method, row.integrator) for row in rows):
         own = [row for row in rows if (row.method, row.integrator) == line]
         factors = sorted({row.values[0] for row in own})
@@ -199,7 +208,9 @@ def _penalties_of_many(rows: Sequence[Row]) -> Iterator[str]:
         tried = {a: sum(row.values[0] == a for row in own) for a in factors}
         everywhere = [a for a in factors if good[a] == tried[a]]
         if everywhere:
-            yield f"Penalty of {_line(line)}: accurate on all models for a = {_listed([f'{a:g}' for a in everywhere])}."
+            of = "" if all(tried[a] == models for a in everywhere) else " that were judged"
+            a = _listed([f"{a:g}" for a in everywhere])
+            yield f"Penalty of {_line(line)}: accurate on all models{of} for a = {a}."
         else:
             best = max(factors, key=lambda a: good[a] / tried[a])
             suits = f"a = {best:g} suits {good[best]} of {tried[best]}"
@@ -220,11 +231,15 @@ def _steps(study: Stress) -> Iterator[str]:
         most, least = max(stable, key=step), min(stable, key=step)
         largest.setdefault(family, []).append((most.method, most.integrator))
         if len(study.models) <= FEW_MODELS:
-            yield (
-                f"Largest steps on {model}, {family} {case}: from {step(least):.3g} s "
-                f"({_line((least.method, least.integrator))}) to {step(most):.3g} s "
-                f"({_line((most.method, most.integrator))})."
+            span = (
+                f"from {step(least):.3g} s ({_line((least.method, least.integrator))}) to {step(most):.3g} s "
+                f"({_line((most.method, most.integrator))})"
             )
+            if step(least) == step(most):
+                span = f"{step(most):.3g} s with each of {len(stable)} pairs"
+            none = len(own) - len(stable)
+            without = f"; none was found with {_many(none, 'pair')}" if none else ""
+            yield f"Largest steps on {model}, {family} {case}: {span}{without}."
     if len(study.models) > FEW_MODELS:
         for family, lines in largest.items():
             order = sorted(dict.fromkeys(lines), key=lambda line: -lines.count(line))
@@ -248,10 +263,14 @@ def _trust(study: Stress) -> Iterator[str]:
     if not watched:
         return
     if not others:
-        yield f"No other run reports success with an error above {ACCURATE:g} m, in {len(watched)} cells."
+        which = "No other run" if AUTO in methods else "No run"
+        yield f"{which} reports success with an error above {ACCURATE:g} m, in {len(watched)} cells."
         return
     share = f"{len(others)} of {len(watched)} cells"
-    yield f"Other methods report success with such an error in {share}: {_reasons(others)}."
+    which, such = (
+        ("Other methods", "such an error") if AUTO in methods else ("Methods", f"an error above {ACCURATE:g} m")
+    )
+    yield f"{which} report success with {such} in {share}: {_reasons(others)}."
 
 
 def _reasons(rows: Sequence[Row]) -> str:
