@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from symgen.describe.names import CALLABLE, INTEGRAL
+from symgen.describe.with_units import in_si
 from symgen.errors import InputError, nearest, quoted
 from symgen.vocabulary.expressions import (
     FUNCTIONS,
@@ -135,7 +136,7 @@ class _Reader:
             tree = ast.parse(re.sub(r"\s", " ", text).strip(), mode="eval")
         except SyntaxError as error:
             near = f" near column {error.offset}" if (error.offset or 0) > 1 else ""
-            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}") from None
+            raise self.fail(f"{quoted(text)}, which is incomplete or has a syntax error{near}", in_si(text)) from None
         except (MemoryError, RecursionError, ValueError):
             raise self.too_deep() from None
         condition = conditions and _is_condition(tree.body)
@@ -160,8 +161,9 @@ class _Reader:
                 sign = text[position]
                 if sign in "0123456789.":
                     wrong = re.split(r"[^A-Za-z0-9_.]", text[position:], maxsplit=1)[0]
-                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}")
-                raise self.fail(f"the character {quoted(sign)} at column {position + 1}", _HINTS.get(sign, ""))
+                    raise self.fail(f"{quoted(wrong)}, which is not a number, at column {position + 1}", in_si(text))
+                hint = _HINTS.get(sign, "") or in_si(text)
+                raise self.fail(f"the character {quoted(sign)} at column {position + 1}", hint)
             brackets += {"(": 1, ")": -1}.get(token.group(), 0)
             if brackets > DEEPEST:
                 raise self.too_deep()

@@ -106,6 +106,32 @@ def test_a_scan_without_any_force_says_nothing_of_its_arithmetic(said):
     assert code == 0 and err == ""
 
 
+@pytest.mark.parametrize(
+    ("written", "value", "unit"),
+    [
+        ("3 mm", 3e-3, "m"),
+        ("3mm", 3e-3, "m"),
+        ("-1.5e2 deg", math.radians(-150.0), "rad"),
+        ("30°", math.pi / 6.0, "rad"),
+        ("60 rpm", 2.0 * math.pi, "rad/s"),
+        ("36 km/h", 10.0, "m/s"),
+    ],
+)
+def test_a_number_with_a_unit_is_answered_with_what_to_write(said, tmp_path, written, value, unit):
+    (tmp_path / "rod.toml").write_text(ROD.replace("[1.0, 0.0]", f"['{written}', 0.0]", 1), encoding="utf-8")
+    code, _, err = said("check", "rod.toml")
+    hint = err.partition("numbers are in SI units, written without them: ")[2]
+    assert code == 2 and err.count("\n") == 1 and hint.endswith(f" for {unit}\n")
+    assert math.isclose(float(hint.split()[0]), value, rel_tol=1e-9)
+
+
+def test_a_text_that_is_no_number_with_a_unit_has_no_such_hint(said, tmp_path):
+    for written in ("3 furlongs", "3 +", "2 x"):
+        (tmp_path / "rod.toml").write_text(ROD.replace("[1.0, 0.0]", f"['{written}', 0.0]", 1), encoding="utf-8")
+        code, _, err = said("check", "rod.toml")
+        assert code == 2 and "SI units" not in err
+
+
 def test_a_file_without_rows_is_said_to_have_none(said, tmp_path):
     (tmp_path / "a.csv").write_text("t,bar.x\n", encoding="utf-8")
     code, _, err = said("run", "rod.toml", "--from", "a.csv")

@@ -156,8 +156,7 @@ def _gains(study: Stress) -> Iterator[str]:
             below = f"all cells up to |root| h = {reach:.3g} are accurate and the first that is not has"
             first = below if reach else "the cell of the smallest |root| h is not accurate,"
             yield (
-                f"Baumgarte's gains on {model}: with real roots {first} {min(unstable):.3g}; "
-                "rk4 is stable up to 2.785."
+                f"Baumgarte's gains on {model}: with real roots {first} {min(unstable):.3g}; rk4 is stable up to 2.785."
             )
     if reaches and not few:
         firsts = [above for _, above in reaches]
