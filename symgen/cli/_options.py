@@ -205,13 +205,13 @@ def differ(files: Mapping[str, Path | None]) -> None:
         seen[real] = option
 
 
-def refuse_tolerances(settings: Settings) -> None:
-    """Refuse tolerances that are given to a run whose steps are constant, where they count for nothing.
+def tell_idle_tolerances(settings: Settings) -> None:
+    """Say on standard error that tolerances which are given to a run with constant steps count for nothing there.
 
     Raises
     ------
     InputError
-        If there are some, or there is no such method or integrator.
+        If there is no such method or integrator.
     """
     from symgen.auto import AUTO
     from symgen.integrators import INTEGRATORS
@@ -224,8 +224,8 @@ def refuse_tolerances(settings: Settings) -> None:
     known = INTEGRATORS.get(named, "--integrator")
     switches = {settings.options.get(f"{owner}.adaptive", "true") for owner in ("integrator", known.name)}
     if not known.adaptive or "false" in switches:
-        hint = "--step says how long they are"
-        raise InputError(flag(given[0]), "an integrator with adaptive steps", f"{known.name} with constant ones", hint)
+        counts = "--rtol and --atol count" if len(given) > 1 else f"{flag(given[0])} counts"
+        click.echo(f"symgen: {counts} for nothing: {known.name} has constant steps, which --step gives", err=True)
 
 
 def time_list(option: str, text: str) -> tuple[float, ...]:

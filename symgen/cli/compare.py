@@ -115,6 +115,13 @@ def command(
         runs = Combinations(method_list, integrator_list, step_list, rtol_list, words("--coordinates", states))
         settings = Settings(**asked)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
+    rows = [row for study in studies for row in study.rows]
+    for option, given, used in (
+        ("--steps", step_list, any(row.step is not None for row in rows)),
+        ("--rtols", rtol_list, any(row.rtol is not None for row in rows)),
+    ):
+        if given and rows and not used:
+            click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if as_json:
         found = [study.to_json() for study in studies]
         write_json(found[0] if len(models) == 1 else {"studies": found})

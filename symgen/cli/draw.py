@@ -52,7 +52,7 @@ def command(
     view = _view(angles)
     loaded = load(model)
     if view is not None and loaded.mechanism.space == "planar":
-        raise InputError("--view", "a mechanism in space", f"{loaded.name}, which is planar")
+        click.echo(f"symgen: --view counts for nothing: {loaded.name} is planar", err=True)
     file = check_picture("--output", Path(f"{loaded.name}.svg" if output is None else output))
     drawing = _drawing(loaded, at, parameters, start, view)
     drawing.save(file)

@@ -14,8 +14,8 @@ from symgen.cli._options import (
     examples,
     json_option,
     output_file,
-    refuse_tolerances,
     setting_options,
+    tell_idle_tolerances,
     units_option,
 )
 from symgen.errors import InputError
@@ -79,7 +79,7 @@ def command(
     """
     # before anything expensive: what is wrong with the words of the command
     settings = Settings(**asked)
-    refuse_tolerances(settings)
+    tell_idle_tolerances(settings)
     if whence is not None and settings.start:
         raise InputError("--from", "one way of saying where a run begins", "--start as well")
     save_path = output_file("--save", save, "data")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, refuse_tolerances, setting_options
+from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell_idle_tolerances
 from symgen.cli._target import target_option
 from symgen.errors import InputError, quoted
 from symgen.settings import Settings
@@ -77,7 +77,7 @@ def command(
     # before anything expensive: what is wrong with the words of the command
     axes = _axes(varied)
     settings = Settings(**asked)
-    refuse_tolerances(settings)
+    tell_idle_tolerances(settings)
     if settings.times is not None and settings.output_step is not None:
         raise InputError("--times", "one way of choosing outputs", "--output-step as well")
     if resume and output is None:

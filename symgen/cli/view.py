@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, json_option, refuse_tolerances, setting_options
+from symgen.cli._options import examples, json_option, setting_options, tell_idle_tolerances
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given, names
 
@@ -74,7 +74,7 @@ def command(
 
     stored = Path(what) if what.lower().endswith(".nc") else None
     settings = Settings(**asked)
-    refuse_tolerances(settings)
+    tell_idle_tolerances(settings)
     if stored is not None:
         from symgen.result.viewed import mechanism_name
 

@@ -66,20 +66,14 @@ class Combinations:
         Raises
         ------
         InputError
-            If there is no such method or integrator, or none of these solves a form of a method, or no run has the
-            steps or tolerances that are given.
+            If there is no such method or integrator, or none of these solves a form of a method.
         """
-        adaptive = set[bool]()
         for state in tuple(dict.fromkeys(self.coordinates)) or COORDINATES[:1]:
             for method in _named(self.methods, DEFAULT_METHODS, METHODS.names):
                 for integrator in _suitable(method, self.integrators):
                     options = _options_for(base.options, method, self.methods, integrator, self.integrators)
                     one = replace(base, coordinates=state, method=method, integrator=integrator, options=options)
-                    adaptive.add(INTEGRATORS.get(integrator, "--integrators").adaptive)
                     yield from self._steps(one, own)
-        for name, wanted, kind in (("steps", False, "constant"), ("rtols", True, "adaptive")):
-            if getattr(self, name) and wanted not in adaptive:
-                raise InputError(f"--{name}", f"an integrator with {kind} steps among those that run", "none")
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
         if INTEGRATORS.get(str(common.integrator), "--integrators").adaptive:
