@@ -13,8 +13,9 @@ from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
 from symgen.vocabulary.measures import Effort
 
-#: What is written where a formula has a kink.
+#: What is written where a formula has a kink, and what where it may jump.
 _WORDS = (b"abs", b"min", b"max", b"table:")
+_SIDES = ("lt", "le", "gt", "ge", "sign")
 
 
 def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
@@ -28,7 +29,6 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
     if not any(word in text for word in _WORDS):  # most have none, and walking through large ones takes a while
         return ()
     tables = {table.name: table for table in mechanism.tables}
-    timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
     found = dict[Jump, None]()
     for e, _ in _calls(mechanism.joints, mechanism.forces):
         jump = None
@@ -36,9 +36,29 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
             jump = Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
         elif (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
             jump = Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
-        if jump is not None and "t" in (used := set(names(jump.argument))) and used <= timely:
+        if jump is not None and _timely(mechanism, jump.argument):
             found[jump] = None
     return tuple(found)
+
+
+def sides_of(mechanism: Mechanism) -> tuple[Jump, ...]:
+    """Return what formulas of joints and forces compare in time: where it is passed they may jump, without a switch."""
+    text = msgspec.msgpack.encode((mechanism.joints, mechanism.forces))
+    if not any(word.encode() in text for word in _SIDES):
+        return ()
+    found = dict[Jump, None]()
+    for e, _ in _calls(mechanism.joints, mechanism.forces):
+        if e.function in _SIDES:
+            argument = e.arguments[0] if e.function == "sign" else call("sub", *e.arguments)
+            if _timely(mechanism, argument):
+                found[Jump(argument)] = None
+    return tuple(found)
+
+
+def _timely(mechanism: Mechanism, argument: Expr) -> bool:
+    """Return whether a formula is one of t and parameters that stay what they are."""
+    used = set(names(argument))
+    return "t" in used and used <= {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
 def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table], ...]:

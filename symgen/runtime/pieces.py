@@ -153,6 +153,39 @@ def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: flo
     return tuple(times) if len(times) <= MOST_KINKS else ()
 
 
+def sides_between(
+    sides: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float
+) -> tuple[float, ...]:
+    """Return the times inside a run at which what formulas compare passes from one side to the other.
+
+    Parameters
+    ----------
+    sides : sequence of Jump
+        From `symgen.describe.kinks.sides_of`.
+    mechanism : Mechanism
+        Whose tables these may read.
+    values : mapping of str to float
+        Of all parameters.
+    until : float
+        End of the run [s].
+
+    Returns
+    -------
+    tuple of float
+        In order [s]; empty where they are more than `MOST_KINKS`, or more than can be told apart.
+    """
+    at, found = values_at(mechanism, values), set[float]()
+    for jump in sides:
+        try:
+            found.update(
+                crossings(partial(at, jump.argument), line_of(jump, values), jump.levels, until, most=MOST_KINKS)
+            )
+        except InputError:
+            return ()
+    times = sorted(t for t in found if 0.0 < t < until)
+    return tuple(times) if len(times) <= MOST_KINKS else ()
+
+
 def pieces_at(times: Sequence[float]) -> tuple[Piece, ...]:
     """Return the pieces of a run between times at which nothing but a rate has a kink, none where there is none."""
     return tuple(Piece(t, {}) for t in (0.0, *times)) if times else ()
@@ -177,6 +210,7 @@ def crossings(
     levels: Sequence[float],
     until: float,
     first: float = 0.0,
+    most: int = MOST_PIECES,
 ) -> list[float]:
     """Return the times from `first` to `until` at which a function passes one of some levels.
 
@@ -190,11 +224,13 @@ def crossings(
         What it passes.
     until, first : float
         End and begin [s].
+    most : int
+        Times at most, where they are looked for.
 
     Raises
     ------
     InputError
-        If it passes them too often to tell one time from the next.
+        If it passes them more often, or too often to tell one time from the next.
     """
     if line is not None:
         value, slope = line
@@ -204,6 +240,8 @@ def crossings(
         # not equidistant, so that what is faster than the looks is seen to be: doubling finds more then
         times = [first + span * (i + 0.6 * (_GOLDEN * i % 1.0)) / count for i in range(count)] + [until]
         samples, before = [function(t) for t in times], len(found)
+        if sum((a > level) != (b > level) for level in levels for a, b in pairwise(samples)) > most:
+            raise InputError("inputs", f"at most {most} jumps", "a formula that changes sides more often")
         found = [t for level in levels for t in _passed(function, times, samples, level)]
         if count > _FIRST and len(found) == before:
             return found
