@@ -9,6 +9,7 @@ import msgspec
 
 from symgen.describe.inputs import MOST_KNOTS, Jump, replaced
 from symgen.describe.mechanism import Mechanism
+from symgen.describe.outputs import integrals
 from symgen.describe.tables import Table
 from symgen.vocabulary.expressions import Call, Expr, Reading, call, names, readings, table_of
 from symgen.vocabulary.measures import Effort
@@ -19,18 +20,19 @@ _SIDES = ("lt", "le", "gt", "ge", "sign")
 
 
 def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
-    """Return where formulas of joints and forces have kinks in time, as jumps that need no switch.
+    """Return where formulas of joints, forces and integrals have kinks in time, as jumps that need no switch.
 
     `abs`, `min` and `max` have them where two values are equal, and tables at their points, whatever their pieces are:
     of a cubic one the third derivative jumps. Arguments are formulas of t and parameters; those of state pass such
     points at times that nobody knows before.
     """
-    text = msgspec.msgpack.encode((mechanism.joints, mechanism.forces))
+    formulas = _formulas(mechanism)
+    text = msgspec.msgpack.encode(formulas)
     if not any(word in text for word in _WORDS):  # most have none, and walking through large ones takes a while
         return ()
     tables = {table.name: table for table in mechanism.tables}
     found = dict[Jump, None]()
-    for e, _ in _calls(mechanism.joints, mechanism.forces):
+    for e, _ in _calls(*formulas):
         jump = None
         if e.function in ("abs", "min", "max"):
             jump = Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
@@ -42,17 +44,23 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
 
 
 def sides_of(mechanism: Mechanism) -> tuple[Jump, ...]:
-    """Return what formulas of joints and forces compare in time: where it is passed they may jump, without a switch."""
-    text = msgspec.msgpack.encode((mechanism.joints, mechanism.forces))
+    """Return what these formulas compare in time: where it is passed they may jump, without a switch."""
+    formulas = _formulas(mechanism)
+    text = msgspec.msgpack.encode(formulas)
     if not any(word.encode() in text for word in _SIDES):
         return ()
     found = dict[Jump, None]()
-    for e, _ in _calls(mechanism.joints, mechanism.forces):
+    for e, _ in _calls(*formulas):
         if e.function in _SIDES:
             argument = e.arguments[0] if e.function == "sign" else call("sub", *e.arguments)
             if _timely(mechanism, argument):
                 found[Jump(argument)] = None
     return tuple(found)
+
+
+def _formulas(mechanism: Mechanism) -> tuple[Any, ...]:
+    """Return what holds the formulas that a run integrates."""
+    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
 
 
 def _timely(mechanism: Mechanism, argument: Expr) -> bool:

@@ -33,16 +33,24 @@ def sizes_of(compiled: CompiledModel) -> Sizes:
     info, sections = compiled.info, compiled.info.sections
     names = "pivot", "multipliers", "mask", "change", "gauge", "row_weight", "jacobian"
     places = (sections.get(name, (0, 0))[0] for name in names)
-    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), max(1, info.nq + info.nv), compiled.law.unknowns
+    lengths = info.nq, info.nv, info.m, info.ny, padded(info.ny), max(1, info.ny - 1), compiled.law.unknowns
     auxiliary = sections.get("auxiliary", (abi.POWER, 1))[0]
     return Sizes._make((*lengths, *places, auxiliary))
 
 
 def share_of(sizes: Sizes) -> Array:
-    """Return 1 for elements of a state that take part in error control, else 0."""
+    """Return 1 for elements of a state that take part in error control, else 0: the work, which is controlled apart."""
     share = np.zeros(sizes.width)
-    share[: sizes.nq + sizes.nv] = 1.0
+    share[: sizes.ny] = 1.0
+    share[sizes.nq + sizes.nv] = 0.0
     return share
+
+
+def scales_of(sizes: Sizes) -> Array:
+    """Return room for the scales of a state; integrals of outputs have units of their own, of which 1 is the scale."""
+    scales = np.zeros(sizes.width)
+    scales[sizes.nq + sizes.nv + 1 : sizes.ny] = 1.0
+    return scales
 
 
 def metric_of(info: ModelInfo, sizes: Sizes) -> Array:
@@ -76,7 +84,7 @@ def new_state(compiled: CompiledModel, sizes: Sizes, memory: int, room: int) -> 
     return State(
         *(np.zeros(sizes.width), p, np.zeros(max(1, law.nw)), counters, np.zeros(abi.N_CLOCK)),
         *(np.zeros(abi.N_GAUGES), control, np.zeros(abi.MAX_EVENTS * abi.N_EVENT)),
-        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), np.zeros(sizes.width)),
+        *(np.zeros(memory), share_of(sizes), metric_of(compiled.info, sizes), scales_of(sizes)),
         np.zeros(sizes.width + room),
     )
 
