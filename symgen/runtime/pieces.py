@@ -156,23 +156,10 @@ def kinks_between(jumps: Sequence[Jump], values: Mapping[str, float], until: flo
 def sides_between(
     sides: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float
 ) -> tuple[float, ...]:
-    """Return the times inside a run at which what formulas compare passes from one side to the other.
+    """Return the times [s] inside a run at which what formulas compare passes from one side to the other, in order.
 
-    Parameters
-    ----------
-    sides : sequence of Jump
-        From `symgen.describe.kinks.sides_of`.
-    mechanism : Mechanism
-        Whose tables these may read.
-    values : mapping of str to float
-        Of all parameters.
-    until : float
-        End of the run [s].
-
-    Returns
-    -------
-    tuple of float
-        In order [s]; empty where they are more than `MOST_KINKS`, or more than can be told apart.
+    As `kinks_between`, of what `symgen.describe.kinks.sides_of` found in a mechanism, whose tables it may read. Empty
+    where they are more than `MOST_KINKS`, or more than can be told apart.
     """
     at, found = values_at(mechanism, values), set[float]()
     for jump in sides:
