@@ -124,7 +124,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
-        pieces=_pieces(mechanism, s.parameters, until, tableau) if adaptive else (),
+        pieces=_pieces(mechanism, s.parameters, until, choice.implicit) if adaptive else (),
         # not the end of this run: where it is gone on with, it has to be the same
         duration=None if adaptive else defaults.until,
         integrator_parameters={
@@ -166,14 +166,12 @@ def limit_of_velocities(method: Method, max_violation: float) -> float | None:
     return math.sqrt(max_violation) if method.velocities_follow else None
 
 
-def _pieces(
-    mechanism: Mechanism, parameters: Mapping[str, float], until: float, tableau: Integrator
-) -> tuple[Piece, ...]:
+def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float, implicit: bool) -> tuple[Piece, ...]:
     """Return the pieces of a run between kinks that are known beforehand, and for implicit schemes jumps as well.
 
     A scheme without a stage at the begin of a step does not see what it jumps over before the first one.
     """
-    kinks, sides = kinks_of(mechanism), () if "ode" in tableau.forms else sides_of(mechanism)
+    kinks, sides = kinks_of(mechanism), sides_of(mechanism) if implicit else ()
     if not (kinks or sides):
         return ()
     values = parameter_values(mechanism, parameters)

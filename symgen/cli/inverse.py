@@ -66,9 +66,12 @@ def command(
     symgen inverse andrews --from run.nc --actuators drive
     """
     settings = Settings(**asked)
-    for name in ("start", "strict"):
-        if whence is not None and is_given(settings, name):
-            raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
+    if whence is not None:
+        from symgen.analyses.model import OF_DRIVEN
+
+        for name in OF_DRIVEN:
+            if is_given(settings, name):
+                raise InputError(flag(name), "settings of a recorded motion", "one of drivers' motion")
     chosen = None if times is None else time_list("--times", times)
     named, weighed = words("--actuators", actuators), assignments("--weight", weights)
     save_path, plot_path = output_file("--save", save, "tables"), output_file("--plot", plot, "plot")

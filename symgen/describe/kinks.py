@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import msgspec
@@ -26,47 +26,46 @@ def kinks_of(mechanism: Mechanism) -> tuple[Jump, ...]:
     of a cubic one the third derivative jumps. Arguments are formulas of t and parameters; those of state pass such
     points at times that nobody knows before.
     """
-    formulas = _formulas(mechanism)
-    text = msgspec.msgpack.encode(formulas)
-    if not any(word in text for word in _WORDS):  # most have none, and walking through large ones takes a while
-        return ()
     tables = {table.name: table for table in mechanism.tables}
-    found = dict[Jump, None]()
-    for e, _ in _calls(*formulas):
-        jump = None
+
+    def kink(e: Call) -> Jump | None:
         if e.function in ("abs", "min", "max"):
-            jump = Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
-        elif (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
-            jump = Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
-        if jump is not None and _timely(mechanism, jump.argument):
-            found[jump] = None
-    return tuple(found)
+            return Jump(e.arguments[0] if e.function == "abs" else call("sub", *e.arguments))
+        if (table := tables.get(table_of(e.function) or "")) is not None and len(table.x) <= MOST_KNOTS:
+            return Jump(e.arguments[0], table.x, period=table.x[-1] - table.x[0] if table.periodic else 0.0)
+        return None
+
+    return _in_time(mechanism, _WORDS, kink)
 
 
 def sides_of(mechanism: Mechanism) -> tuple[Jump, ...]:
     """Return what these formulas compare in time: where it is passed they may jump, without a switch."""
-    formulas = _formulas(mechanism)
+
+    def side(e: Call) -> Jump | None:
+        if e.function not in _SIDES:
+            return None
+        return Jump(e.arguments[0] if e.function == "sign" else call("sub", *e.arguments))
+
+    return _in_time(mechanism, [name.encode() for name in _SIDES], side)
+
+
+def _in_time(mechanism: Mechanism, words: Iterable[bytes], jump_of: Callable[[Call], Jump | None]) -> tuple[Jump, ...]:
+    """Return the jumps of what a run integrates whose arguments are formulas of t and parameters, each once.
+
+    Words are what is written where there is one: most mechanisms have none, and walking through large ones takes a
+    while.
+    """
+    formulas = mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
     text = msgspec.msgpack.encode(formulas)
-    if not any(word.encode() in text for word in _SIDES):
+    if not any(word in text for word in words):
         return ()
+    timely = {p.name for p in mechanism.parameters if not p.input} | {"t"}
     found = dict[Jump, None]()
     for e, _ in _calls(*formulas):
-        if e.function in _SIDES:
-            argument = e.arguments[0] if e.function == "sign" else call("sub", *e.arguments)
-            if _timely(mechanism, argument):
-                found[Jump(argument)] = None
+        jump = jump_of(e)
+        if jump is not None and "t" in (used := set(names(jump.argument))) and used <= timely:
+            found[jump] = None
     return tuple(found)
-
-
-def _formulas(mechanism: Mechanism) -> tuple[Any, ...]:
-    """Return what holds the formulas that a run integrates."""
-    return mechanism.joints, mechanism.forces, tuple(integral.of for integral in integrals(mechanism))
-
-
-def _timely(mechanism: Mechanism, argument: Expr) -> bool:
-    """Return whether a formula is one of t and parameters that stay what they are."""
-    used = set(names(argument))
-    return "t" in used and used <= {p.name for p in mechanism.parameters if not p.input} | {"t"}
 
 
 def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table], ...]:
