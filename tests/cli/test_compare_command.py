@@ -31,7 +31,7 @@ def cli(capsys):
     return run
 
 
-@pytest.mark.parametrize("ending", ["html", "md"])
+@pytest.mark.parametrize("ending", ["html", pytest.param("md", marks=pytest.mark.slow)])
 def test_a_report_is_written_beside_the_table(cli, tmp_path, ending):
     path = tmp_path / f"report.{ending}"
     code, out, err = cli("compare", "pendulum", *SMALL, "--repeat", "2", "-o", path, "--csv", tmp_path / "rows.csv")
@@ -85,6 +85,7 @@ def test_a_file_that_is_no_journal_is_refused_and_left_alone(cli, tmp_path):
     assert path.read_text() == "my notes\n"
 
 
+@pytest.mark.slow
 def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, monkeypatch):
     real, calls = module.timed, []
 
@@ -126,7 +127,7 @@ def rows_of(path: Path) -> int:
     return max(0, path.read_bytes().count(b"\n") - 1) if path.exists() else 0
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGINT])
+@pytest.mark.parametrize("how", [pytest.param(signal.SIGKILL, marks=pytest.mark.slow), signal.SIGINT])
 def test_killed_or_interrupted_and_resumed_no_row_is_lost_or_computed_twice(tmp_path, cli, how):
     journal = tmp_path / "rows.journal"
     arguments = ["compare", "pendulum", *SMALL, "--repeat", "1", "--journal", str(journal), "--json"]

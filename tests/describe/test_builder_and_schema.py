@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.texts import texts
 
 from symgen import catalogue
 from symgen.describe import MechanismBuilder, load
@@ -91,13 +92,13 @@ def test_raw_is_a_copy():
 
 
 values = st.recursive(
-    st.booleans() | st.integers(-(2**60), 2**60) | st.floats(allow_nan=False) | st.text(max_size=20),
-    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=10), inner, max_size=3),
+    st.booleans() | st.integers(-(2**60), 2**60) | st.floats(allow_nan=False) | texts(20),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(texts(10), inner, max_size=3),
     max_leaves=8,
 )
 
 
-@given(st.dictionaries(st.text(max_size=10), values, max_size=5))
+@given(st.dictionaries(texts(10), values, max_size=5))
 def test_whatever_is_written_is_read_back(content):
     assert tomllib.loads(to_toml({"mechanism": content, "bodies": {"a b": content}})) == {
         "mechanism": content,

@@ -5,6 +5,7 @@ import math
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from support.texts import texts
 
 from symgen.describe.evaluate import evaluate
 from symgen.describe.names import CALLABLE
@@ -243,7 +244,7 @@ def test_any_text_is_read_or_refused_with_an_input_error(text):
         assert read(to_text(result)) == result
 
 
-@given(st.text(max_size=30))
+@given(texts(30))
 def test_any_unicode_is_read_or_refused(text):
     try:
         read(text)

@@ -120,6 +120,7 @@ def write_package(folder, emitted):
         (package / f"{stem}.py").write_text(source)
 
 
+@pytest.mark.slow
 def test_emitted_files_stand_alone_and_compute_the_same_without_compilation(tmp_path):
     model = load("driven-four-bar")
     emitted = Emitted(model.mechanism, "direct-correction", {"weight": "mass"})

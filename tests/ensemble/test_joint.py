@@ -87,6 +87,7 @@ def test_light_bodies_get_the_other_solver_in_joint_coordinates_too():
         np.testing.assert_array_equal(found[name][1], one[name], err_msg=name)
 
 
+@pytest.mark.slow
 def test_targets_without_joint_coordinates_say_so():
     for target in ("lanes", "cuda"):
         with pytest.raises(InputError, match=f"target '{target}'|CUDA|cuda"):

@@ -162,6 +162,7 @@ def test_a_part_that_is_left_to_numba_changes_nothing(tmp_path):
     assert part.stdout == loaded.stdout == whole.stdout
 
 
+@pytest.mark.slow
 def test_spoilt_entries_of_the_cache_are_made_anew(tmp_path):
     environment = {ENVIRONMENT_VARIABLE: str(tmp_path), COMPILER: "source"}
     first = process("native.looped", *CASES["elimination"], **environment)

@@ -87,6 +87,8 @@ def name(page: Path) -> str:
 LONG = (
     "README.md",
     "docs/command-line.md",
+    "docs/howto/own-integrator.md",
+    "docs/modes.md",
     "docs/stress.md",
     "docs/tutorial.md",
     "docs/tutorial-space.md",

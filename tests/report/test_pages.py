@@ -180,6 +180,7 @@ def test_the_source_stands_beside_ours(page):
     assert "Carvalho" not in alone
 
 
+@pytest.mark.slow
 def test_the_same_studies_give_the_same_page(text):
     code = (
         "import sys; sys.path.insert(0, 'tests')\n"

@@ -301,6 +301,7 @@ def test_a_journal_keeps_cells_and_changes_nothing(tmp_path):
     assert journal.read_bytes().startswith(lines)
 
 
+@pytest.mark.slow
 def test_several_processes_find_the_same():
     alone = stress(["pendulum"], ["gravity"], ["lagrange", "penalty"], quick=True)
     together = stress(["pendulum"], ["gravity"], ["lagrange", "penalty"], quick=True, jobs=2)

@@ -175,8 +175,8 @@ def test_driven_trees_move_as_bodies_with_rows_do(make, flip, tmp_path):
 @pytest.mark.parametrize(
     "method",
     [
-        "direct-correction",
         *(pytest.param(m, marks=pytest.mark.slow) for m in ("augmented-hamiltonian", "null-space", "udwadia-kalaba")),
+        pytest.param("direct-correction", marks=pytest.mark.slow),
     ],
 )
 def test_work_of_motors_balances_the_energy(method, tmp_path):

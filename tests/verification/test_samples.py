@@ -28,10 +28,10 @@ def verified(output: Path, *words: str) -> list[dict]:
     return [line for line in lines(output) if "runs" in line]
 
 
-@pytest.mark.parametrize("shape", ["straight", "joint"])
+@pytest.mark.parametrize("shape", ["straight", pytest.param("joint", marks=pytest.mark.slow)])
 def test_a_few_random_mechanisms(shape: str, tmp_path: Path) -> None:
     """Emitted code is run as Python here, so that nothing has to be compiled."""
-    words = ("--interpreted", "--shapes", shape, "--mechanisms", "2", "--seed", "21", "--space", "planar")
+    words = ("--interpreted", "--shapes", shape, "--mechanisms", "1", "--seed", "21", "--space", "planar")
     moving = [line for line in verified(tmp_path / "verify.jsonl", *words) if "contradiction" not in line]
     assert moving and all(run["right"] and run["status"] == "ok" for line in moving for run in line["runs"])
     again = run("benchmarks.verify", "--output", str(tmp_path / "verify.jsonl"), "--jobs", "1", *words)
@@ -86,6 +86,7 @@ def in_units(output: Path, *words: str) -> None:
     assert all(not line["first"] for line in lines(output))
 
 
+@pytest.mark.slow
 def test_a_few_mechanisms_in_other_units(tmp_path: Path) -> None:
     in_units(tmp_path / "units.jsonl", "--entries", "pendulum", "--mechanisms", "1", "--seed", "21")
 

@@ -228,7 +228,7 @@ def test_a_terminated_run_keeps_what_it_has(tmp_path: Path) -> None:
     words = ["run", "four-bar", "--until", "100000", "--step", "1e-4", "--output-step", "1", "--save", "kept.nc"]
     command(["run", "four-bar", "--until", "0.01", "--step", "1e-4"], tmp_path)  # compiled beforehand
     script = "import sys; from symgen.cli import main; print('ready', flush=True); sys.exit(main(sys.argv[1:]))"
-    for pause in (6.0, 24.0, 96.0):  # a busy machine may not have begun to run after the first
+    for pause in (3.0, 12.0, 96.0):  # a busy machine may not have begun to run after the first
         process = subprocess.Popen(
             [sys.executable, "-c", script, *words], cwd=tmp_path, stdout=subprocess.PIPE, text=True
         )
