@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 #: Random inputs of a test that does not say how many it draws; every run draws others.
 EXAMPLES = 30
@@ -20,6 +21,10 @@ EXAMPLES = 30
 # no test depends on how fast a machine is or how busy: neither an example's time nor that of drawing it is bounded
 settings.register_profile("any machine", max_examples=EXAMPLES, deadline=None, suppress_health_check=list(HealthCheck))
 settings.load_profile("any machine")
+
+# It would look for numbers and texts to try in every imported module that is no library's, and so in all that symgen
+# emits in a session, again and again as more are imported: half a minute. Draws would depend on what ran before.
+providers._get_local_constants = lambda: providers._local_constants
 
 #: Objects that may come into being between two collections of the young ones; young ones, and older ones, that go
 #: before those behind them. A session holds some millions: Python's own numbers look through them all the time.

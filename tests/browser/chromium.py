@@ -24,6 +24,7 @@ SWITCHES = (
         "--enable-unsafe-swiftshader",
         "--disable-quic",
         "--no-first-run",
+        "--disable-accelerated-2d-canvas",
         "--hide-scrollbars",
     ),
     *("--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"),

@@ -49,6 +49,7 @@ def check_agreement(name, methods):
     assert worst[0] <= TOLERANCE, worst
 
 
+@pytest.mark.slow
 def test_methods_agree_on_the_four_bar():
     check_agreement("four-bar", SOME)
 

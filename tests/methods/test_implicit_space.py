@@ -79,7 +79,11 @@ class Stage:
         return by[:, :n], by[:, n:]
 
 
-@pytest.mark.parametrize("case", range(len(CASES)), ids=["-".join(kinds[:1]) for kinds, _ in CASES])
+@pytest.mark.parametrize(
+    "case",
+    [pytest.param(i, marks=() if i < 2 else pytest.mark.slow) for i in range(len(CASES))],
+    ids=["-".join(kinds[:1]) for kinds, _ in CASES],
+)
 def test_tangent_is_the_derivative_of_the_residual(case):
     rng = np.random.default_rng(case)
     raw, t, q, v = make(rng, *CASES[case], smooth=True)

@@ -58,7 +58,9 @@ def block_lengths(text: str) -> list[int]:
     return [*lengths[1:], count]
 
 
-@pytest.mark.parametrize("left", [10_000, 300], ids=["left to the compiler", "through memory"])
+@pytest.mark.parametrize(
+    "left", [pytest.param(10_000, marks=pytest.mark.slow), 300], ids=["left to the compiler", "through memory"]
+)
 @pytest.mark.parametrize("terms", [600, pytest.param(3000, marks=pytest.mark.slow)])
 def test_the_same_numbers_as_in_one_block(tmp_path, monkeypatch, terms, left):
     text = long_function(terms, terms + left)

@@ -12,7 +12,7 @@ from symgen.methods import METHODS
 
 from .twofold import apart
 
-#: Small models with methods of every kind of law and correction; the usual tests try the first.
+#: Small models with methods of every kind of law and correction.
 SMALL = (
     ("pendulum", ("lagrange",)),
     ("pendulum", ("augmented-lagrangian", "null-space", "coordinate-partitioning", "ggl")),
@@ -21,25 +21,16 @@ SMALL = (
 )
 
 
-@pytest.mark.parametrize(
-    ("model", "methods"),
-    [pytest.param(*case, marks=() if i == 0 else pytest.mark.slow) for i, case in enumerate(SMALL)],
-    ids=[f"{model}-{methods[0]}" for model, methods in SMALL],
-)
-def test_functions_of_small_models(model, methods):
-    assert apart(model, *methods) == ""
-
-
-#: Larger ones, and every other method once: minutes, nearly all of them Numba's.
-LONG = (
+#: The same, larger ones, and every other method once: minutes, nearly all of them Numba's.
+CASES = (
+    *SMALL,
     *(("slider-crank", (name,)) for name in METHODS if not any(name in methods for _, methods in SMALL)),
     ("everything", ("lagrange",)),
-    ("spatial-slider-crank", ("direct-correction",)),
     ("rolling-disc", ("direct-correction",)),
 )
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("model", "methods"), LONG, ids=[f"{model}-{methods[0]}" for model, methods in LONG])
-def test_functions_of_every_method(model, methods):
+@pytest.mark.parametrize(("model", "methods"), CASES, ids=[f"{model}-{methods[0]}" for model, methods in CASES])
+def test_functions_are_numbas(model, methods):
     assert apart(model, *methods) == ""

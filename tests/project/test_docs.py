@@ -90,6 +90,7 @@ LONG = (
     "docs/howto/own-integrator.md",
     "docs/modes.md",
     "docs/stress.md",
+    "docs/tutorials/scissor-lift.md",
     "docs/tutorial.md",
     "docs/tutorial-space.md",
     "docs/sweeps.md",

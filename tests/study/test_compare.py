@@ -315,6 +315,7 @@ def test_several_models_are_checked_before_anything_runs(monkeypatch):
         module.compare_all(["pendulum", "four-bra"], symgen.Settings(until=0.1), Combinations())
 
 
+@pytest.mark.slow
 def test_preparation_on_several_processes_changes_no_row(study, monkeypatch, tmp_path):
     """Everything goes to processes of its own, the first task too; the cache is a new one, so that they have work."""
     from symgen.study.comparison import prepare

@@ -328,6 +328,7 @@ def test_bad_input_is_refused_before_anything_is_run(arguments, sentence):
         stress(*arguments)
 
 
+@pytest.mark.slow
 def test_killed_and_resumed(tmp_path):
     """A study killed in the middle goes on where it was: rows are those of an undisturbed one, none computed twice."""
     journal = tmp_path / "journal.jsonl"
