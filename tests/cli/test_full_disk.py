@@ -45,7 +45,7 @@ CASES = {
 }
 
 #: Files that are written as others are, and the longest.
-LONGER = ("parquet", "page", "svg", "pdf", "markdown", "sweep")
+LONGER = ("netcdf", "parquet", "page", "svg", "pdf", "markdown", "sweep")
 
 
 def full(folder, command, option, name, limit):

@@ -53,7 +53,8 @@ def folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "case", [pytest.param(c, marks=[pytest.mark.slow] if c.startswith("velocities") else []) for c in CASES]
+    "case",
+    [pytest.param(c, marks=pytest.mark.slow if c.startswith(("velocities", "an implicit")) else ()) for c in CASES],
 )
 def test_what_is_proposed_works(case, folder, capsys):
     words, about = CASES[case]

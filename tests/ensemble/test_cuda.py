@@ -60,6 +60,7 @@ def compiled(tmp_path_factory):
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_the_same_operations_in_the_same_order(case, interpreted):
     """With everything interpreted there is no freedom of contraction: every bit has to be the same."""
@@ -82,6 +83,7 @@ def test_compiled_runs_to_rounding(case, compiled):
         np.testing.assert_array_equal(found["cuda_summary"][:, column], found["cpu_summary"][:, column], err_msg=name)
 
 
+@pytest.mark.slow
 def test_the_cases_are_what_they_are_called(interpreted):
     """So that none of them compares less than it seems to."""
 

@@ -260,7 +260,8 @@ def wait_for_chunks(log, count, process):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="signals")
-@pytest.mark.parametrize("kill", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("kill", [signal.SIGKILL, signal.SIGINT])
 def test_nothing_is_lost_or_doubled_by_a_kill_or_an_interruption(tmp_path, kill):
     path = tmp_path / "long.nc"
     log = tmp_path / "long.nc.parts" / DONE

@@ -132,7 +132,7 @@ def programs(draw):
 
 
 @given(program=programs())
-@settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True, database=None)
+@settings(max_examples=8, deadline=None, suppress_health_check=list(HealthCheck), derandomize=True, database=None)
 def test_random_programs(tmp_path_factory, program):
     assert judged(tmp_path_factory.mktemp("programs"), printed(*program)) == []
 

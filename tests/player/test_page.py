@@ -168,7 +168,7 @@ def test_the_live_part_has_the_inputs_of_its_run(tmp_path: Path) -> None:
         ({"when": "a.y < -0.01"}, None),
     ],
 )
-@pytest.mark.parametrize("asked", [False, True])
+@pytest.mark.parametrize("asked", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_the_live_part_looks_for_no_events(
     event: dict[str, Any], does: str | None, asked: bool, tmp_path: Path
 ) -> None:
@@ -241,6 +241,7 @@ def test_a_gif_has_pictures(tmp_path: Path) -> None:
         assert picture.n_frames == 5  # type: ignore[attr-defined]  # 25 a second
 
 
+@pytest.mark.slow
 def test_a_film_goes_through_ffmpeg(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], result: Any
 ) -> None:

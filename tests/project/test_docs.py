@@ -83,27 +83,13 @@ def name(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
-#: Pages whose commands take longer than those of all others together.
-LONG = (
-    "README.md",
-    "docs/command-line.md",
-    "docs/howto/own-integrator.md",
-    "docs/modes.md",
-    "docs/stress.md",
-    "docs/tutorials/scissor-lift.md",
-    "docs/tutorial.md",
-    "docs/tutorial-space.md",
-    "docs/sweeps.md",
-)
-
-
 def with_language(language: str) -> list[object]:
     """Return the pages that have blocks of a language."""
     found = [page for page in PAGES if fenced(page, language)]
-    slow = {name(page): pytest.mark.slow for page in found if language == "console" and name(page) in LONG}
-    return [pytest.param(page, id=name(page), marks=slow.get(name(page), ())) for page in found]
+    return [pytest.param(page, id=name(page)) for page in found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", with_language("console"))
 def test_every_command_runs(page: Path, tmp_path: Path) -> None:
     commands = [

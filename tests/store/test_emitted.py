@@ -360,6 +360,7 @@ class TestNumbaBeside:
         assert right(values, module.rhs)
         assert all(isinstance(result.library, Library) for result in module.rhs.overloads.values())
 
+    @pytest.mark.slow
     def test_switches_of_numba(self, law, python):
         plain = python(RUN, law, NUMBA_DISABLE_JIT="1")
         assert counts(plain) == [0, 0, 0, 0]

@@ -23,6 +23,7 @@ def compiled(cache: Path) -> list[str]:
     return sorted(path.name.rpartition("-")[0] for path in (cache / "native").rglob("*.bin"))
 
 
+@pytest.mark.slow
 class TestSecondProcess:
     def test_finds_loop_and_emitted_function_whatever_the_hash_seed(self, cache, generated, python):
         law = generated / "lagrange.py"

@@ -12,12 +12,12 @@ from symgen.study.references.independent_space import SpatialEquations, independ
 
 GROUPS = [
     (("revolute", "spherical"), ("force",)),
-    (("translational", "distance"), ("spring-damper",)),
+    pytest.param(("translational", "distance"), ("spring-damper",), marks=pytest.mark.slow),
     pytest.param(("cylindrical", "point-on-plane"), ("torque",), marks=pytest.mark.slow),
     (("universal", "driver"), ("torsional-spring-damper",)),
     pytest.param(("screw", "pin-in-slot"), (), marks=pytest.mark.slow),
     pytest.param(("rolling-disc", "knife-edge"), ("bushing",), marks=pytest.mark.slow),
-    (("rolling-sphere", "revolute-spherical"), ()),
+    pytest.param(("rolling-sphere", "revolute-spherical"), (), marks=pytest.mark.slow),
     pytest.param(("gear",), ("force",), marks=pytest.mark.slow),
     pytest.param(("rack-and-pinion",), (), marks=pytest.mark.slow),
     (("constant-velocity",), ("torque",)),

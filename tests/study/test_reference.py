@@ -147,7 +147,13 @@ def test_redundant_rows_do_no_harm():
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-@pytest.mark.parametrize(("name", "until"), [("four-bar", 1.0), ("driven-four-bar", 0.5), ("pendulum", 1.0)])
+@pytest.mark.parametrize(
+    ("name", "until"),
+    [
+        ("four-bar", 1.0),
+        *(pytest.param(*x, marks=pytest.mark.slow) for x in (("driven-four-bar", 0.5), ("pendulum", 1.0))),
+    ],
+)
 def test_scipy_s_solvers_agree_within_what_they_say(name, until, solver):
     model = symgen.load(name)
     values, times = model.parameters(), np.linspace(0.0, until, 11)
