@@ -142,6 +142,29 @@ def store(sizes: Any, w: Any, outputs: Any, k: int, y: Any) -> None:
         outputs.status[k, i] = w[abi.WINDING - abi.N_STATUS + i]
 
 
+def taken_back(run: Any, times: Any, out: int, t: float) -> int:
+    """Return how many outputs up to number `out` are left where those behind the time `t` [s] are taken back.
+
+    Outputs inside a step are written before its end is known: a step that is refused, or shortened to an event, has
+    others.
+    """
+    while out > 0 and times[out - 1] > t:
+        out -= 1
+    run.control[abi.OUTPUTS] = out
+    return out
+
+
+def refused(run: Any, times: Any, out: int, t: float, phi: float, drift: float, energy: float) -> int:
+    """Have the step from the time `t` [s] refused, with the largest violations and energy error from before it.
+
+    Returns how many outputs up to number `out` are left.
+    """
+    run.control[abi.REJECTED] += 1
+    run.control[abi.REFUSED] = 1
+    run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY] = phi, drift, energy
+    return taken_back(run, times, out, t)
+
+
 # -- the frame ---------------------------------------------------------------------------------------------------------
 
 
@@ -197,6 +220,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         control[abi.BEGUN] = 1
     t, out = clock[abi.TIME], control[abi.OUTPUTS]
     hunting, crossing, whole, whole_following = NOTHING, False, 0.0, 0.0
+    phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
     while t < until - tiny:
         if hunting == NOTHING:
             if control[abi.STOP] != 0:
@@ -240,20 +264,17 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
                 return abi.NO_ROOM
             if not ADAPTIVE:
                 return abi.NEWTON
-            control[abi.REJECTED] += 1
-            control[abi.REFUSED] = 1
             clock[abi.NEXT] = 0.25 * h
-            hunting = NOTHING
+            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
             continue
-        refused = not (error <= 1.0 or (crossing and error <= _HOPELESS))
-        if ADAPTIVE and not between and hunting == NOTHING and refused:
+        good = error <= 1.0 or (crossing and error <= _HOPELESS)
+        if ADAPTIVE and not between and hunting == NOTHING and not good:
             if crossing:
                 control[abi.BARRED] = 1
-            control[abi.REJECTED] += 1
             change = max(SHRINK, span.safety * error ** (-1.0 / control[abi.ORDER])) if math.isfinite(error) else 0.1
             clock[abi.NEXT] = h * change
             refuse(run)
-            control[abi.REFUSED] = 1
+            out = refused(run, times, out, t, phi, drift, energy)
             continue
         bits = correct(system, run, following, run.trial, probing)
         if between:
@@ -265,10 +286,9 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
         if bits & 1:
             if not ADAPTIVE:
                 return abi.CORRECTION if math.isfinite(run.w[abi.PHI]) else abi.NOT_FINITE
-            control[abi.REJECTED] += 1
-            control[abi.REFUSED] = control[abi.BARRED] = 1
+            control[abi.BARRED] = 1
             clock[abi.NEXT] = 0.5 * h
-            hunting = NOTHING
+            hunting, out = NOTHING, refused(run, times, out, t, phi, drift, energy)
             continue
         if EVENTS:
             hunting = happened(system, run, t, following, h, hunting)
@@ -283,9 +303,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             return code
         if EVENTS and hunting == MEET:
             code = abi.MET
-            while out > 0 and times[out - 1] > following:  # outputs behind the event, from before it was found
-                out -= 1
-            control[abi.OUTPUTS] = out
+            out = taken_back(run, times, out, following)
         elif EVENTS and hunting == CROWD:
             code = abi.NOTED
         hunting = NOTHING
@@ -310,6 +328,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             clock[abi.ALLOWED] = allowed
         control[abi.REFUSED] = control[abi.BARRED] = 0
         t = following
+        phi, drift, energy = run.gauges[abi.MAX_PHI], run.gauges[abi.MAX_DRIFT], run.gauges[abi.MAX_ENERGY]
         clock[abi.STEP] = h
         if out < asked and times[out] <= t + tiny:
             store(sizes, run.w, outputs, out, run.y)
