@@ -89,11 +89,11 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     info = subject.compiled.info
     e = subject.evaluated(y)
     d, force = subject.rows(e), e.value("balance")
-    basis, inverse, dependent = split(d)
+    inverse, dependent = split(d)[1:]
     lam = -inverse.T @ force
     e = subject.evaluated(y, lam=lam)
     stiffness = e.by("balance", "q") @ e.by("motion", "v")
-    squares = reduced_squares(e.by("balance", "a"), stiffness, basis)
+    squares = reduced_squares(e.by("balance", "a"), stiffness, subject.free(e))
     share = np.linalg.norm(dependent, axis=1) if dependent.size else np.zeros(info.m)
     joints = {row.joint for row, x in zip(info.rows, share, strict=True) if x > 1e-8}
     joints |= {name.partition(".")[0] for pair in info.dropped_rows for name in pair.split(" = ")}

@@ -165,11 +165,12 @@ def modes(
 def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[[], Subject] | None) -> Modes:
     """Return the modes of symmetric stiffness and masses."""
     e, subject = x.base, x.subject
-    along = split(subject.rows(e))[0] @ directions
+    along = subject.free(e) @ directions
     roots = np.sqrt(-squares.astype(np.complex128))
     shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
     # both positions and velocities change along the mode, as they do one after the other
-    found = shares(x, np.vstack([_positions(x, along), directions]), bodies)
+    speeds = split(subject.rows(e))[0].T @ along
+    found = shares(x, np.vstack([_positions(x, along), speeds]), bodies)
     return Modes(
         in_order(np.concatenate([roots, -roots])),
         squares,
@@ -204,7 +205,7 @@ def _twice_kinetic(x: Tangent, change: Complex) -> float:
 def _undamped(x: Tangent) -> tuple[Array, Array] | None:
     """Return squares of frequencies and directions, None where something damps, turns or follows."""
     e = x.base
-    basis = split(x.subject.rows(e))[0]
+    basis = x.subject.free(e)
     if not basis.shape[1]:
         return np.zeros(0), np.zeros((0, 0))
     damping, stiffness = e.by("balance", "v"), e.by("balance", "q") @ e.by("motion", "v")

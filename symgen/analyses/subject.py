@@ -10,6 +10,7 @@ import numpy as np
 from msgspec.structs import replace as replaced
 from numpy.typing import NDArray
 
+from symgen.analyses.algebra import split
 from symgen.compiling.linearised import DescriptorForm, Evaluated, compile_linearised
 from symgen.compiling.pipeline import compile_model
 from symgen.compiling.side import compile_side
@@ -149,6 +150,14 @@ class Subject:
         units = np.array([self.length if row.unit == "m" else 1.0 for row in self.compiled.info.rows])
         d[self.redundant & (np.linalg.norm(d * self.spans, axis=1) < NO_ROW * units)] = 0.0
         return d
+
+    def free(self, e: Evaluated) -> Array:
+        """Return directions that rows leave free, orthonormal where lengths of the mechanism and radians are as long.
+
+        In metres a small mechanism turns without moving, and its moments of inertia are none beside its masses.
+        """
+        spans = self.spans[:, np.newaxis]
+        return np.asarray(spans * split(self.rows(e) * spans.T)[0])
 
     def moved(self, y: Array, change: Array) -> Array:
         """Return a state whose coordinates are moved by a change, Euler parameters kept at length 1."""

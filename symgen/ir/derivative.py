@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from symgen.ir.graph import Graph
 from symgen.vocabulary.expressions import SMOOTH
-from symgen.vocabulary.functions import ELEMENTARY
+from symgen.vocabulary.functions import ELEMENTARY, steepest
 
 Key = tuple[str, int]
 
@@ -31,7 +31,8 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     Notes
     -----
     At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; the slope of straight
-    lines is that of the one below the argument.
+    lines is that of the one below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
+    counts as 0, as does that of ``atan2`` where it has none: it meets arguments that do not change there.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
@@ -90,10 +91,9 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     if op == "div":
         return g.div(one, b), g.neg(g.div(node, b))
     if op == "pow":
-        by_exponent = zero if g.value(b) is not None else g.mul(node, g.call("log", a))
-        return g.mul(b, g.power(a, g.sub(b, one))), by_exponent
+        return _power(g, node, a, b)
     if op == "atan2":
-        square = g.add(g.mul(a, a), g.mul(b, b))
+        square = steepest(g, g.add(g.mul(a, a), g.mul(b, b)))
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
         straight = payload.endswith("'") and not payload.startswith(SMOOTH)
@@ -103,3 +103,16 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     if op in ELEMENTARY:
         return (ELEMENTARY[op].slope(g, a, node),)
     return (zero,) * len(args)  # comparisons, logic, sign and step are piecewise constant
+
+
+def _power(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
+    """Return the derivatives of a power; where nothing is raised to less than 1 it rises without bound."""
+    one, exponent = g.one, g.value(b)
+    if exponent is not None:
+        if 0.0 < exponent < 1.0:
+            return g.div(b, steepest(g, g.power(a, g.constant(1.0 - exponent)))), g.zero
+        return g.mul(b, g.power(a, g.sub(b, one))), g.zero
+    nothing = g.call("le", g.call("abs", a), g.zero)
+    below = g.call("and", nothing, g.call("lt", b, one))
+    slope = g.call("where", below, g.zero, g.mul(b, g.power(g.call("where", below, one, a), g.sub(b, one))))
+    return slope, g.mul(node, g.call("log", g.call("where", nothing, one, a)))

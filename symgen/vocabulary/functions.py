@@ -6,6 +6,7 @@ Each has the same name here, in files, in `math`, NumPy and SymPy.
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -31,21 +32,33 @@ class Elementary:
     everywhere: bool = True
 
 
-def _cosine(g: Any, a: int) -> int:
-    """Return sqrt(1 - a^2)."""
-    found: int = g.call("sqrt", g.sub(g.one, g.mul(a, a)))
+#: What a slope is divided by where it would be by 0: so large that what is left is nothing.
+_HUGE = sys.float_info.max
+
+
+def steepest(g: Any, a: int) -> int:
+    """Return what a slope that is without bound at the end of a function's range is divided by: a, and never 0.
+
+    There the slope counts as 0. What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at
+    rest, or what is pressed together where nothing touches. By infinity such a 0 would make what is no number.
+    """
+    found: int = g.call("where", g.call("le", a, g.zero), g.constant(_HUGE), a)
     return found
+
+
+def _cosine(g: Any, a: int) -> int:
+    """Return sqrt(1 - a^2), and never 0."""
+    return steepest(g, g.call("sqrt", g.sub(g.one, g.mul(a, a))))
 
 
 def _between(g: Any, a: int) -> int:
-    """Return sqrt(a - 1) sqrt(a + 1): undefined below -1, as the function is, and exact near 1."""
+    """Return sqrt(a - 1) sqrt(a + 1), never 0: undefined below -1, as the function is, and exact near 1."""
     roots = g.call("sqrt", g.sub(a, g.one)), g.call("sqrt", g.add(a, g.one))
-    found: int = g.mul(*roots)
-    return found
+    return steepest(g, g.mul(*roots))
 
 
 ELEMENTARY: Mapping[str, Elementary] = {
-    "sqrt": Elementary(math.sqrt, lambda g, a, n: g.div(g.constant(0.5), n), everywhere=False),
+    "sqrt": Elementary(math.sqrt, lambda g, a, n: g.div(g.constant(0.5), steepest(g, n)), everywhere=False),
     "exp": Elementary(math.exp, lambda g, a, n: n),
     "log": Elementary(math.log, lambda g, a, n: g.div(g.one, a), everywhere=False),
     "sin": Elementary(math.sin, lambda g, a, n: g.call("cos", a)),

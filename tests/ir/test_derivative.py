@@ -53,6 +53,7 @@ _EXACT = {
     "ge": lambda a, b: a >= b,
     "step": lambda a, b: mpmath.mpf(1 if a > b else 0),
     "sign": lambda a: mpmath.sign(a),
+    "and": lambda a, b: a and b,
     "where": lambda c, a, b: a if c else b,
 }
 
@@ -160,3 +161,35 @@ def test_absent_and_wanted():
     assert set(first) == {("q", 0)}
     assert set(second) == {("q", 0)} and second["q", 0] == g.one
     assert jacobian(g, [g.constant(2.0)], INPUTS) == [{}]
+
+
+#: What rises without bound where its argument is 0, times something that vanishes there: functions of r = |x| or of x
+#: whose derivatives by x and y are 0 at the origin, as differences show.
+FLAT = {
+    "x |x|^1/2": lambda g, x, y: g.mul(x, g.call("sqrt", g.call("abs", x))),
+    "x r": lambda g, x, y: g.mul(x, g.call("sqrt", g.add(g.mul(x, x), g.mul(y, y)))),
+    "max(0, x)^3/2": lambda g, x, y: g.power(g.call("max", g.zero, x), g.constant(1.5)),
+    "x |x|^0.3": lambda g, x, y: g.mul(x, g.power(g.call("abs", x), g.constant(0.3))),
+    "x |x|^k": lambda g, x, y: g.mul(x, g.power(g.call("abs", x), g.input("k", 0))),
+    "max(0, x)^(1 + k)": lambda g, x, y: g.power(g.call("max", g.zero, x), g.add(g.one, g.input("k", 0))),
+    "r^2 atan2(y, x)": lambda g, x, y: g.mul(g.add(g.mul(x, x), g.mul(y, y)), g.call("atan2", y, x)),
+    "x acos(1 - x^2)": lambda g, x, y: g.mul(x, g.call("acos", g.sub(g.one, g.mul(x, x)))),
+    "x acosh(1 + x^2)": lambda g, x, y: g.mul(x, g.call("acosh", g.add(g.one, g.mul(x, x)))),
+}
+
+
+@pytest.mark.parametrize("name", FLAT)
+def test_what_is_flat_at_the_end_of_a_root_s_range(name):
+    """A product of 0 and infinity was no number: what is pressed together where nothing touches, drag at rest."""
+    g = Graph()
+    x, y = g.input("q", 0), g.input("q", 1)
+    output = FLAT[name](g, x, y)
+    keys = [("q", 0), ("q", 1), ("k", 0)]
+    (found,) = jacobian(g, [output], keys)
+    with mpmath.workdps(40):
+        for number in (0, mpmath.mpf(10) ** -30):
+            values = {("q", 0): mpmath.mpf(number), ("q", 1): mpmath.mpf(0), ("k", 0): mpmath.mpf("0.3")}
+            for node in found.values():
+                assert abs(exact(g, [node], values)[0]) < 1e-6
+    again = jacobian(g, list(found.values()), keys[:2])  # and their derivatives are numbers
+    assert all(mpmath.isfinite(exact(g, [node], values)[0]) for one in again for node in one.values())

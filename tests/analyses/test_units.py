@@ -1,0 +1,50 @@
+"""Equilibria and frequencies do not know units: grams and micrometres have those of kilograms and metres."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from analyses import rods
+
+
+def carousel(mass, length):
+    """A table that turns freely about the vertical with a slide in it that leans, on a spring; lengths grow alike."""
+    bodies = {
+        "table": {"mass": mass, "position": [0.1 * length, -0.2 * length, 0.0]},
+        "slide": {"mass": 0.7 * mass, "position": [0.3 * length, 0.2 * length, -0.3 * length]},
+    }
+    for body, inertia in zip(bodies.values(), ((0.1, 0.12, 0.15), (0.02, 0.03, 0.04)), strict=True):
+        body["inertia"] = [mass * length**2 * x for x in inertia]
+    joints = {
+        "axle": rods.pin("ground", "table", rods.GROUND3, [-0.1 * length, 0.2 * length, 0.0], axis=[0.0, 0.0, 1.0]),
+        "way": rods.pin("table", "slide", rods.GROUND3, [-0.2 * length, -0.4 * length, 0.3 * length], "translational")
+        | {"axis": [0.3, 0.5, 0.8]},
+    }
+    ends = [[0.5 * length, 0.1 * length, 0.9 * length], [0.0, 0.1 * length, 0.0]]
+    spring = {"type": "spring-damper", "between": ["table", "slide"], "at": ends, "stiffness": 90.0 * mass}
+    spring["free_length"] = 0.4 * length
+    pull = [0.0, 0.0, -rods.GRAVITY * length]
+    return rods.model(bodies, joints, "spatial", gravity=pull, forces={"spring": spring})
+
+
+@pytest.mark.parametrize(("mass", "length"), [(1e-3, 1e-6), (1e-9, 1e-3), (1e6, 1e3)])
+def test_small_and_large_mechanisms_rest_alike(mass, length):
+    """Moments were compared with forces as numbers, and what turns was taken to have no mass beside what moves."""
+    usual, other = (carousel(*size).equilibrium() for size in ((1.0, 1.0), (mass, length)))
+    assert usual.stability == other.stability == "indifferent"
+    assert_allclose(other.omega_squared, usual.omega_squared, rtol=1e-9)
+    assert_allclose(other.q["way.displacement"] / length, usual.q["way.displacement"], rtol=1e-9)
+    found = carousel(mass, length).modes().omega_squared
+    assert_allclose(found, usual.omega_squared, rtol=1e-9, atol=1e-9 * usual.omega_squared[1])
+
+
+@pytest.mark.parametrize("mass", [1.0, 1e-3, 1e-9])
+def test_what_falls_freely_at_the_start_is_found_whatever_it_weighs(mass):
+    """A step downhill was its weight over 1 N/m where nothing restores anything."""
+    body = {"mass": mass, "inertia": 0.1 * mass, "position": [0.0, 5.0]}
+    rail = rods.pin("ground", "a", rods.GROUND2, rods.GROUND2, "translational", axis=[0.0, 1.0])
+    push = {"type": "force", "body": "a", "at": [0.0, 0.0], "force": [0.0, f"max(0, -{1000.0 * mass}*a.y)"]}
+    found = rods.model({"a": body}, {"rail": rail}, forces={"push": push}).equilibrium()
+    assert_allclose(found.q["a.y"], -rods.GRAVITY / 1000.0, rtol=1e-10)
+    assert_allclose(found.omega_squared, [1000.0], rtol=1e-10)
+    assert np.isfinite(found.residual)
