@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from symgen import arguments
 from symgen.analyses.algebra import eigenvalues_of
 from symgen.analyses.cyclic import steady_motion
+from symgen.analyses.edges import edges
 from symgen.analyses.equilibrium import Equilibrium, at_rest_from, equilibria, judged, stability_in_motion
 from symgen.analyses.linearise import LinearSystem, linear_system, named_states
 from symgen.analyses.modes import Modes, modes
@@ -231,7 +232,7 @@ def asked_modes(asked: Asked, states: Sequence[str] = (), count: int | None = No
     def bodies() -> Subject:
         return subject_of(asked.mechanism, replace(asked.settings, coordinates="absolute"))
 
-    return modes(subject, y, None, states, bodies=bodies)
+    return replace(modes(subject, y, None, states, bodies=bodies), notes=edges(subject, y))
 
 
 def asked_system(
@@ -240,4 +241,5 @@ def asked_system(
     """Return the linear system at a place; see `symgen.api.Model.linearise`."""
     states = arguments.words("states", states)
     subject, y = subject_at(asked, arguments.words("by", by))
-    return linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))
+    found = linear_system(subject, y, None, states, arguments.switch("instantaneous", instantaneous))
+    return replace(found, notes=edges(subject, y))

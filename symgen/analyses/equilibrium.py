@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ZERO, Complex, split, squares_along, symmetric
+from symgen.analyses.edges import edges
 from symgen.analyses.settle import Settled, lengths, settle
 from symgen.analyses.subject import Subject
 from symgen.errors import AnalysisError, InputError
@@ -59,6 +60,8 @@ class Equilibrium:
         The state.
     lam : Array, shape (m,)
         The multipliers.
+    notes : tuple of str
+        Forces that have no derivative there: what is said of stability and frequencies leaves that out.
     """
 
     q: dict[str, float]
@@ -70,6 +73,7 @@ class Equilibrium:
     not_unique: tuple[str, ...]
     y: Array = field(repr=False)
     lam: Array = field(repr=False)
+    notes: tuple[str, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return what JSON can express."""
@@ -81,6 +85,7 @@ class Equilibrium:
             "iterations": self.iterations,
             "multipliers": self.multipliers,
             "not_unique": list(self.not_unique),
+            "notes": list(self.notes),
         }
 
 
@@ -107,6 +112,7 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
         not_unique=tuple(j.name for j in subject.mechanism.joints if j.name in joints),
         y=y,
         lam=lam,
+        notes=edges(subject, y),
     )
 
 

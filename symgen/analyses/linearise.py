@@ -36,6 +36,8 @@ class LinearSystem:
         Outputs that depend on something else than the states, such as a cyclic coordinate.
     parameters : tuple of str
         Those of the inputs that are parameters: constants, changed once and for all while the states stay.
+    notes : tuple of str
+        Forces that have no derivative at that state, as of `symgen.analyses.edges.edges`.
     """
 
     A: Array
@@ -49,6 +51,7 @@ class LinearSystem:
     t: float = 0.0
     left_out: tuple[str, ...] = field(default=())
     parameters: tuple[str, ...] = field(default=())
+    notes: tuple[str, ...] = field(default=())
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
@@ -81,7 +84,7 @@ class LinearSystem:
         """Return what JSON can express."""
         matrices = {name: getattr(self, name).tolist() for name in ("A", "B", "C", "D")}
         names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs", "left_out", "parameters")}
-        return {**matrices, **names, "about": self.about, "t": self.t}
+        return {**matrices, **names, "about": self.about, "t": self.t, "notes": list(self.notes)}
 
 
 def in_order(values: Array | NDArray[np.complex128]) -> NDArray[np.complex128]:

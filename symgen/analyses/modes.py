@@ -55,6 +55,8 @@ class Modes:
         Coordinates, or states, that the modes are about.
     t : float
         Time [s].
+    notes : tuple of str
+        Forces that have no derivative there, as of `symgen.analyses.edges.edges`.
     """
 
     eigenvalues: Complex
@@ -67,6 +69,7 @@ class Modes:
     dissipation: Mapping[str, Array] = field(default_factory=dict)
     about: Mapping[str, float] = field(default_factory=dict)
     t: float = 0.0
+    notes: tuple[str, ...] = ()
 
     @property
     def of_shapes(self) -> Complex:
@@ -101,6 +104,7 @@ class Modes:
             "dissipation": {name: share.tolist() for name, share in self.dissipation.items()},
             "about": dict(self.about),
             "t": self.t,
+            "notes": list(self.notes),
         }
 
 

@@ -36,7 +36,7 @@ def command(model: str, scan: str | None, steady: bool, as_json: bool, **asked: 
     speed at the start.
     """
     from symgen.api import load
-    from symgen.cli._analyses import axis
+    from symgen.cli._analyses import axis, tell
 
     settings = Settings(**asked)
     if scan is not None and steady:
@@ -46,6 +46,7 @@ def command(model: str, scan: str | None, steady: bool, as_json: bool, **asked: 
         found = loaded.equilibria(axis("--scan", scan), settings)
     else:
         found = (loaded.steady(settings) if steady else loaded.equilibrium(settings),)
+    tell(dict.fromkeys(note for equilibrium in found for note in equilibrium.notes))
     if as_json:
         write_json({"mechanism": loaded.name, "equilibria": [e.to_dict() for e in found]})
         return OK

@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._analyses import motion_options, table_options
+from symgen.cli._analyses import motion_options, table_options, tell
 from symgen.cli._options import assignments, examples, json_option, output_file, time_list, words
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
@@ -82,8 +82,7 @@ def command(
 
     result = load(model).inverse(whence, settings, chosen, named, weighed)
     result.select(quantities)  # names that are wrong are told before anything is shown
-    for sentence in result.notes:
-        click.echo(f"symgen: {sentence}", err=True)
+    tell(result.notes)
     if as_json:
         write_json(result.to_json())
     else:

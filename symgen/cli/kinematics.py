@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._analyses import motion_options, table_options
+from symgen.cli._analyses import motion_options, table_options, tell
 from symgen.cli._options import differ, examples, json_option, output_file, time_list
 from symgen.settings import Settings
 
@@ -61,8 +61,7 @@ def command(
     from symgen.result.select import extremes
 
     result = load(model).kinematics(chosen, settings, pins)
-    for sentence in result.notes:
-        click.echo(f"symgen: {sentence}", err=True)
+    tell(result.notes)
     shown = extremes(result.select(quantities or ("q",))) if len(result.t) else {}
     if as_json:
         write_json(result.to_json() | ({"quantities": shown} if quantities else {}))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._analyses import place_options
+from symgen.cli._analyses import place_options, tell
 from symgen.cli._options import examples, json_option, words
 from symgen.settings import Settings
 
@@ -42,6 +42,7 @@ def command(
 
     loaded = load(model)
     found = loaded.linearise(Settings(**asked), **place, instantaneous=instantaneous, by=words("--by", by))
+    tell(found.notes)
     if as_json:
         write_json({"mechanism": loaded.name, **found.to_dict()})
     else:

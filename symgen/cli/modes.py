@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_files, write_json
-from symgen.cli._analyses import place_options
+from symgen.cli._analyses import axis, place_options, tell
 from symgen.cli._options import examples, json_option, output_file
 from symgen.errors import InputError
 from symgen.settings import Settings
@@ -41,7 +41,6 @@ def command(
 ) -> int:
     """Find eigenvalues, frequencies, damping and shapes of MODEL about a state of rest or of steady motion."""
     from symgen.api import load
-    from symgen.cli._analyses import axis
 
     settings = Settings(**asked)
     if plot is not None and over is None:
@@ -52,6 +51,7 @@ def command(
     loaded = load(model)
     if over is None:
         found = loaded.modes(settings, count=count, **place)
+        tell(found.notes)
         if as_json:
             write_json({"mechanism": loaded.name, **found.to_dict()})
         else:
