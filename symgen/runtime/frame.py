@@ -257,6 +257,7 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             attend(system, run, REMEMBER)
         probing = between or hunting == SEEK
         note_step(run, h)
+        kinetic, potential = run.w[abi.KINETIC], run.w[abi.POTENTIAL]
         error = attempt(system, scheme, span, run, t, following, h, probing)
         # -- is it good enough?
         if error < 0.0:
@@ -282,6 +283,8 @@ def integrate(model: Any, scheme: Any, span: Any, state: Any, outputs: Any) -> i
             store(sizes, run.w, outputs, out, run.trial)
             out += 1
             control[abi.OUTPUTS] = out
+            # the work's error is judged by the energies of the state that the step began with, whatever outputs it has
+            run.w[abi.KINETIC], run.w[abi.POTENTIAL] = kinetic, potential
             continue
         if bits & 1:
             if not ADAPTIVE:

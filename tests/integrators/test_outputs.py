@@ -67,6 +67,15 @@ def test_dense_output_does_not_change_the_steps(four_bar, integrator):
     assert (few.steps, few.rejected) == (many.steps, many.rejected)
 
 
+@pytest.mark.parametrize("integrator", [*ADAPTIVE, "abm", "radau5", "sdirk"])
+def test_outputs_do_not_change_steps_that_are_chosen_for_the_work(integrator):
+    """The work's error is judged by the energies of the state that a step began with, not by those of an output."""
+    model, keys = load("cart-pole"), {"method": "lagrange", "integrator": integrator, "rtol": 1e-7, "until": 1.0}
+    few, many = (model.simulate(**keys, times=times) for times in ([1.0], np.linspace(0.0, 1.0, 38)))
+    np.testing.assert_array_equal(few.q.values[-1], many.q.values[-1])
+    assert (few.steps, few.rejected) == (many.steps, many.rejected)
+
+
 @pytest.mark.parametrize("method", CORRECTING)
 @pytest.mark.parametrize("integrator", ADAPTIVE)
 def test_dense_outputs_are_corrected(four_bar, method, integrator):
