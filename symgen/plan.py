@@ -24,7 +24,7 @@ from symgen.memory import require
 from symgen.methods import METHODS
 from symgen.runtime.pieces import Piece, kinks_between, pieces_at, sides_between
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
-from symgen.settings import Settings
+from symgen.settings import Settings, told_constant
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Event, Hold, Mechanism
@@ -92,7 +92,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
     begin = 0.0 if last is None else last.t
     if last is not None:
         _check_same(mechanism, last)
-    adaptive = tableau.adaptive and integrator_options.get("adaptive", "true") == "true"
+    adaptive = tableau.adaptive and not told_constant(s.options, tableau.name)
     defaults = mechanism.defaults
     until = defaults.until if s.until is None else s.until
     step = s.step if adaptive or s.step is not None else defaults.step

@@ -348,6 +348,11 @@ class Tracer:
         rows = [i for i, row in enumerate(self.info.rows) if self._jumps(i)]
         if rows:
             who = ", ".join(dict.fromkeys(f"'{self.info.rows[i].joint}'" for i in rows))
+            least, rates = self.course.least, np.abs(self.found.compiled.section(self.w, "nu"))
+            if all(rates[i] * least > JUMP * self._size(i, self.w) for i in rows):
+                return (
+                    f"{who} goes too far behind t = {t:.9g} s in {least:.3g} s, the shortest step of so long a motion"
+                )
             return f"the value of {who} jumps at t = {t:.9g} s"
         return f"no position near the last one closes the mechanism behind t = {t:.9g} s"
 
@@ -356,5 +361,8 @@ class Tracer:
         w = self.w.copy()
         later = float(self.clock[f.TIME]) + self.sign * self.course.least
         Ready(self.functions[0], abi.MEASURE)(later, self.stand.y.copy(), self.p, w)
-        size = float(w[abi.LENGTH]) if self.info.rows[row].unit == "m" else 1.0
-        return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * size)
+        return bool(abs(self.found.compiled.section(w, "residual")[row]) > JUMP * self._size(row, w))
+
+    def _size(self, row: int, w: Array) -> float:
+        """Return what a row is measured by."""
+        return float(w[abi.LENGTH]) if self.info.rows[row].unit == "m" else 1.0

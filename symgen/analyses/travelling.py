@@ -90,7 +90,7 @@ def _turns(at: Array, steps: Array) -> Array:
     found, length = list[float](), np.diff(at)
     for column in steps.T:
         moving = np.flatnonzero(np.abs(column) > NOTHING)  # not where it rests
-        here = moving[1:][column[moving[1:]] * column[moving[:-1]] < 0.0]
+        here = moving[1:][np.sign(column[moving[1:]]) != np.sign(column[moving[:-1]])]
         for k in here:
             before, behind = column[k - 1] / length[k - 1], column[k] / length[k]
             t = at[k]

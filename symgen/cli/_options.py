@@ -12,7 +12,7 @@ import click
 
 from symgen import arguments
 from symgen.errors import InputError, quoted
-from symgen.settings import Settings, about, default, flag, is_given
+from symgen.settings import Settings, about, default, flag, is_given, told_constant
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -205,8 +205,15 @@ def differ(files: Mapping[str, Path | None]) -> None:
         seen[real] = option
 
 
-def tell_idle_tolerances(settings: Settings) -> None:
+def tell_idle_tolerances(settings: Settings, chosen: tuple[str, str] | None = None) -> None:
     """Say on standard error that tolerances which are given to a run with constant steps count for nothing there.
+
+    Parameters
+    ----------
+    settings : Settings
+        As asked for. Where something in it is ``auto``, nothing is said before it is known what was chosen.
+    chosen : (str, str), optional
+        Method and integrator that were run. Where nothing is ``auto``, nothing is said again.
 
     Raises
     ------
@@ -218,12 +225,13 @@ def tell_idle_tolerances(settings: Settings) -> None:
     from symgen.methods import METHODS
 
     given = [name for name in ("rtol", "atol") if is_given(settings, name)]
-    if not given or AUTO in (settings.method, settings.integrator):
+    automatic = AUTO in (settings.method, settings.integrator)
+    if not given or automatic is (chosen is None):
         return
-    named = settings.integrator or METHODS.get(settings.method, "--method").default_integrator
+    method, integrator = chosen or (settings.method, settings.integrator)
+    named = integrator or METHODS.get(method, "--method").default_integrator
     known = INTEGRATORS.get(named, "--integrator")
-    switches = {settings.options.get(f"{owner}.adaptive", "true") for owner in ("integrator", known.name)}
-    if not known.adaptive or "false" in switches:
+    if not known.adaptive or told_constant(settings.options, known.name):
         counts = "--rtol and --atol count" if len(given) > 1 else f"{flag(given[0])} counts"
         click.echo(f"symgen: {counts} for nothing: {known.name} has constant steps, which --step gives", err=True)
 

@@ -67,6 +67,8 @@ def study_files(row: str) -> Callable[[F], F]:
         @wraps(function)
         def command(*, output: str | None, csv: str | None, units: bool, resume: str | None, **further: Any) -> Any:
             rows, report = output_file("--csv", csv), _report_file(output)
+            if rows is not None and rows.suffix.lower() != ".csv":
+                raise InputError("--csv", "a file ending in .csv", f"'{csv}'")
             if units and rows is None:
                 raise InputError("--units", "--csv FILE, whose headings carry them", "no --csv")
             journal = None if resume is None else Path(resume)

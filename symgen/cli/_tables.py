@@ -109,9 +109,13 @@ def show_study(study: Study) -> None:
         out.print(
             f"ratios of run time may vary by {100 * spreads[0]:.1f} % (median row; worst {100 * spreads[1]:.0f} %)"
         )
+    common = study.common_warnings
+    for sentence in common:
+        out.print(f"every run: {sentence}", style="dim")
     for row in study.rows:
         steps = f"rtol {row.rtol:g}" if row.rtol is not None else f"step {row.step:g} s"
-        for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *row.warnings):
+        own = [sentence for sentence in row.warnings if sentence not in common]
+        for sentence in (*([f"{row.status}: {row.reason}"] if row.reason else []), *own):
             out.print(f"{row.label}, {row.integrator}, {steps}: {sentence}", style="dim")
 
 

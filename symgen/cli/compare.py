@@ -19,7 +19,6 @@ from symgen.cli._options import (
     words,
 )
 from symgen.cli._report import StudyFiles, command_again, interrupted, sketches_of, study_files
-from symgen.errors import InputError
 from symgen.settings import Settings
 
 if TYPE_CHECKING:
@@ -88,8 +87,6 @@ def command(
     and tips of the axes at the body's own length). Integrators with an error estimate run at --rtols, the others at
     --steps. Ctrl-C shows the rows that are done; with --resume the same command goes on behind them.
     """
-    if files.csv is not None and files.csv.suffix.lower() != ".csv":
-        raise InputError("--csv", "a file ending in .csv", f"'{files.csv}'")
     step_list, rtol_list = number_list("--steps", steps), number_list("--rtols", rtols)
     method_list, integrator_list = words("--methods", methods), words("--integrators", integrators)
 
@@ -116,11 +113,12 @@ def command(
         settings = Settings(**asked)
         studies = compare_all(loaded, settings, runs, reference_by, progress, jobs or processors(), journal)
     rows = [row for study in studies for row in study.rows]
-    for option, given, used in (
-        ("--steps", step_list, any(row.step is not None for row in rows)),
-        ("--rtols", rtol_list, any(row.rtol is not None for row in rows)),
-    ):
-        if given and rows and not used:
+    used = {
+        "--steps": any(row.step is not None for row in rows),
+        "--rtols": any(row.rtol is not None for row in rows),
+    }
+    for option, given in (("--steps", step_list), ("--rtols", rtol_list)):
+        if given and rows and not used[option]:
             click.echo(f"symgen: {option} counted for nothing: no run of these integrators has such steps", err=True)
     if as_json:
         found = [study.to_json() for study in studies]
@@ -136,7 +134,8 @@ def command(
         from symgen.report.write import write
 
         sketches = sketches_of(loaded, asked["parameters"], asked["start"])
-        write(comparison(studies, command_again(), _asked(step_list, rtol_list, studies), sketches), file)
+        told = [text for option, text in _asked(step_list, rtol_list).items() if used[option]]
+        write(comparison(studies, command_again(), told, sketches), file)
         click.echo(f"symgen: wrote {file}", err=True)
 
     report = files.report if any(study.rows for study in studies) else None
@@ -144,19 +143,17 @@ def command(
     return write_files(_exit_code(studies, files.journal is not None), written)
 
 
-def _asked(steps: tuple[float, ...], rtols: tuple[float, ...], studies: list[Study]) -> list[tuple[str, str]]:
-    """Return what was asked for in words, by label; of steps and tolerances those that some run had."""
+def _asked(steps: tuple[float, ...], rtols: tuple[float, ...]) -> dict[str, tuple[str, str]]:
+    """Return what was asked for by --steps and --rtols: a label and words."""
     from symgen.report.words import exact
     from symgen.study.comparison.combinations import ATOL_SHARE, RTOLS, STEP_FACTORS
 
     own = f"{', '.join(f'{x:g}' for x in STEP_FACTORS)} times the mechanism's own"
-    constant = ", ".join(f"{exact(x)} s" for x in steps) or own
     relative = ", ".join(exact(x) for x in rtols or RTOLS)
-    rows = [row for study in studies for row in study.rows]
-    found = [("Steps", constant)] if any(row.step is not None for row in rows) else []
-    if any(row.rtol is not None for row in rows):
-        found.append(("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"))
-    return found
+    return {
+        "--steps": ("Steps", ", ".join(f"{exact(x)} s" for x in steps) or own),
+        "--rtols": ("Tolerances", f"relative {relative}; absolute {ATOL_SHARE:g} of them"),
+    }
 
 
 def _exit_code(studies: list[Study], kept: bool) -> int:

@@ -104,6 +104,7 @@ def command(
     solver = settings.method + (f", {settings.integrator}" if settings.integrator else "")
     with Bar(f"{loaded.name}, {solver}", settings.until or loaded.mechanism.defaults.until) as bar:
         result = loaded.simulate(settings, progress=bar)
+    tell_idle_tolerances(settings, (result.method, result.integrator))
     found = _proposals(loaded, settings, result)
     for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
         click.echo(f"symgen: {sentence}", err=True)

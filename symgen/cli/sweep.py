@@ -117,6 +117,7 @@ def command(
             settings=settings,
             progress=progress,
         )
+    tell_idle_tolerances(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.tableau.name))
     for note in found.ensemble.notes:
         click.echo(f"symgen: {note}", err=True)
     if as_json:

@@ -104,6 +104,7 @@ def command(
 
     with Bar(f"{model.name}, {settings.method}", settings.until or model.mechanism.defaults.until) as bar:
         result = model.simulate(settings, progress=bar)
+    tell_idle_tolerances(settings, (result.method, result.integrator))
     if not len(result.t):
         return complain(f"failed: {result.reason}", FAILURE)
     if file.suffix.lower() != ".html":

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from symgen.arguments import shown
 from symgen.errors import InputError, nearest, quoted
 from symgen.memory import require
 
@@ -206,9 +207,12 @@ def _values(name: str, given: ArrayLike | str) -> Array:
     if isinstance(given, str):
         return parse(given, name)
     try:
-        found = np.array(given, dtype=np.float64)
+        plain = np.asarray(given)
+        if plain.dtype == np.bool_:
+            raise TypeError("truth values are no numbers")
+        found = np.array(plain, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError(name, "numbers", "something else") from None
+        raise InputError(name, "numbers", shown(given)) from None
     if found.ndim != 1 or len(found) == 0:
         raise InputError(name, "a list of at least one number", f"an array of shape {found.shape}")
     if not np.all(np.isfinite(found)):

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 ENDINGS = (".gif", ".mp4")
 #: Pictures of a GIF and of an MP4 at most, and how many a second.
 MOST, MOST_OF_FILM, RATE = 150, 1500, 25
+#: Seconds that a picture of a GIF can last at most; those that are alike are one.
+LONGEST = 655.0
 #: Pixels an inch.
 DPI = 80.0
 
@@ -58,7 +60,8 @@ def check_film(where: str, path: Path) -> None:
 def write_film(path: Path, recording: Recording) -> Path:
     """Write a motion as a film at its own pace, as GIF or MP4 by the ending of its name.
 
-    A GIF has at most 150 pictures, an MP4 1500: of longer motions there are fewer a second.
+    A GIF has at most 150 pictures, an MP4 1500: of longer motions there are fewer a second. A GIF of a motion of more
+    than eleven minutes goes faster and lasts as long as one picture can.
 
     Parameters
     ----------
@@ -75,7 +78,7 @@ def write_film(path: Path, recording: Recording) -> Path:
     span = float(recording.t[-1] - recording.t[0])
     film = path.suffix.lower() == ".mp4"
     count = int(min(MOST_OF_FILM if film else MOST, max(2, round(span * RATE)), len(recording.t)))
-    pause = max(20.0, 1000.0 * span / count)
+    pause = max(20.0, 1000.0 * (span if film else min(span, LONGEST)) / count)
     pictures = _pictures(recording, count)
     if film:
         return write_whole(path, lambda file: file.write(_encoded(pictures, 1000.0 / pause)))

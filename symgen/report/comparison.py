@@ -187,9 +187,28 @@ def _all_rows(study: Study) -> Table:
         )
     notes = ["* below the error of the reference itself"] if any(row.below_reference for row in study.rows) else []
     for row in study.rows:
-        where = f"{row.label}, {row.integrator}, {words.setting(row.step, row.rtol)}"
-        notes += [f"{where}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
+        notes += [f"{_where(row)}: {row.status}: {words.readable(row.reason)}"] if row.reason else []
+    notes += _warnings(study)
     return Table("Error, run time and counts.", headings, tuple(rows), words=4, notes=tuple(notes))
+
+
+def _where(row: Row) -> str:
+    return f"{row.label}, {row.integrator}, {words.setting(row.step, row.rtol)}"
+
+
+def _warnings(study: Study) -> list[str]:
+    """Return what rows warn of, each sentence once with the first row that says it."""
+    common = study.common_warnings
+    by_text: dict[str, list[Row]] = {}
+    for row in study.rows:
+        for text in row.warnings:
+            by_text.setdefault(text, []).append(row)
+    found = []
+    for text, rows in by_text.items():
+        more = f" and {words.counted(len(rows) - 1, 'other run')}" if len(rows) > 1 else ""
+        where = "every run" if text in common else _where(rows[0]) + more
+        found.append(f"{where}: {words.readable(text)}")
+    return found
 
 
 def _all_violations(study: Study) -> Table:

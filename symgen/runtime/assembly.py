@@ -98,6 +98,13 @@ def state_scales(compiled: CompiledModel, w: Array, until: float) -> Array:
     return np.concatenate([positions, speed * np.sqrt(compiled.section(w, "gauge"))])
 
 
+#: What helps where nothing is free, so that a coordinate has one of a few values.
+OTHER_WAYS = (
+    "drivers leave nothing free here: 'symgen kinematics --start' finds other ways to close it, and all coordinates "
+    "of one of them can be held"
+)
+
+
 def assemble(
     compiled: CompiledModel,
     q: Array,
@@ -198,7 +205,12 @@ def _contradiction(start: Assembly, q: Array, v: Array, p: Array, summary: Array
         order = [i for i in np.argsort(-residual) if residual[i] > decisions.MOVED * float(w[abi.LENGTH])]
         return [(info.rows[i].name, info.rows[i].unit, float(residual[i])) for i in order]
 
-    return contradiction(info, held, q, attempt, open_rows, code)
+    error = contradiction(info, held, q, attempt, open_rows, code)
+    if error is None or code != e.OPEN or info.m < info.nv:
+        return error
+    w, found = tried(Held(), _described(info, q), np.full(info.nv, np.nan))
+    driven = int(found[e.START]) == e.ASSEMBLED and start.compiled.rank(w) == info.nv
+    return AssemblyError(f"{error}; {OTHER_WAYS}") if driven else error
 
 
 def _asked_far(start: Assembly, q: Array, p: Array, w: Array) -> bool:

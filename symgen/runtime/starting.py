@@ -16,7 +16,7 @@ from symgen.runtime import ensemble_abi as e
 from symgen.runtime.bare import bare, part
 from symgen.runtime.closing import close_positions, complete_velocities, find_undetermined, is_light, mask_redundant
 from symgen.runtime.exact import exact
-from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, speed_of, weigh_rows
+from symgen.runtime.scales import extent_of, free_scale, larger, measure_lengths, row_weight, speed_of, weigh_rows
 from symgen.runtime.start_records import ASKED, INSTANT, MODEL, WORK, Asked, Closing, Instant
 
 _A, _I = types.float64[::1], types.int64[::1]
@@ -28,7 +28,8 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
 
     Positions are closed by shortest changes from those described, those that are fixed staying where they are; then the
     coordinates that are held go to their values in small steps, each closed by moving the others, so that the mechanism
-    keeps the branch it was described in.
+    keeps the branch it was described in. Where it does not get there, values with which everything is closed as it is
+    given are taken at once: all coordinates of a place that no way leads to, which may be that of another branch.
 
     Parameters
     ----------
@@ -56,6 +57,10 @@ def close_row(model: Any, now: Any, asked: Any, work: Any) -> int:
                 w[abi.WINDING + i] = layout.branches[i]
     if code == e.ASSEMBLED:
         code = _reach(closing, layout, now, asked, work)
+    if code == e.OPEN and asked.targets.shape[0] > 0 and _is_given(closing, layout, now, asked, work):
+        if layout.windings > 0:
+            turns(geometry, measure, layout, now, work)
+        code = e.ASSEMBLED
     if code == e.ASSEMBLED:
         code = complete_velocities(closing, layout, now, work, asked.given)
     if code == e.PROJECTED:
@@ -128,6 +133,30 @@ def _reach(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> int:
         if k == strides:
             break
     return int(e.ASSEMBLED)
+
+
+@exact()
+def _is_given(closing: Any, layout: Any, now: Any, asked: Any, work: Any) -> bool:
+    """Put held coordinates to their values at once; whether all is closed then, the others as they were described.
+
+    If not, the state is what it was.
+    """
+    y, w, first, before = now.y, now.w, work.first, work.y
+    for i in range(layout.nq):
+        before[i], y[i] = y[i], first[i]
+    for h in range(asked.targets.shape[0]):
+        y[layout.held[2 * h]] = asked.targets[h]
+        work.scale[layout.held[2 * h + 1]] = 0.0
+    closing.geometry(layout.t, y, now.p, w)
+    square, length = 0.0, larger(w[abi.LENGTH], extent_of(layout, y))
+    for i in range(layout.m):
+        square += (row_weight(layout, w, i) * w[layout.residual + i]) ** 2
+    if math.sqrt(square) < decisions.CLOSED * length and close_positions(closing, layout, now, work):
+        return True
+    for i in range(layout.nq):
+        y[i] = before[i]
+    closing.geometry(layout.t, y, now.p, w)
+    return False
 
 
 @exact(types.int64(MODEL, INSTANT, ASKED, WORK, _I, _I))

@@ -488,3 +488,9 @@ value = "0.5 + t"
     assert found["t"] == [0.0, 0.1, 0.2, 0.30000000000000004, 0.4] and "dead centre at t = 0.5 s: 'lift'" in err
     assert found["ended"].startswith("dead centre") and found["passages"][0]["kind"] == "dead centre"
     assert np.allclose(np.sin(found["q"]["rod.theta"]), 0.5 + np.array(found["t"]), rtol=0.0, atol=1e-14)
+
+
+def test_times_that_no_step_leads_to_are_told_as_such():
+    """A crank of 2 pi rad/s turns many times in the shortest step to 1e300 s: its motion was said to jump."""
+    found = symgen.load("driven-four-bar").kinematics([0.0, 1e300])
+    assert found.ended.startswith("'motor' goes too far behind t = 0 s") and "the shortest step" in found.ended

@@ -107,6 +107,28 @@ def test_an_interrupted_study_writes_the_report_of_what_is_done(cli, tmp_path, m
     assert "interrupted" not in report.read_text()
 
 
+def test_rows_of_an_earlier_study_are_shown_where_preparing_is_interrupted(cli, tmp_path, monkeypatch):
+    arguments = ("compare", "pendulum", *SMALL, "--repeat", "1", "--json", "--resume", tmp_path / "rows.journal")
+    calls, real = [], module.timed
+
+    def sometimes(*arguments):
+        calls.append(1)
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return real(*arguments)
+
+    def never(tasks, jobs, done):
+        return [None for _ in tasks], True
+
+    monkeypatch.setattr(module, "timed", sometimes)
+    first = json.loads(cli(*arguments, "--jobs", "1")[1])
+    monkeypatch.setattr(module, "prepare", never)
+    code, out, err = cli(*arguments, "--jobs", "2")
+    assert code == 130 and "the rows that were done are shown" in err
+    assert json.loads(out)["rows"] == first["rows"] and len(first["rows"]) == 2
+    assert json.loads(out)["reference"] == first["reference"]
+
+
 SCRIPT = """\
 import signal, sys, time
 from symgen.cli import main

@@ -86,6 +86,7 @@ def test_an_interrupted_study_shows_what_is_done(cli, monkeypatch, tmp_path, fur
         ("stress --methods lagrang", "did you mean 'lagrange'?"),
         ("stress --jobs 0", "--jobs: expected a whole number from 1 to 4096, got 0"),
         ("stress --csv nowhere/cells.csv", "--csv: expected a file in a folder that exists"),
+        ("stress --csv cells.txt", "--csv: expected a file ending in .csv, got 'cells.txt'"),
         ("stress -o stress.pdf", "--output: expected"),
         ("stress --resume nowhere/journal", "expected a file in a folder that exists"),
         ("stress --resume README.md", "expected a journal of symgen, got something else in line 1"),

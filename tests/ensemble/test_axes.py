@@ -88,7 +88,9 @@ def test_a_grid_holds_every_combination_once_in_the_order_of_nested_loops():
         ({"a": [[1.0]]}, {}, r"a list of at least one number, got an array of shape \(1, 1\)"),
         ({"a": []}, {}, "a list of at least one number"),
         ({"a": [1.0, np.inf]}, {}, "a: expected finite numbers"),
-        ({"a": ["x"]}, {}, "a: expected numbers"),
+        ({"a": ["x"]}, {}, "a: expected numbers, got a list of 1"),
+        ({"a": [True, False]}, {}, "a: expected numbers, got a list of 2"),
+        ({"a": {1.0, 2.0}}, {}, "a: expected numbers, got a set of 2"),
         ({"a": "lin(0,1,100000)", "b": "lin(0,1,100000)"}, {}, r"at most 1e\+09 runs, got 1e\+10"),
     ],
 )

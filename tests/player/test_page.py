@@ -232,6 +232,24 @@ def test_a_large_mechanism_has_coarse_coordinates_before_it_loses_forces() -> No
     assert bare[1] and bare[0].reactions is None and bare[0].pushed == ()
 
 
+@pytest.mark.parametrize("at", [(-1.0, 0.0), (0.0, -1.0)])
+def test_a_gif_of_a_long_motion_lasts_as_long_as_it_can(tmp_path: Path, at: tuple[float, float]) -> None:
+    """Durations are 16 bits of hundredths of a second, and pictures that are alike, as of a rest, are joined."""
+    from PIL import Image
+
+    from symgen.player.moving import write_film
+    from symgen.result.viewed import recorded
+
+    start = {"bob.x": at[0], "bob.y": at[1]}
+    result = load("pendulum").simulate(until=2000.0, output_step=1000.0, step=0.05, start=start, max_energy_error=1e9)
+    with Image.open(write_film(tmp_path / "a.gif", recorded(result))) as film:
+        lasting = 0
+        for k in range(film.n_frames):
+            film.seek(k)
+            lasting += film.info["duration"]
+    assert len(result.t) == 3 and lasting == 655000
+
+
 def test_a_gif_has_pictures(tmp_path: Path) -> None:
     from PIL import Image
 

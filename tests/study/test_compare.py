@@ -3,6 +3,7 @@ import json
 
 import numpy as np
 import pytest
+from support.emitted import mechanism_of
 
 import symgen
 import symgen.methods
@@ -104,6 +105,41 @@ def test_what_is_wrong_is_refused_before_anything_runs(arguments, sentence, monk
     with pytest.raises(InputError) as caught:
         symgen.compare("four-bar", **arguments)
     assert sentence in str(caught.value)
+
+
+def test_an_integrator_told_to_keep_its_steps_runs_at_those_asked_for():
+    """Else each tolerance gave the same run with the mechanism's own step, and the steps counted for nothing."""
+    changes = {"options": {"integrator.adaptive": "False"}, "until": 0.2, "output_step": 0.04, "repeat": 1}
+    study = symgen.compare("pendulum", ["lagrange"], ["dopri5"], [0.04, 0.02], **changes)
+    assert [(row.step, row.rtol) for row in study.rows] == [(0.04, None), (0.02, None)]
+    assert study.rows[0].error > 10.0 * study.rows[1].error > 0.0
+
+
+def test_rows_warn_of_what_single_runs_warn_of():
+    from symgen.report.comparison import comparison
+
+    study = symgen.compare("pendulum", ["baumgarte", "lagrange"], ["euler"], [0.5, 0.1], until=1.0, repeat=1)
+    for row in study.rows:
+        single = symgen.simulate("pendulum", method=row.method, integrator="euler", step=row.step, until=1.0)
+        assert row.warnings == single.warnings
+    told = [row for row in study.rows if any("exceeds 0.4 s" in text for text in row.warnings)]
+    assert [(row.method, row.step) for row in told] == [("baumgarte", 0.5)] and not study.common_warnings
+    table = comparison([study]).sections[-1].parts[0].tables[0]
+    assert [note for note in table.notes if "exceeds 0.4 s" in note and note.startswith("baumgarte, euler, step 0.5 s")]
+
+
+def test_what_the_start_warns_of_is_in_every_row_and_said_once(capsys):
+    from symgen.cli._tables import show_study
+
+    rod = {"mass": 1.0, "inertia": 0.1, "position": [1.5, 0.0], "points": {"end": [-0.5, 0.0]}}
+    pin = {"type": "revolute", "between": ["ground", "rod"], "at": [[0.0, 0.0], "end"]}
+    model = symgen.load(mechanism_of({"mechanism": {"name": "swing"}, "bodies": {"rod": rod}, "joints": {"pin": pin}}))
+    study = symgen.compare(model, ["lagrange", "baumgarte"], ["rk4"], [1e-2], until=0.1, repeat=1)
+    said = model.simulate(method="lagrange", step=1e-2, until=0.1).warnings
+    assert len(said) == 1 and study.common_warnings == said
+    show_study(study)
+    text = " ".join(capsys.readouterr().out.split())
+    assert text.count(" ".join(said[0].split())) == 1 and "every run: " in text
 
 
 def test_an_interrupted_study_keeps_its_rows(monkeypatch):

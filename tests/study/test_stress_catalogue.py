@@ -84,6 +84,33 @@ def test_no_penalty_for_all_is_said():
     )
 
 
+def test_of_ties_the_first_is_told_as_one_of_several():
+    """Counted by hand: two models go best, two cases are hardest, two pairs share the largest step."""
+    rows = (
+        *(row(model, "lagrange", "ok", case=case) for model in MODELS[:2] for case in ("1", "2")),
+        *(row(model, "lagrange", "diverged", case=case) for model in MODELS[2:] for case in ("1", "2")),
+        *(penalty(model, a, "ok" if i else "diverged") for i, model in enumerate(MODELS[:2]) for a in (1e2, 1e4)),
+    )
+    limits = tuple(
+        Limit("model-0", "damping", "1e4 N s/m", method, "rk4", step, step, 1.0)
+        for method, step in (("lagrange", 0.1), ("ggl", 0.3), ("penalty", 0.3), ("null-space", 0.1))
+    )
+    found = findings(replace(STUDY, rows=rows, limits=limits))
+    text = " ".join(found)
+    assert (
+        "Of the models, model-1 went best, 4 of 4 cells accurate, and model-2 worst, 0 of 2, as did 1 other." in found
+    )
+    assert "hardest are 4 cases alike, the first of them 1 on model-2: 1 diverged." in text
+    assert "no factor suits all models; a = 100 suits 1 of 2, 1 other factor as often." in text
+    both = "Largest stable steps in damping, of 1 model: ggl with rk4 on 1 and penalty with rk4 on 1"
+    assert f"{both}, those with the same step each." in found
+    assert "from 0.1 s (lagrange with rk4 and 1 other pair) to 0.3 s (ggl with rk4 and 1 other pair)." in " ".join(
+        findings(replace(STUDY, models=MODELS[:1], rows=rows, limits=limits))
+    )
+    same = tuple(row(model, "lagrange", "ok") for model in MODELS)
+    assert "All 4 models went equally well: model-0 with 1 of 1 cells accurate." in findings(replace(STUDY, rows=same))
+
+
 def test_few_models_are_named_one_by_one():
     found = " ".join(findings(replace(STUDY, models=MODELS[:1])))
     assert "Largest steps on model-0" in found and "went best" not in found

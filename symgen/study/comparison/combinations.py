@@ -9,7 +9,7 @@ from symgen import arguments
 from symgen.errors import InputError
 from symgen.integrators import INTEGRATORS
 from symgen.methods import METHODS
-from symgen.settings import COORDINATES, Settings
+from symgen.settings import COORDINATES, Settings, told_constant
 
 #: Constant steps of a study are these multiples of the mechanism's own, unless steps are given.
 STEP_FACTORS = (4.0, 2.0, 1.0, 0.5)
@@ -76,7 +76,8 @@ class Combinations:
                     yield from self._steps(one, own)
 
     def _steps(self, common: Settings, own: float) -> Iterator[Settings]:
-        if INTEGRATORS.get(str(common.integrator), "--integrators").adaptive:
+        name = str(common.integrator)
+        if INTEGRATORS.get(name, "--integrators").adaptive and not told_constant(common.options, name):
             for rtol in self.rtols or RTOLS:
                 yield replace(common, rtol=rtol, atol=rtol * ATOL_SHARE)
         else:

@@ -160,6 +160,11 @@ class _Work:
     def total(self) -> float:
         return float(len(self.plans) + 1)
 
+    def recall(self) -> None:
+        """Take the reference that an earlier study has left, or why there is none."""
+        self.known = self.known or self.kept.reference(self.settings[0], self.times)
+        self.note = "" if self.known is not None else self.kept.why_none(self.settings[0])
+
     def study(self, rows: Sequence[Row], traces: Sequence[Trace], interrupted: bool) -> Study:
         base, known = self.settings[0], self.known
         return Study(
@@ -240,7 +245,7 @@ def compare_all(
         reached, interrupted = _prepare(works, jobs, report, total)
         total += reached
         if interrupted:
-            return [works[0].study((), (), True)]
+            return [_kept(works[0])]
     studies = []
     for work in works:
         prefix = f"{work.model.name}: " if len(works) > 1 else ""
@@ -297,8 +302,7 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     points = Points.of(work.model.mechanism, work.model.parameters(work.settings[0].parameters))
     interrupted = False
     try:
-        work.known = work.known or work.kept.reference(work.settings[0], work.times)
-        work.note = "" if work.known is not None else work.kept.why_none(work.settings[0])
+        work.recall()
         for i, (s, plan) in enumerate(zip(work.settings, work.plans, strict=True)):
             found = work.kept.row(s)
             if found is None:
@@ -326,6 +330,13 @@ def _run(work: _Work, say: Callable[[str, float], None]) -> Study:
     except KeyboardInterrupt:
         interrupted = True
     return work.study(rows, traces, interrupted)
+
+
+def _kept(work: _Work) -> Study:
+    """Return the rows that an earlier, interrupted study has left, as an interrupted study."""
+    work.recall()
+    found = [pair for pair in map(work.kept.row, work.settings) if pair is not None]
+    return work.study([row for row, _ in found], [trace for _, trace in found], True)
 
 
 def _find_reference(work: _Work, compiled: CompiledModel, start: Start, progress: Callable[[float], None]) -> None:

@@ -70,7 +70,7 @@ def measured(plan: Plan, runs: Timed, known: Reference | None, points: Points) -
         velocity_violation_final=_last(velocity),
         acceleration_violation_final=_last(accelerations),
         energy_drift_max=outcome.energy_drift_max,
-        warnings=verdict.warnings,
+        warnings=(*plan.warnings, *outcome.start.warnings, *verdict.warnings),
     )
     kinetic, potential = status[:, abi.KINETIC], status[:, abi.POTENTIAL]
     work = outcome.states[:, outcome.compiled.info.work]

@@ -243,6 +243,12 @@ class Study:
         return not any(row.ended for row in self.rows)
 
     @property
+    def common_warnings(self) -> tuple[str, ...]:
+        """Warnings that every row has, such as those of the start, to be said once."""
+        first = self.rows[0].warnings if self.rows else ()
+        return tuple(text for text in first if all(text in row.warnings for row in self.rows))
+
+    @property
     def ratio_spreads(self) -> tuple[float, float] | None:
         """Median and largest of what cost ratios may vary by, as fractions of them; None where there are none."""
         found = [r.cost_ratio_spread / r.cost_ratio for r in self.rows if r.cost_ratio_spread and r.cost_ratio]

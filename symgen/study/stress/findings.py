@@ -60,12 +60,19 @@ def _models(study: Stress) -> Iterator[str]:
     if len(study.models) <= FEW_MODELS:
         return
     shares = [(good / judged, model, good, judged) for model, good, judged in shares_of_models(study.rows) if judged]
-    if len(shares) > 1:
-        (_, best, *most), (_, worst, *least) = max(shares), min(shares)
-        yield (
-            f"Of the models, {best} went best, {most[0]} of {most[1]} cells accurate, and {worst} worst, "
-            f"{least[0]} of {least[1]}."
-        )
+    if len(shares) < 2:
+        return
+    best, worst = max(s[0] for s in shares), min(s[0] for s in shares)
+    if best == worst:
+        _, model, good, judged = shares[0]
+        yield f"All {len(shares)} models went equally well: {model} with {good} of {judged} cells accurate."
+        return
+    ends = []
+    for share, cells in ((best, " cells accurate"), (worst, "")):
+        (_, model, good, judged), *others = [s for s in shares if s[0] == share]
+        also = f", as did {_many(len(others), 'other')}" if others else ""
+        ends.append((model, f"{good} of {judged}{cells}{also}"))
+    yield f"Of the models, {ends[0][0]} went best, {ends[0][1]}, and {ends[1][0]} worst, {ends[1][1]}."
 
 
 def _toughest(study: Stress) -> Iterator[str]:
@@ -114,17 +121,18 @@ def _families(study: Stress) -> Iterator[str]:
 def _hardest(rows: Sequence[Row]) -> str:
     """Return which case spoils most runs, and how."""
     cases = dict.fromkeys((row.model, row.case) for row in rows)
-    worst, share = None, -1.0
+    shares = {}
     for case in cases:
         own = [row for row in rows if (row.model, row.case) == case]
-        bad = sum(row.outcome != GOOD for row in own) / len(own)
-        if bad > share:
-            worst, share = case, bad
-    assert worst is not None, "there are rows"
+        shares[case] = sum(row.outcome != GOOD for row in own) / len(own)
+    worst = max(shares, key=lambda case: shares[case])
+    alike = sum(share == shares[worst] for share in shares.values())
     own = [row for row in rows if (row.model, row.case) == worst]
     found = counts([row.outcome for row in own])
     parts = [f"{found[name]} {name}" for name in OUTCOMES if found[name]]
     where = f"{worst[1]} on {worst[0]}" if len({model for model, _ in cases}) > 1 else worst[1]
+    if alike > 1:
+        return f"hardest are {alike} cases alike, the first of them {where}: {_listed(parts)}"
     return f"hardest is {where}: {_listed(parts)}"
 
 
@@ -212,12 +220,14 @@ def _penalties_of_many(rows: Sequence[Row], models: int) -> Iterator[str]:
             yield f"Penalty of {_line(line)}: accurate on all models{of} for a = {a}."
         else:
             best = max(factors, key=lambda a: good[a] / tried[a])
-            suits = f"a = {best:g} suits {good[best]} of {tried[best]}"
+            alike = sum(good[a] / tried[a] == good[best] / tried[best] for a in factors) - 1
+            also = f", {_many(alike, 'other factor')} as often" if alike else ""
+            suits = f"a = {best:g} suits {good[best]} of {tried[best]}{also}"
             yield f"Penalty of {_line(line)}: no factor suits all models; {suits}."
 
 
 def _steps(study: Stress) -> Iterator[str]:
-    largest: dict[str, list[tuple[str, str]]] = {}
+    largest: dict[str, list[tuple[str, list[tuple[str, str]]]]] = {}
     for model, family, case in dict.fromkeys((x.model, x.family, x.case) for x in study.limits):
         own = [x for x in study.limits if (x.model, x.family, x.case) == (model, family, case)]
         stable = [x for x in own if x.stable_step is not None]
@@ -228,22 +238,31 @@ def _steps(study: Stress) -> Iterator[str]:
             return limit.stable_step or 0.0
 
         most, least = max(stable, key=step), min(stable, key=step)
-        largest.setdefault(family, []).append((most.method, most.integrator))
+        tied = [(x.method, x.integrator) for x in stable if step(x) == step(most)]
+        largest.setdefault(family, []).append((model, tied))
         if len(study.models) <= FEW_MODELS:
-            span = (
-                f"from {step(least):.3g} s ({_line((least.method, least.integrator))}) to {step(most):.3g} s "
-                f"({_line((most.method, most.integrator))})"
-            )
+            ends = [[x for x in stable if step(x) == step(end)] for end in (least, most)]
+            span = "from " + " to ".join(f"{step(alike[0]):.3g} s ({_first_of(alike)})" for alike in ends)
             if step(least) == step(most):
                 span = f"{step(most):.3g} s with each of {len(stable)} pairs"
             none = len(own) - len(stable)
             without = f"; none was found with {_many(none, 'pair')}" if none else ""
             yield f"Largest steps on {model}, {family} {case}: {span}{without}."
     if len(study.models) > FEW_MODELS:
-        for family, lines in largest.items():
+        for family, winners in largest.items():
+            lines = [line for _, tied in winners for line in tied]
             order = sorted(dict.fromkeys(lines), key=lambda line: -lines.count(line))
             parts = [f"{_line(line)} on {lines.count(line)}" for line in order]
-            yield f"Largest stable steps in {family}, of {_many(len(lines), 'model')}: {_listed(parts)}."
+            shared = ", those with the same step each" if len(lines) > len(winners) else ""
+            single = len({model for model, _ in winners}) == len(winners)
+            of = _many(len(winners), "model" if single else "case")
+            yield f"Largest stable steps in {family}, of {of}: {_listed(parts)}{shared}."
+
+
+def _first_of(limits: Sequence[Limit]) -> str:
+    """Return the pair of the first of some limits, and how many others have the same."""
+    others = f" and {_many(len(limits) - 1, 'other pair')}" if len(limits) > 1 else ""
+    return _line((limits[0].method, limits[0].integrator)) + others
 
 
 # -- can a status be trusted? ------------------------------------------------------------------------------------------
