@@ -1,8 +1,8 @@
 """Where forces have no derivative: kinks, jumps, and roots that rise without bound, at the state that is looked at.
 
-Derivatives are those of one side of a kink there, and 0 at a jump or at the end of a root (`symgen.ir.derivative`):
-right for what touches or rests on one side, and not for all that a mechanism does near the state. Differences tell:
-what is left of them beyond the derivative falls with the step for a smooth force, and does not otherwise.
+Derivatives are those of one side of a kink there, 0 at a jump, and 0 or a huge number at the end of a root: right for
+what touches or rests on one side, and not for all that a mechanism does near the state. Differences tell: what is left
+of them beyond the derivative falls with the step for a smooth force, and does not otherwise.
 """
 
 from __future__ import annotations
@@ -19,6 +19,8 @@ STEPS = (1e-4, 1e-6)
 #: What is left, over the step, grows from the larger to the smaller one by their ratio to the power 1 - p where a force
 #: goes with the power p: hundredfold at a jump, tenfold at a square root, not at a kink; a tenth is left of p = 1.5.
 KINK, ROOT, JUMP = 0.5, 2.0, 50.0
+#: Slopes above that are those of roots at 0 (`symgen.vocabulary.functions.steepest`).
+STEEP = 1e80
 #: What is left that is below this part of a force, and of what its slopes say of 1 m or 1 rad, is rounding.
 ROUNDED = 1e-11
 
@@ -63,9 +65,10 @@ def edges(subject: Subject, y: Array, t: float | None = None) -> tuple[str, ...]
                 continue
             k = int(np.argmax(np.where(counts, near / np.maximum(far, 1e-300), 0.0)))
             name, growth = subject.compiled.info.velocities[k].name, near[k] / max(far[k], 1e-300)
-            if growth > ROOT:
-                how = "jumps" if growth > JUMP else "rises without bound"
-                said = f"{how} with {what}, and counts as one that does not change"
+            steep = np.abs(slope[k]).max(initial=0.0) > STEEP
+            if growth > ROOT or steep:
+                how = "jumps" if growth > JUMP and not steep else "rises without bound"
+                said = f"{how} with {what}, which its derivative does not tell"
             else:
                 said = f"has a kink where {what} change, and counts with its slope on one side"
             found.append(f"at this state the force along {name} {said}")

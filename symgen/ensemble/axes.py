@@ -208,8 +208,8 @@ def _values(name: str, given: ArrayLike | str) -> Array:
         return parse(given, name)
     try:
         plain = np.asarray(given)
-        if plain.dtype == np.bool_:
-            raise TypeError("truth values are no numbers")
+        if plain.dtype.kind in "bc":
+            raise TypeError("truth values and complex numbers are no values")
         found = np.array(plain, dtype=np.float64)
     except (TypeError, ValueError):
         raise InputError(name, "numbers", shown(given)) from None

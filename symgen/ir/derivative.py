@@ -32,7 +32,7 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Iterable[Key]) -> lis
     -----
     At a kink of ``abs``, ``min``, ``max`` or ``sign`` the derivative is that of one side; the slope of straight
     lines is that of the one below the argument. Where a root, a power, ``asin`` or ``acos`` rises without bound it
-    counts as 0, as does that of ``atan2`` where it has none: it meets arguments that do not change there.
+    is a large number, of which nothing is left where it meets arguments that do not change there.
     """
     wanted = set(inputs)
     derivative: dict[int, Mapping[Key, int]] = {}
@@ -93,7 +93,7 @@ def _partials(g: Graph, node: int, op: str, args: tuple[int, ...], payload: str)
     if op == "pow":
         return _power(g, node, a, b)
     if op == "atan2":
-        square = steepest(g, g.add(g.mul(a, a), g.mul(b, b)))
+        square = steepest(g, g.add(g.mul(a, a), g.mul(b, b)), 1e-200)
         return g.div(b, square), g.neg(g.div(a, square))
     if op == "table":
         straight = payload.endswith("'") and not payload.startswith(SMOOTH)
@@ -112,7 +112,5 @@ def _power(g: Graph, node: int, a: int, b: int) -> tuple[int, int]:
         if 0.0 < exponent < 1.0:
             return g.div(b, steepest(g, g.power(a, g.constant(1.0 - exponent)))), g.zero
         return g.mul(b, g.power(a, g.sub(b, one))), g.zero
-    nothing = g.call("le", g.call("abs", a), g.zero)
-    below = g.call("and", nothing, g.call("lt", b, one))
-    slope = g.call("where", below, g.zero, g.mul(b, g.power(g.call("where", below, one, a), g.sub(b, one))))
-    return slope, g.mul(node, g.call("log", g.call("where", nothing, one, a)))
+    base = steepest(g, a)
+    return g.mul(b, g.power(base, g.sub(b, one))), g.mul(node, g.call("log", base))

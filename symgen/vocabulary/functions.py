@@ -6,7 +6,6 @@ Each has the same name here, in files, in `math`, NumPy and SymPy.
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -32,29 +31,31 @@ class Elementary:
     everywhere: bool = True
 
 
-#: What a slope is divided by where it would be by 0: so large that what is left is nothing.
-_HUGE = sys.float_info.max
+#: Added to what slopes are divided by, so that it is never 0: lost beside any root that differs from 0, and so large
+#: that slopes of slopes are finite numbers.
+_NEVER_NOTHING = 1e-100
 
 
-def steepest(g: Any, a: int) -> int:
+def steepest(g: Any, a: int, part: float = _NEVER_NOTHING) -> int:
     """Return what a slope that is without bound at the end of a function's range is divided by: a, and never 0.
 
-    There the slope counts as 0. What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at
-    rest, or what is pressed together where nothing touches. By infinity such a 0 would make what is no number.
+    What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at rest, or what is pressed together
+    where nothing touches. Infinity times such a 0 would be no number.
     """
-    found: int = g.call("where", g.call("le", a, g.zero), g.constant(_HUGE), a)
+    found: int = g.add(a, g.constant(part))
     return found
 
 
 def _cosine(g: Any, a: int) -> int:
-    """Return sqrt(1 - a^2), and never 0."""
-    return steepest(g, g.call("sqrt", g.sub(g.one, g.mul(a, a))))
+    """Return sqrt(1 - a^2), and never 0: as large as rounding of a may make it."""
+    found: int = g.call("sqrt", steepest(g, g.sub(g.one, g.mul(a, a)), 1e-16))
+    return found
 
 
 def _between(g: Any, a: int) -> int:
     """Return sqrt(a - 1) sqrt(a + 1), never 0: undefined below -1, as the function is, and exact near 1."""
-    roots = g.call("sqrt", g.sub(a, g.one)), g.call("sqrt", g.add(a, g.one))
-    return steepest(g, g.mul(*roots))
+    found: int = g.mul(g.call("sqrt", steepest(g, g.sub(a, g.one), 1e-32)), g.call("sqrt", g.add(a, g.one)))
+    return found
 
 
 ELEMENTARY: Mapping[str, Elementary] = {

@@ -24,11 +24,12 @@ def sliding(force, velocity=0.0):
     )
 
 
-#: A force, and its slope by the velocity of the mass, as floating-point numbers have it.
+#: A force, and its slope by the velocity of the mass, as floating-point numbers have it; roots rise by a number that is
+#: as good as no bound, of which nothing is left where what they are taken of does not change.
 SLOPES = (
-    ("-sqrt(abs(mass.vx))", 0.0, math.nan),
+    ("-sqrt(abs(mass.vx))", 0.0, 0.0),
     ("-sqrt(mass.vx)", -1.0, math.nan),
-    ("-sqrt(mass.vx)", 0.0, -math.inf),
+    ("-sqrt(mass.vx)", 0.0, -5e99),
     ("-log(mass.vx)", 0.0, -math.inf),
     ("-exp(mass.vx)", 1e4, -math.inf),
     ("-sqrt(mass.vx)", 4.0, -0.25),
