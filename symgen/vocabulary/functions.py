@@ -39,8 +39,8 @@ _NEVER_NOTHING = 1e-100
 def steepest(g: Any, a: int, part: float = _NEVER_NOTHING) -> int:
     """Return what a slope that is without bound at the end of a function's range is divided by: a, and never 0.
 
-    What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at rest, or what is pressed together
-    where nothing touches. Infinity times such a 0 would be no number.
+    What the argument is made of hardly ever changes it there: the root of v^2 + w^2 at rest, or what is pressed
+    together where nothing touches. Infinity times such a 0 would be no number.
     """
     found: int = g.add(a, g.constant(part))
     return found
