@@ -12,7 +12,10 @@ from symgen.ir.program import Block, Layout, Target, of_table
 from symgen.vocabulary.functions import ELEMENTARY
 
 _BINARY = {"add": ("+", 1), "sub": ("-", 1), "mul": ("*", 2), "div": ("/", 2), "pow": ("**", 4)}
-_COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">=", "and": "&", "or": "|"}
+_COMPARE = {"lt": "<", "le": "<=", "gt": ">", "ge": ">="}
+_LOGIC = {"and": "&", "or": "|"}
+#: Operations that give a truth value; others, and those that are computed once a run and kept, are numbers.
+_TRUTH = frozenset((*_COMPARE, *_LOGIC, "not", "defined"))
 #: Operations that give an integer where all they have are integers.
 _WHOLE = frozenset("add sub mul neg abs min max where".split())
 _MATH = frozenset((*ELEMENTARY, "atan2", "floor"))
@@ -170,6 +173,8 @@ class Printer:
         texts = [self.text[a][0] for a in args]
         if op in _COMPARE:
             return f"({self.wrapped(args[0], 1)} {_COMPARE[op]} {self.wrapped(args[1], 1)})", 5
+        if op in _LOGIC:
+            return f"({self.truth(args[0])} {_LOGIC[op]} {self.truth(args[1])})", 5
         if op in _MATH:
             name = self.access.function(op)
             self.functions.add(name)
@@ -200,6 +205,11 @@ class Printer:
         op, args, _ = self.graph.nodes[node]
         values = args[1:] if op == "where" else args
         return op == "floor" or (op in _WHOLE and all(map(self.is_whole, values)))
+
+    def truth(self, node: int) -> str:
+        """Return the text of a truth value."""
+        text = self.wrapped(node, 1)
+        return text if self.graph.nodes[node].op in _TRUTH else f"({text} != 0.0)"
 
     def wrapped(self, node: int, level: int) -> str:
         """Return a node's text, in parentheses where it binds weaker than `level`."""

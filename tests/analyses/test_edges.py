@@ -7,6 +7,7 @@ import json
 import pytest
 
 import symgen
+from symgen.api import Model
 from symgen.cli import main
 from symgen.describe.builder import MechanismBuilder
 
@@ -30,7 +31,7 @@ CASES = {
 
 @pytest.fixture(scope="module")
 def held():
-    def model(force: str) -> symgen.api.Model:
+    def model(force: str) -> Model:
         built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
         return symgen.load(built.force("f", "force", body="a", force=["-2*a.x", force]).build())
 
