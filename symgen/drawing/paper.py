@@ -12,7 +12,7 @@ from symgen.drawing.scene import INK, PAPER, Array, Dot, Item, Line, Look, Mark,
 
 @dataclass(frozen=True)
 class View:
-    """From where a scene in space is seen: turned about the vertical, then tilted [rad]."""
+    """From where a scene in space is seen: turned about the vertical, and from so far above the horizontal [rad]."""
 
     turn: float = 0.6
     tilt: float = 0.42
@@ -98,7 +98,7 @@ def axes(scene: Scene, view: View) -> Array:
     depth = np.cross(right, up)
     side = np.cos(view.turn) * right + np.sin(view.turn) * depth
     forward = -np.sin(view.turn) * right + np.cos(view.turn) * depth
-    upward = np.cos(view.tilt) * up + np.sin(view.tilt) * forward
+    upward = np.cos(view.tilt) * up - np.sin(view.tilt) * forward  # forward is towards the eye: what is near sinks
     return np.stack([side, upward, np.cross(side, upward)])
 
 

@@ -110,22 +110,38 @@ def test_without_webgl_a_canvas_draws_what_is_in_space(
     assert chromium.said == []
 
 
-def test_near_bars_hide_far_ones_from_either_side(chromium: Chromium, tmp_path: Path) -> None:
-    """Two bars that cross, seen from before and from behind: the colour in the middle is that of the nearer one."""
+@pytest.mark.parametrize(
+    ("along", "apart", "looks"),
+    [
+        # from where y is negative, and from behind
+        ((0.0, 0.0, 1.0), (0.0, -0.3, 0.0), ((0.5 * math.pi, 0.0), (-0.5 * math.pi, 0.0))),
+        # from above, and from below
+        ((0.0, 1.0, 0.0), (0.0, 0.0, 0.3), ((0.2, 1.57), (0.2, -1.57))),
+    ],
+)
+def test_near_bars_hide_far_ones_from_either_side(
+    along: tuple[float, ...],
+    apart: tuple[float, ...],
+    looks: tuple[tuple[float, float], ...],
+    chromium: Chromium,
+    tmp_path: Path,
+) -> None:
+    """Two bars that cross, seen from either side: the colour in the middle is that of the nearer one."""
     from symgen.player.page import page
     from symgen.player.recording import Recording
 
     crossed = MechanismBuilder("crossed", space="spatial", gravity=(0.0, 0.0, 0.0))
-    for name, reach in (("a", (1.0, 0.0, 0.0)), ("b", (0.0, 0.0, 1.0))):
+    for name, reach in (("a", (1.0, 0.0, 0.0)), ("b", along)):
         ends = {"p": tuple(-x for x in reach), "q": reach}
         crossed.body(name, mass=1.0, inertia=(0.1, 0.1, 0.1), points=ends)
         crossed.joint(f"of_{name}", "spherical", between=("ground", name), at=(ends["p"], "p"))
-    q = np.array([[0.3, -0.3, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.4, 1.0, 0.0, 0.0, 0.0]])
+    aside, upright = np.array([0.3, 0.0, 0.0]), [1.0, 0.0, 0.0, 0.0]
+    q = np.array([[*(aside + apart), *upright, *(0.4 * np.array(along) - apart), *upright]])
     path = tmp_path / "crossed.html"
     path.write_text(page(Recording(crossed.build(), {}, np.zeros(1), q)))
     chromium.open(path)
     middle = """(() => {
-      window.symgen.look(%r, 0, [0, 0, 0]);
+      window.symgen.look(%r, %r, [0, 0, 0]);
       window.symgen.frame(0);
       const solid = document.getElementById('solid'), c = document.createElement('canvas');
       Object.assign(c, { width: solid.width, height: solid.height });
@@ -133,10 +149,10 @@ def test_near_bars_hide_far_ones_from_either_side(chromium: Chromium, tmp_path: 
       context.drawImage(solid, 0, 0);
       return [...context.getImageData(c.width >> 1, c.height >> 1, 1, 1).data];
     })()"""
-    red, _, blue, _ = chromium.run(middle % (0.5 * math.pi))  # from where y is negative: the first body, in blue
-    assert blue > red + 50
-    red, _, blue, _ = chromium.run(middle % (-0.5 * math.pi))  # from behind: the second one, in orange
-    assert red > blue + 50
+    red, _, blue, _ = chromium.run(middle % looks[0])
+    assert blue > red + 50  # the first body
+    red, _, blue, _ = chromium.run(middle % looks[1])
+    assert red > blue + 50  # the second one, in orange
 
 
 def test_sines_of_a_page_are_within_half_a_last_bit(chromium: Chromium) -> None:

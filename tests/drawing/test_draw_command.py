@@ -211,3 +211,33 @@ def test_space_is_seen_by_an_orthogonal_frame() -> None:
     assert eye @ eye.T == pytest.approx(np.eye(3), abs=1e-15)
     assert np.linalg.det(eye) == pytest.approx(1.0)
     assert Poses(scene.frames, [0.0] * 3 + [1.0, 0.0, 0.0, 0.0], True).turns[0] == pytest.approx(np.eye(3))
+
+
+@pytest.mark.parametrize(("turn", "tilt"), [(0.0, 0.0), (0.0, 30.0), (40.0, 15.0), (200.0, -25.0), (-70.0, 85.0)])
+def test_space_is_seen_from_above_by_the_tilt(turn: float, tilt: float, tmp_path: Path) -> None:
+    """Pictures were taken from below: against an eye that is placed by its direction, x ahead of it and z up at 0,0."""
+    places = {"a": (1.0, 0.0, 0.0), "b": (-1.0, 0.2, 0.1), "c": (0.0, 0.9, 0.0), "d": (0.1, -0.6, 0.8)}
+    bodies = "".join(
+        f"[bodies.{name}]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\nposition = {list(place)}\n"
+        for name, place in places.items()
+    )
+    file, picture = tmp_path / "apart.toml", tmp_path / "apart.svg"
+    file.write_text('[mechanism]\nname = "apart"\nspace = "spatial"\ngravity = [0.0, 0.0, -9.81]\n' + bodies)
+    assert main(["draw", str(file), "-o", str(picture), f"--view={turn},{tilt}"]) == 0
+    round_it, above = np.radians([turn, tilt])
+    # what is turned by an angle is seen as from an eye that went round it the other way
+    eye = np.array([np.cos(above) * np.cos(round_it), -np.cos(above) * np.sin(round_it), np.sin(above)])
+    right = np.cross([0.0, 0.0, 1.0], eye) / np.cos(above)
+    seen = np.array(list(places.values())) @ np.stack([right, np.cross(eye, right)]).T
+    groups = [g for g in ET.parse(picture).getroot() if g.attrib.get("class") == "body"]
+    centres = {
+        g.attrib["data-name"]: [float(c.attrib[k]) for k in ("cx", "cy")]
+        for g in groups
+        for c in g
+        if c.tag.endswith("circle")
+    }
+    drawn = np.array([centres[name] for name in places]) * [1.0, -1.0]
+    seen, drawn = seen - seen[0], drawn - drawn[0]
+    scale = np.sum(seen * drawn) / np.sum(seen**2)
+    assert scale > 0.0
+    assert drawn == pytest.approx(scale * seen, abs=0.25)  # places are written to a tenth of a pixel

@@ -99,7 +99,7 @@ function makeScene(canvas, scene, solid = null) {
     const { turn, tilt } = camera;
     const side = right.map((x, i) => Math.cos(turn) * x + Math.sin(turn) * depth[i]);
     const forward = right.map((x, i) => -Math.sin(turn) * x + Math.cos(turn) * depth[i]);
-    const upward = [a, b, c].map((x, i) => Math.cos(tilt) * x + Math.sin(tilt) * forward[i]);
+    const upward = [a, b, c].map((x, i) => Math.cos(tilt) * x - Math.sin(tilt) * forward[i]); // what is near sinks
     eye.set([...side, ...upward, ...cross(side, upward)]);
   }
 
