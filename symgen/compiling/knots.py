@@ -1,4 +1,4 @@
-"""Points of tables that a run reads over the state, and kinks of what it adds up, as a function that gives way and rates of their arguments."""
+"""Points of tables that a run reads over the state, and kinks of what it adds up: a function of their arguments."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
 
 
 def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None:
-    """Return where steps of a run should end for its tables and integrals, None where none has a kink over the state."""
+    """Return where steps of a run should end for its tables and integrals, None where it has no such kink."""
     found = knots_of(mechanism)
     if not found:
         return None
