@@ -1,4 +1,4 @@
-"""Points of tables that a run reads over the state, as a function that gives way and rates of their arguments."""
+"""Points of tables that a run reads over the state, and kinks of what it adds up: a function of their arguments."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ _JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
 
 
 def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None:
-    """Return where steps of a run should end for its tables, None where none is read over the state."""
+    """Return where steps of a run should end for its tables and integrals, None where it has no such kink."""
     found = knots_of(mechanism)
     if not found:
         return None
     formulas = [(to_text(argument), argument) for argument, _ in found]
-    side = compile_side(mechanism, compiled, "knots", "Arguments of tables", formulas, 2)
+    side = compile_side(mechanism, compiled, "knots", "Arguments of tables, abs, min and max", formulas, 2)
     tables = [table for _, table in found]
     return Knots(
         function=side.plain,
-        levels=tuple(table.x for table in tables),
-        periods=tuple(table.x[-1] - table.x[0] if table.periodic else 0.0 for table in tables),
-        orders=tuple(_JUMPS[table.interpolation] for table in tables),
+        levels=tuple((0.0,) if table is None else table.x for table in tables),
+        periods=tuple(0.0 if table is None or not table.periodic else table.x[-1] - table.x[0] for table in tables),
+        orders=tuple(1 if table is None else _JUMPS[table.interpolation] for table in tables),
     )

@@ -68,24 +68,37 @@ def _in_time(mechanism: Mechanism, words: Iterable[bytes], jump_of: Callable[[Ca
     return tuple(found)
 
 
-def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table], ...]:
-    """Return the tables of joints and forces that are read over the state, each behind its argument.
+def knots_of(mechanism: Mechanism) -> tuple[tuple[Expr, Table | None], ...]:
+    """Return what passes points with kinks as the state does, each argument before its table.
 
-    Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read of their measures.
+    Those are tables of joints, forces and integrals that are read over the state, and, without a table, what `abs`,
+    `min` and `max` in integrals compare with zero: an integrand acts on nothing, so that a dip of it between two
+    evaluations is seen by no other error. Arguments are formulas of a run: what forces call ``s`` and ``rate`` is read
+    of their measures.
     """
-    if not mechanism.tables or b"table:" not in msgspec.msgpack.encode((mechanism.joints, mechanism.forces)):
-        return ()
+    acting, added = (mechanism.joints, mechanism.forces), tuple(integral.of for integral in integrals(mechanism))
     tables = {table.name: table for table in mechanism.tables}
     plain = {p.name for p in mechanism.parameters} | {"t"}
-    found = dict[tuple[Expr, Table], None]()
-    for e, effort in _calls(mechanism.joints, mechanism.forces):
-        table = tables.get(table_of(e.function) or "")
-        if table is None or len(table.x) > MOST_KNOTS:
-            continue
-        argument = e.arguments[0] if effort is None else _of_a_run(e.arguments[0], effort)
-        if any(readings(argument)) or not set(names(argument)) <= plain:
-            found[argument, table] = None
+    found = dict[tuple[Expr, Table | None], None]()
+    if tables and b"table:" in msgspec.msgpack.encode((acting, added)):
+        for e, effort in _calls(acting, added):
+            table = tables.get(table_of(e.function) or "")
+            if table is None or len(table.x) > MOST_KNOTS:
+                continue
+            argument = e.arguments[0] if effort is None else _of_a_run(e.arguments[0], effort)
+            if _is_of_state(argument, plain):
+                found[argument, table] = None
+    for e, _ in _calls(added):
+        if e.function in ("abs", "min", "max"):
+            argument = e.arguments[0] if e.function == "abs" else call("sub", *e.arguments)
+            if _is_of_state(argument, plain):
+                found[argument, None] = None
     return tuple(found)
+
+
+def _is_of_state(argument: Expr, plain: set[str]) -> bool:
+    """Return whether a formula reads more than the time and parameters."""
+    return any(readings(argument)) or not set(names(argument)) <= plain
 
 
 def _of_a_run(e: Expr, effort: Effort) -> Expr:

@@ -240,7 +240,9 @@ def make_ensemble(
     knots = target == "cpu" and stops(mechanism, plan)
     parts = bool(events) or driving.jumps or knots  # what Python does something between
     singly = Singly(mechanism, events, ends, knots) if parts or joint else None
-    made = Made(mechanism, compiled, plan, joint or integral is not None, kept if singly is None else ())
+    # single runs add up all that outputs ask for, which their steps follow, too
+    adds = singly is not None or integral is not None
+    made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),
         integrator=plan.tableau.name,

@@ -212,7 +212,7 @@ def test_what_is_not_finite_and_what_stands_still_is_left_alone() -> None:
 
 def test_tables_over_the_state_are_those_of_two_machines() -> None:
     entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
-    found = {entry.name for entry in entries if knots_of(symgen.load(entry.name).mechanism)}
+    found = {entry.name for entry in entries if any(table for _, table in knots_of(symgen.load(entry.name).mechanism))}
     assert found == {"engine", "wiper"}
 
 
@@ -267,3 +267,47 @@ def test_the_engine_keeps_to_an_equation_of_its_crank_alone() -> None:
         # a time that is off is an angle that is off by speed times that
         worst = max(np.abs((t - times) * omega / theta[-1]).max(), np.abs(speed / omega - 1.0).max())
         assert worst < most * rtol, (integrator, rtol, worst / rtol)
+
+
+DIP = """[mechanism]
+name = "dip"
+gravity = [-0.4, 0.0]
+[bodies.bob]
+type = "point"
+mass = 2.0
+position = [0.0, 0.0]
+velocity = [1.0, 0.0]
+[outputs]
+other = "integral(bob.x)"
+narrow = "integral(max(0, 0.004 - abs(bob.x - place)))"
+[parameters]
+place = 0.5
+"""
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "dopri5"])
+def test_narrow_parts_of_integrands_are_not_stepped_over(tmp_path: Path, integrator: str) -> None:
+    """They lay between two evaluations of a step: nothing was added up, and the run was `ok`."""
+    file = tmp_path / "dip.toml"
+    file.write_text(DIP, encoding="utf-8")
+    t = np.linspace(0.0, 1.0, 1_000_001)
+    for place in (0.3, 0.5, 0.7):
+        dip = np.maximum(0.0, 0.004 - np.abs(t - 0.2 * t**2 - place))
+        result = symgen.load(file).simulate(
+            method="lagrange", integrator=integrator, rtol=1e-8, until=1.0, times=[1.0], parameters={"place": place}
+        )
+        assert result.status == "ok", result.reason
+        assert abs(result["narrow"][-1] - float(np.sum(dip)) * 1e-6) < 1e-8
+
+
+def test_rows_done_one_by_one_take_the_steps_of_integrals_nobody_asks_for(tmp_path: Path) -> None:
+    """Single runs add up what all outputs ask for, and their steps follow it; rows that are them left it out."""
+    file = tmp_path / "dip.toml"
+    # without kinks it is the event that makes rows single runs; integrands that are steep shorten steps
+    text = DIP.replace("max(0, 0.004 - abs(bob.x - place))", "1/(1e-3 + (bob.x - place)**2)")
+    file.write_text(text.replace("-0.4, 0.0]", "-0.4, -9.81]"), encoding="utf-8")
+    model, settings = symgen.load(file), {"integrator": "dopri5", "rtol": 1e-6, "until": 1.0, "method": "lagrange"}
+    found = sweep(model, {"place": [0.3, 0.6]}, quantities=["bob.x"], record_when="bob.x > 0.4", **settings)
+    for k, place in enumerate((0.3, 0.6)):
+        single = model.simulate(parameters={"place": place}, record_when="bob.x > 0.4", **settings)
+        assert found["steps"][k] == single.steps
