@@ -24,6 +24,11 @@ from symgen.store.entries import Entries
 from symgen.store.modules import interpreted, load_module
 
 
+def can_integrate(compiled: CompiledModel) -> bool:
+    """Whether states of a compiled model can hold what outputs integrate: those of methods with momenta cannot."""
+    return not hasattr(compiled.law_module, "rates")
+
+
 def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledModel:
     """Return a compiled model whose state holds what outputs integrate; as it is where they integrate nothing.
 
@@ -35,7 +40,7 @@ def with_integrals(mechanism: Mechanism, compiled: CompiledModel) -> CompiledMod
     found, info, law = integrals(mechanism), compiled.info, compiled.law_module
     if not found:
         return compiled
-    if hasattr(law, "rates"):
+    if not can_integrate(compiled):
         expected = "a method that integrates velocities, as an output is an integral"
         raise InputError(f"method '{compiled.law.method}'", expected, "one that integrates momenta")
     auxiliary = compiled.law.nw, 1 + len(found)

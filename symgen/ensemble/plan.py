@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import ArrayLike
 
 from symgen.compiling.choose_shape import LARGEST_STRAIGHT
+from symgen.compiling.integrals import can_integrate
 from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
@@ -241,7 +242,7 @@ def make_ensemble(
     parts = bool(events) or driving.jumps or knots  # what Python does something between
     singly = Singly(mechanism, events, ends, knots) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
-    adds = singly is not None or integral is not None
+    adds = integral is not None or (singly is not None and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())
     recipe = Recipe(
         **made.codes(target, joint, not parts and are_plain(kept, compiled.info)),

@@ -311,3 +311,12 @@ def test_rows_done_one_by_one_take_the_steps_of_integrals_nobody_asks_for(tmp_pa
     for k, place in enumerate((0.3, 0.6)):
         single = model.simulate(parameters={"place": place}, record_when="bob.x > 0.4", **settings)
         assert found["steps"][k] == single.steps
+
+
+def test_methods_with_momenta_run_rows_without_integrals_nobody_asks_for(tmp_path: Path) -> None:
+    """They hold no integrals; a sweep that wants none of them is right without."""
+    file = tmp_path / "dip.toml"
+    file.write_text(DIP, encoding="utf-8")
+    settings = {"integrator": "dop853", "until": 0.1, "method": "augmented-hamiltonian"}
+    found = sweep(symgen.load(file), {"place": [0.3, 0.6]}, quantities=["bob.x"], **settings)
+    assert list(found.status) == ["ok", "ok"]
