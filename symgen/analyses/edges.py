@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.subject import Subject
+from symgen.compiling.linearised import Evaluated
 
 Array = NDArray[np.float64]
 
@@ -25,7 +26,7 @@ STEEP = 1e80
 ROUNDED = 1e-11
 
 
-def edges(subject: Subject, y: Array, t: float | None = None) -> tuple[str, ...]:
+def edges(subject: Subject, y: Array) -> tuple[str, ...]:
     """Return sentences about forces that have no derivative at a state.
 
     Parameters
@@ -34,43 +35,46 @@ def edges(subject: Subject, y: Array, t: float | None = None) -> tuple[str, ...]
         The mechanism.
     y : Array
         The state.
-    t : float, optional
-        Time [s]; that of the start by default.
 
     Returns
     -------
     tuple of str
         One for positions and one for velocities, each with the coordinate that most is left along.
     """
-    base = subject.evaluated(y, t=t)
-    motion, force, spans = base.by("motion", "v"), base.value("balance"), subject.spans
-    found = list[str]()
-    for what, slope in (("positions", base.by("balance", "q") @ motion), ("velocities", base.by("balance", "v"))):
-        limit = ROUNDED * (np.abs(force).max(initial=0.0) + np.abs(slope) @ spans)
-        for side in (1.0, -1.0):
-            left = []
-            for step in STEPS:
-                # no two coordinates by the same amount, so that distances between them change as well
-                change = side * step * spans * np.linspace(1.0, 0.5, len(spans))
-                there = y.copy()
-                if what == "velocities":
-                    there[subject.nq : subject.nq + subject.nv] += change
-                else:
-                    there = subject.moved(y, motion @ change)
-                rest = subject.evaluated(there, t=t).value("balance") - force - slope @ change
-                left.append(np.abs(rest) / step)
-            far, near = left
-            counts = (near * STEPS[1] > limit) & (near > KINK * far)
-            if not np.any(counts):
-                continue
-            k = int(np.argmax(np.where(counts, near / np.maximum(far, 1e-300), 0.0)))
-            name, growth = subject.compiled.info.velocities[k].name, near[k] / max(far[k], 1e-300)
-            steep = np.abs(slope[k]).max(initial=0.0) > STEEP
-            if growth > ROOT or steep:
-                how = "jumps" if growth > JUMP and not steep else "rises without bound"
-                said = f"{how} with {what}, which its derivative does not tell"
-            else:
-                said = f"has a kink where {what} change, and counts with its slope on one side"
-            found.append(f"at this state the force along {name} {said}")
-            break
-    return tuple(found)
+    base = subject.evaluated(y)
+    slopes = {"positions": base.by("balance", "q") @ base.by("motion", "v"), "velocities": base.by("balance", "v")}
+    told = (_told(subject, y, base, what, slope) for what, slope in slopes.items())
+    return tuple(sentence for sentence in told if sentence)
+
+
+def _told(subject: Subject, y: Array, base: Evaluated, what: str, slope: Array) -> str:
+    """Return what is to be said where positions or velocities change, nothing where forces are smooth."""
+    limit = ROUNDED * (np.abs(base.value("balance")).max(initial=0.0) + np.abs(slope) @ subject.spans)
+    for side in (1.0, -1.0):
+        far, near = (_left(subject, y, base, what, slope, side * step) for step in STEPS)
+        counts = (near * STEPS[1] > limit) & (near > KINK * far)
+        if not np.any(counts):
+            continue
+        k = int(np.argmax(np.where(counts, near / np.maximum(far, 1e-300), 0.0)))
+        name, growth = subject.compiled.info.velocities[k].name, near[k] / max(far[k], 1e-300)
+        steep = np.abs(slope[k]).max(initial=0.0) > STEEP
+        if growth > ROOT or steep:
+            how = "jumps" if growth > JUMP and not steep else "rises without bound"
+            said = f"{how} with {what}, which its derivative does not tell"
+        else:
+            said = f"has a kink where {what} change, and counts with its slope on one side"
+        return f"at this state the force along {name} {said}"
+    return ""
+
+
+def _left(subject: Subject, y: Array, base: Evaluated, what: str, slope: Array, step: float) -> Array:
+    """Return what is left of a difference of forces beyond their derivative, over the step."""
+    # no two coordinates by the same amount, so that distances between them change as well
+    change = step * subject.spans * np.linspace(1.0, 0.5, subject.nv)
+    if what == "positions":
+        there = subject.moved(y, base.by("motion", "v") @ change)
+    else:
+        there = y.copy()
+        there[subject.nq : subject.nq + subject.nv] += change
+    rest = subject.evaluated(there).value("balance") - base.value("balance") - slope @ change
+    return np.asarray(np.abs(rest) / abs(step))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import wraps
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -16,12 +16,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 F = TypeVar("F", bound=Callable[..., Any])
-
-
-def tell(notes: Iterable[str]) -> None:
-    """Say on standard error what belongs to an answer and is no part of it."""
-    for sentence in notes:
-        click.echo(f"symgen: {sentence}", err=True)
 
 
 def place_options(function: F) -> F:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -203,6 +203,12 @@ def differ(files: Mapping[str, Path | None]) -> None:
         if real in seen:
             raise InputError(option, f"another file than {seen[real]} has", f"'{path}' for both")
         seen[real] = option
+
+
+def tell(notes: Iterable[str]) -> None:
+    """Say on standard error what belongs to an answer and is no part of it."""
+    for sentence in notes:
+        click.echo(f"symgen: {sentence}", err=True)
 
 
 def tell_idle_tolerances(settings: Settings, chosen: tuple[str, str] | None = None) -> None:

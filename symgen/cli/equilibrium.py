@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._options import examples, json_option, setting_options
+from symgen.cli._options import examples, json_option, setting_options, tell
 from symgen.errors import InputError
 from symgen.settings import Settings
 
@@ -36,7 +36,7 @@ def command(model: str, scan: str | None, steady: bool, as_json: bool, **asked: 
     speed at the start.
     """
     from symgen.api import load
-    from symgen.cli._analyses import axis, tell
+    from symgen.cli._analyses import axis
 
     settings = Settings(**asked)
     if scan is not None and steady:

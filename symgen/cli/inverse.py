@@ -7,8 +7,8 @@ from typing import Any
 import click
 
 from symgen.cli import FAILURE, OK, complain, write_files, write_json
-from symgen.cli._analyses import motion_options, table_options, tell
-from symgen.cli._options import assignments, examples, json_option, output_file, time_list, words
+from symgen.cli._analyses import motion_options, table_options
+from symgen.cli._options import assignments, examples, json_option, output_file, tell, time_list, words
 from symgen.errors import InputError
 from symgen.settings import Settings, flag, is_given
 

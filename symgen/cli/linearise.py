@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_json
-from symgen.cli._analyses import place_options, tell
-from symgen.cli._options import examples, json_option, words
+from symgen.cli._analyses import place_options
+from symgen.cli._options import examples, json_option, tell, words
 from symgen.settings import Settings
 
 if TYPE_CHECKING:

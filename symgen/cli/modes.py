@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import OK, write_files, write_json
-from symgen.cli._analyses import axis, place_options, tell
-from symgen.cli._options import examples, json_option, output_file
+from symgen.cli._analyses import axis, place_options
+from symgen.cli._options import examples, json_option, output_file, tell
 from symgen.errors import InputError
 from symgen.settings import Settings
 

@@ -15,6 +15,7 @@ from symgen.cli._options import (
     json_option,
     output_file,
     setting_options,
+    tell,
     tell_idle_tolerances,
     units_option,
 )
@@ -106,8 +107,7 @@ def command(
         result = loaded.simulate(settings, progress=bar)
     tell_idle_tolerances(settings, (result.method, result.integrator))
     found = _proposals(loaded, settings, result)
-    for sentence in (*result.notes, *(f"warning: {w}" for w in result.warnings)):
-        click.echo(f"symgen: {sentence}", err=True)
+    tell((*result.notes, *(f"warning: {w}" for w in result.warnings)))
     chosen = extremes(result.select(quantities)) if quantities else {}
     if as_json:
         told = {"proposals": list(found)} | ({"quantities": chosen} if quantities else {})

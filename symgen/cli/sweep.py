@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from symgen.cli import FAILURE, INTERRUPTED, OK, complain, write_json
-from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell_idle_tolerances
+from symgen.cli._options import examples, jobs_option, json_option, setting_options, tell, tell_idle_tolerances
 from symgen.cli._target import target_option
 from symgen.errors import InputError, quoted
 from symgen.settings import Settings
@@ -118,8 +118,7 @@ def command(
             progress=progress,
         )
     tell_idle_tolerances(settings, (found.ensemble.compiled.law.method, found.ensemble.plan.tableau.name))
-    for note in found.ensemble.notes:
-        click.echo(f"symgen: {note}", err=True)
+    tell(found.ensemble.notes)
     if as_json:
         write_json({**found.to_json(), "output": output})
     else:
