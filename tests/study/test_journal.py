@@ -118,14 +118,16 @@ def test_a_foreign_file_is_refused_and_left_as_it_is(tmp_path, content):
     assert path.read_bytes() == content
 
 
-def test_of_bits_of_a_journal_none_changes_what_is_read(tmp_path):
+@pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
+def test_of_bits_of_a_journal_none_changes_what_is_read(every, tmp_path):
+    """Of every third one all eight of a byte come by as well."""
     path = tmp_path / "journal"
     cells = {f"cell{i}": {"value": 0.1 * i, "text": "é", "flag": None} for i in range(2)}
     with Journal(path) as journal:
         for key, outcome in cells.items():
             journal.add(key, outcome)
     whole = path.read_bytes()
-    for i in range(8 * len(HEADER), 8 * len(whole), 3):  # every third: all eight bits of bytes come by
+    for i in range(8 * len(HEADER), 8 * len(whole), every):
         changed = bytearray(whole)
         changed[i // 8] ^= 1 << i % 8
         path.write_bytes(changed)

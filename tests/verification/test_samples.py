@@ -32,7 +32,7 @@ def verified(output: Path, *words: str) -> list[dict]:
 @pytest.mark.parametrize("shape", ["straight", "joint"])
 def test_a_few_random_mechanisms(shape: str, tmp_path: Path) -> None:
     """Emitted code is run as Python here, so that nothing has to be compiled."""
-    words = ("--interpreted", "--shapes", shape, "--mechanisms", "1", "--seed", "21", "--space", "planar")
+    words = ("--interpreted", "--shapes", shape, "--mechanisms", "2", "--seed", "21", "--space", "planar")
     moving = [line for line in verified(tmp_path / "verify.jsonl", *words) if "contradiction" not in line]
     assert moving and all(run["right"] and run["status"] == "ok" for line in moving for run in line["runs"])
     again = run("benchmarks.verify", "--output", str(tmp_path / "verify.jsonl"), "--jobs", "1", *words)

@@ -168,8 +168,13 @@ def files() -> list[tuple[tuple, str]]:
     return made
 
 
+@pytest.mark.parametrize("emitted", [6, pytest.param(12, marks=pytest.mark.slow)])
 def test_nothing_in_a_file_is_executed(
-    files: list[tuple[tuple, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    emitted: int,
+    files: list[tuple[tuple, str]],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     """Every text is refused in one line for a terminal, or taken and stays text in everything made of the file."""
     monkeypatch.chdir(tmp_path)
@@ -184,7 +189,7 @@ def test_nothing_in_a_file_is_executed(
             assert said.isprintable() and len(said) < 1000, (way, said[:300])
         assert not (tmp_path / CANARY).exists(), way
     assert taken, "titles, sources, units and notes may hold any text"
-    for content in random.Random(2).sample(sorted(taken), 6):
+    for content in random.Random(2).sample(sorted(taken), emitted):
         file.write_text(content, encoding="utf-8")
         code = main(["generate", str(file), "--output", str(tmp_path / "out"), "--method", "lagrange"])
         assert code == 0, (capsys.readouterr().err, content)
