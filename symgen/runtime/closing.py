@@ -178,7 +178,7 @@ def _masked(closing: Any, layout: Any, now: Any, other: Any, work: Any, count: i
             now.w[mask + i] = 0.0
         return 0
     here = now.w if count == alone else other.w  # at a singular position rounding would choose
-    if layout.sparse == 0 and (not same or is_poor(_kept_pivot(layout, here))):
+    if layout.sparse == 0 and (not same or _kept_pivot(layout, here) < decisions.STAND_BADLY):
         choose_rows(layout, m - count, 0, here, work.numbers)
         for i in range(m):
             now.w[mask + i] = here[mask + i]

@@ -48,6 +48,9 @@ LEAST_MASS = 1e-12
 #: Rows count as dependent for ever if they are so at this many positions near the start as well, which is left by this
 #: [rad, or the scale of lengths]; nothing moves where the largest component of the direction is below the third.
 PROBES, PROBE_DISTANCE, STANDSTILL = 3, 0.03, 1e-9
+#: Rows that are kept as they come stand badly for those left out where their smallest pivot of D D^T is below this, a
+#: sine of 0.1: rows that hold a light body between heavy ones amount, in the metric of masses, to nearly the same.
+STAND_BADLY = 1e-2
 #: A direction of massless bodies is held by no row where more than this is left of it beside the row space of D.
 UNHELD = 1e-6
 #: A whole turn of an angle that changes a row by less than this has nothing to do with it.
@@ -62,5 +65,5 @@ def is_dependent(pivot: float) -> bool:
 
 @exact()
 def is_poor(pivot: float) -> bool:
-    """Whether rows whose smallest pivot this is stand badly for those left out: as near a singular position."""
+    """Whether rounding may decide which rows depend on others, where this is the smallest pivot: near a singularity."""
     return pivot < WARN

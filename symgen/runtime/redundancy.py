@@ -30,6 +30,9 @@ _A, _N = types.float64[::1], types.int64
 
 #: The rows are chosen anew where the smallest pivot has fallen to this part of what it was at best since they were.
 FALLEN = 0.25
+#: What differs by less than this part is equal: of equal rows the first are kept, as where a joint is there twice, and
+#: not those that rounding makes a bit longer.
+EQUAL = 1e-9
 #: Up to this many entries of a dense D rows are chosen anew; above, those of the start stay.
 LARGEST = 250_000
 
@@ -83,7 +86,7 @@ def farthest(layout: Any, width: int, kept: int, least: float, weighed: int, w: 
                 square = 0.0
                 for j in range(n):
                     square += room[i * width + j] * room[i * width + j]
-                if square * room[lengths + i] > most:
+                if square * room[lengths + i] > most * (1.0 + EQUAL):
                     best, most = i, square * room[lengths + i]
         if most < least:
             return chosen
@@ -136,7 +139,8 @@ def choose_rows(layout: Any, kept: int, weighed: int, w: Any, room: Any) -> int:
         for i in range(m):
             for k in range(m if room[lengths + i] >= 0.0 else 0):
                 size = abs(room[i * width + n + k])
-                if room[masked + k] == 0.0 and alone[k] == 0 and size > most:
+                more = size > most * (1.0 + EQUAL) or (k > row and size > most * (1.0 - EQUAL))
+                if room[masked + k] == 0.0 and alone[k] == 0 and more:
                     sum_, row, most = i, k, size
         if row < 0:  # all sums that are left are those of rows that are not finite
             return 0

@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
-from symgen.ir.numerics import SKIP, WARN
+from symgen.ir.numerics import SKIP
 from symgen.runtime import abi, decisions
 from symgen.runtime.bare import bare, part
 from symgen.runtime.compiled import CompiledModel, ModelInfo
@@ -63,7 +63,7 @@ def settle_tree(
         compiled.section(w, "mask")[:] = np.where(masked, np.inf, 0.0)
         plain_form(weigh_rows)(layout, now)
         geometry(t, y, p, w)
-        if masked.any() and w[abi.PIVOT] < WARN and row_chooser(compiled)(w):
+        if masked.any() and w[abi.PIVOT] < decisions.STAND_BADLY and row_chooser(compiled)(w):
             geometry(t, y, p, w)
             masked = compiled.section(w, "mask") > 0.0
     return w, rank, compiled.redundant(w)

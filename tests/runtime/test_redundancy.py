@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -177,6 +178,17 @@ def test_rows_kept_at_the_start_differ(settings: dict) -> None:
     assert not result.warnings and not result.rank_events
     assert (result.rank.rows, result.rank.rank) == (20, 17) and len(result.rank.redundant_rows) == 3
     assert off(result, system, q) < 1e-9
+
+
+@pytest.mark.parametrize(("angle", "left_out"), [(0.05, "slot1.normal"), (0.3, "slot2.normal")])
+def test_rows_at_a_small_angle_do_not_stand_for_others(angle: float, left_out: str) -> None:
+    """A ball in three slots, of which two hold it: the two that come first, unless they hardly differ."""
+    built = MechanismBuilder("slots").run(until=0.01, step=0.01).body("ball", mass=1.0, inertia=0.1)
+    for i, way in enumerate((0.0, angle, 1.5)):
+        axis = (math.cos(way), math.sin(way))
+        built.joint(f"slot{i}", "pin-in-slot", between=("ground", "ball"), at=((0.0, 0.0), "centre"), axis=axis)
+    compiled = Model(built.build()).compile("lagrange")
+    assert Model(built.build()).assemble(compiled).redundant_rows == (left_out,)
 
 
 def test_rows_kept_at_the_start_differ_in_sweeps(tmp_path: Path) -> None:
