@@ -20,20 +20,24 @@ ROUNDED = 1e-13
 EVEN = 1e-9
 
 
-def split(d: Array) -> tuple[Array, Array, Array]:
+def split(d: Array, loads: Array | None = None) -> tuple[Array, Array, Array]:
     """Return an orthonormal basis of the directions that rows leave free, their pseudo-inverse, and what depends.
 
     Parameters
     ----------
     d : Array, shape (m, n)
         Rows; each is scaled to length 1 before its rank is decided.
+    loads : Array, shape (m,), optional
+        Multipliers of rows that count as large as each other, as of `symgen.analyses.subject.Subject.loads`; all are 1
+        by default.
 
     Returns
     -------
     basis : Array, shape (n, n - r)
         Z with D Z = 0.
     inverse : Array, shape (n, m)
-        D^+ of the scaled rows, scaled back: right sides give changes of least norm.
+        D^+ with the rank of the scaled rows: right sides give changes of least norm, and forces, by its transpose,
+        multipliers of least norm where each is divided by its load.
     left : Array, shape (m, m - r)
         Combinations of the scaled rows that vanish.
     """
@@ -45,7 +49,12 @@ def split(d: Array) -> tuple[Array, Array, Array]:
     u, s, vt = np.linalg.svd(d / sizes[:, None], full_matrices=True)
     rank = int(np.sum(s > DEPENDENT * s.max(initial=0.0)))
     inverse = (vt[:rank].T / s[:rank]) @ (u[:, :rank] / sizes[:, None]).T
-    return vt[rank:].T.copy(), inverse, u[:, rank:]
+    left = u[:, rank:]
+    if left.shape[1]:  # scaled rows would share a load by their lengths
+        loads = np.ones(m) if loads is None else loads
+        nothing = np.linalg.qr(left / (sizes * loads)[:, None])[0]
+        inverse = inverse - ((inverse / loads) @ nothing) @ nothing.T * loads
+    return vt[rank:].T.copy(), inverse, left
 
 
 def symmetric(a: Array) -> Array:
@@ -97,7 +106,7 @@ def summed(matrix: Any, shapes: Array) -> Array:
     return found
 
 
-def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:
+def eigenvalues_of(a: Array, sizes: Array | None = None) -> tuple[Complex, Complex]:
     """Return eigenvalues and eigenvectors, with exact zeros where the rank says so.
 
     A cyclic coordinate or a body that is free to go gives two zeros and one vector, which rounding parts into a pair of
@@ -105,7 +114,16 @@ def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:
     maps to zero, then that of what it maps there, and so on. In double numbers that is the square of a frequency below
     1e-14 n of the largest singular value: beside vibrations of 1e6 rad/s, a swing of less than 0.1 or 0.2 rad/s counts
     as none.
+
+    Parameters
+    ----------
+    a : Array, shape (n, n)
+        The matrix.
+    sizes : Array, shape (n,), optional
+        What counts as large of each state, so that ranks do not depend on units; all are 1 by default.
     """
+    sizes = np.ones(len(a)) if sizes is None else sizes
+    a = a * sizes / sizes[:, np.newaxis]
     values, vectors = np.linalg.eig(a)
     values, n = values.astype(np.complex128), len(a)
     count, largest, rest = 0, 0.0, a
@@ -118,7 +136,7 @@ def eigenvalues_of(a: Array) -> tuple[Complex, Complex]:
         count += int(none.sum())
         rest = vt[~none] @ rest @ vt[~none].T
     values[np.argsort(np.abs(values))[:count]] = 0.0
-    return values, np.asarray(vectors, dtype=np.complex128)
+    return values, np.asarray(vectors * sizes[:, np.newaxis], dtype=np.complex128)
 
 
 def ranking(values: Array | Complex) -> NDArray[np.int64]:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import split
 from symgen.analyses.reduced import tangent
 from symgen.analyses.settle import Settled, settle
 from symgen.analyses.subject import Subject
@@ -149,12 +148,12 @@ def _refuse_lost(subject: Subject, y: Array, lost: Array) -> None:
     if not spins:
         return
     x = tangent(subject, y)
-    free = split(subject.rows(x.base)[subject.holonomic])[0]
+    free = x.free
     size = np.abs(x.matrix).max(initial=1.0)
     for first in spins:
         about = np.zeros((subject.nv, 3))
         about[first : first + 3] = np.eye(3)
-        turned = free.T @ about
+        turned = np.linalg.lstsq(free, about, rcond=None)[0]
         changes = np.vstack([x.matrix[:, : x.positions] @ turned / size, about - free @ turned])
         _, felt, axes = np.linalg.svd(changes)
         spin = axes[felt <= SPUN] @ lost[first : first + 3]

@@ -94,7 +94,7 @@ def judged(subject: Subject, y: Array, steps: int) -> Equilibrium:
     info = subject.compiled.info
     e = subject.evaluated(y)
     d, force = subject.rows(e), e.value("balance")
-    inverse, dependent = split(d)[1:]
+    inverse, dependent = split(d, subject.loads)[1:]
     lam = -inverse.T @ force
     e = subject.evaluated(y, lam=lam)
     stiffness = e.by("balance", "q") @ e.by("motion", "v")

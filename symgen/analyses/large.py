@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symgen.analyses.algebra import ROUNDED, split, summed, symmetric
+from symgen.analyses.edges import edges_of_large
 from symgen.analyses.equilibrium import Equilibrium, reduced_squares, stability_of
 from symgen.analyses.linearise import in_order
 from symgen.analyses.modes import Modes
@@ -65,9 +66,11 @@ def lowest_modes(mechanism: Mechanism, settings: Settings, count: int) -> Modes:
     about = {name: float(x) for name, x in zip(names, y, strict=False)}
     shapes = (motion @ vectors).T.astype(np.complex128)
     owners = np.array([v.name.partition(".")[0] for v in sparse.compiled.info.velocities])
-    energy = vectors * (mass @ vectors)
+    notes, energy = edges_of_large(sparse, y, lam), vectors * (mass @ vectors)
     bodies = {body: energy[owners == body].sum(axis=0) / energy.sum(axis=0) for body in dict.fromkeys(owners.tolist())}
-    return Modes(in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about)
+    return Modes(
+        in_order(np.concatenate([roots, -roots])), squares, free, names, shapes, bodies, about=about, notes=notes
+    )
 
 
 def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
@@ -112,6 +115,7 @@ def large_equilibrium(mechanism: Mechanism, settings: Settings) -> Equilibrium:
         not_unique=tuple(j.name for j in mechanism.joints if j.name in joints),
         y=y,
         lam=lam,
+        notes=edges_of_large(sparse, y, lam),
     )
 
 
@@ -164,9 +168,12 @@ def _smallest(sparse: Sparse, y: Array, lam: Array) -> tuple[Array, list[int]]:
     for i, row in enumerate(extra):
         none[i, sparse.kept] = solve(whole[row].toarray().ravel(), np.zeros(len(sparse.kept)))[1]
         none[i, row] = -1.0
-    basis = np.linalg.qr(none.T)[0]
+    info = sparse.compiled.info
+    length = float(sparse.w[abi.LENGTH]) or 1.0
+    loads = np.array([length if row.unit == "rad" else 1.0 for row in info.rows])  # as `Subject.loads`
+    basis = np.linalg.qr(none.T / loads[:, np.newaxis])[0]
     share = np.linalg.norm(basis, axis=1)
-    return lam - basis @ (basis.T @ lam), [int(i) for i in np.flatnonzero(share > 1e-8)]
+    return lam - loads * (basis @ (basis.T @ (lam / loads))), [int(i) for i in np.flatnonzero(share > 1e-8)]
 
 
 def _nearest(stiffness: Any, mass: Any, rows: Any, count: int) -> tuple[Array, Array]:

@@ -37,7 +37,9 @@ class LinearSystem:
     parameters : tuple of str
         Those of the inputs that are parameters: constants, changed once and for all while the states stay.
     notes : tuple of str
-        Forces that have no derivative at that state, as of `symgen.analyses.edges.edges`.
+        Forces and outputs that have no derivative at that state, as of `symgen.analyses.edges`.
+    sizes : tuple of float
+        What counts as large of each state, so that eigenvalues that are 0 are told in any units; all are 1 without.
     """
 
     A: Array
@@ -52,10 +54,11 @@ class LinearSystem:
     left_out: tuple[str, ...] = field(default=())
     parameters: tuple[str, ...] = field(default=())
     notes: tuple[str, ...] = field(default=())
+    sizes: tuple[float, ...] = field(default=(), repr=False)
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues of A, by decreasing real part, then by decreasing imaginary part."""
-        return in_order(eigenvalues_of(self.A)[0])
+        return in_order(eigenvalues_of(self.A, np.array(self.sizes) if self.sizes else None)[0])
 
     def state_space(self) -> Any:
         """Return the system as `scipy.signal.StateSpace`."""
@@ -155,11 +158,12 @@ def named_states(
 def _independent(x: Tangent, names: Sequence[str]) -> int:
     """Return how many of some states do not depend on each other."""
     rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
+    rows = rows * x.sizes / x.sizes_of(names)[:, np.newaxis]
     return int(np.linalg.matrix_rank(rows, tol=1e-9 * np.abs(rows).max(initial=1e-300)))
 
 
 def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, b: Array) -> LinearSystem:
-    n, form = x.size, subject.form
+    n, form, sizes = x.size, subject.form, x.sizes_of(names)
     changes = np.array([x.quantity(name).changes for name in names]).reshape(len(names), n + len(x.inputs))
     outputs, left_out, c, d = list[str](), list[str](), list[Array](), list[Array]()
     inputs = subject.varied
@@ -172,7 +176,7 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
             left_out.append(output.name)  # an integral
             continue
         value, row = x.function(form.functions[output.name][0])
-        by_states = np.linalg.lstsq(changes[:, :n].T, row[:n], rcond=1e-11)[0]
+        by_states = np.linalg.lstsq((changes[:, :n] * x.sizes).T / sizes, row[:n] * x.sizes, rcond=1e-11)[0] / sizes
         rest = row[:n] - by_states @ changes[:, :n]
         if np.abs(rest).max(initial=0.0) > 1e-8 * max(1e-300, np.abs(row[:n]).max(initial=0.0)):
             left_out.append(output.name)
@@ -194,4 +198,5 @@ def _with_outputs(subject: Subject, x: Tangent, names: Sequence[str], a: Array, 
         x.t,
         tuple(left_out),
         subject.by,
+        sizes=tuple(float(size) for size in sizes),
     )

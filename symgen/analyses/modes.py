@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from symgen.analyses.algebra import ROUNDED, eigenvalues_of, ranking, split, squares_along, summed
+from symgen.analyses.algebra import ROUNDED, eigenvalues_of, ranking, squares_along, summed
 from symgen.analyses.linearise import in_order, named_states
 from symgen.analyses.reduced import Tangent, tangent
 from symgen.analyses.shares import shares
@@ -143,13 +143,15 @@ def modes(
         if still is not None:
             return _of_squares(x, *still, bodies)
     if states or not resting:
-        values, shapes = eigenvalues_of(system(x, names)[0])
+        values, shapes = eigenvalues_of(system(x, names)[0], x.sizes_of(names))
         rows = np.array([x.quantity(name).changes[: x.size] for name in names]).reshape(len(names), x.size)
-        vectors = np.asarray(np.linalg.lstsq(rows, shapes, rcond=1e-11)[0], dtype=np.complex128)
+        sizes = x.sizes_of(names)[:, np.newaxis]
+        alike = np.linalg.lstsq(rows * x.sizes / sizes, shapes / sizes, rcond=1e-11)[0]
+        vectors = np.asarray(alike * x.sizes[:, np.newaxis], dtype=np.complex128)
         about = {name: x.quantity(name).value for name in names}
         largest = np.abs(shapes).max(axis=0, initial=0.0)
     else:
-        values, vectors = eigenvalues_of(x.matrix)
+        values, vectors = eigenvalues_of(x.matrix, x.sizes)
         names, shapes, about = _coordinates(subject), x.q[:, : x.size] @ vectors, subject.named(y)
         largest = np.sqrt([_twice_kinetic(x, change) for change in _velocities(x, vectors)])
     kept = [int(i) for i in ranking(values) if values[i].imag >= 0.0]
@@ -173,7 +175,7 @@ def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[
     roots = np.sqrt(-squares.astype(np.complex128))
     shapes = (e.by("motion", "v") @ along).T.astype(np.complex128)
     # both positions and velocities change along the mode, as they do one after the other
-    speeds = split(subject.rows(e))[0].T @ along
+    speeds = np.linalg.lstsq(x.basis, along, rcond=None)[0]
     found = shares(x, np.vstack([_positions(x, along), speeds]), bodies)
     return Modes(
         in_order(np.concatenate([roots, -roots])),
@@ -189,7 +191,7 @@ def _of_squares(x: Tangent, squares: Array, directions: Array, bodies: Callable[
 
 def _positions(x: Tangent, along: Array) -> Array:
     """Return s of changes of position that are given in terms of velocities."""
-    return np.asarray(split(x.subject.rows(x.base)[x.subject.holonomic])[0].T @ along)
+    return np.asarray(np.linalg.lstsq(x.free, along, rcond=None)[0])
 
 
 def _coordinates(subject: Subject) -> tuple[str, ...]:
@@ -198,8 +200,7 @@ def _coordinates(subject: Subject) -> tuple[str, ...]:
 
 def _velocities(x: Tangent, vectors: Complex) -> Complex:
     """Return the changes of position of eigenvectors in terms of velocities, one a row."""
-    free = split(x.subject.rows(x.base)[x.subject.holonomic])[0]
-    return np.asarray((free @ vectors[: x.positions]).T)
+    return np.asarray((x.free @ vectors[: x.positions]).T)
 
 
 def _twice_kinetic(x: Tangent, change: Complex) -> float:

@@ -1,14 +1,15 @@
 """The motion near a state as a linear system in as many unknowns as the mechanism is free in.
 
 Near a state with q' = N v, D v = nu, M v' + D^T lambda = f and D v' = gamma let q change by N Z_q s and v by
-Z u - D^+ (D v - nu)_q N Z_q s, Z_q and Z being orthonormal bases of what holonomic rows, and all rows, leave free. Then
+Z u - D^+ (D v - nu)_q N Z_q s, Z_q and Z being bases of what holonomic rows, and all rows, leave free: orthonormal ones
+where the mechanism's length and a radian count alike, so that nothing depends on the unit of length. Then
 every change of v', of the multipliers and of what is computed from them is linear in s, u and the inputs. Where rows
 are nonholonomic there are more s than u.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +47,8 @@ class Tangent:
         Changes of s and u themselves, and of their rates.
     drift : Array, shape (positions + velocities,)
         Rates of s and u at the state.
+    free, basis : Array, shape (nv, positions) and (nv, velocities)
+        Z_q and Z.
     """
 
     subject: Subject
@@ -64,6 +67,8 @@ class Tangent:
     states: Array
     state_rates: Array
     drift: Array
+    free: Array
+    basis: Array
 
     @property
     def size(self) -> int:
@@ -74,6 +79,38 @@ class Tangent:
     def matrix(self) -> Array:
         """A of (s, u)' = A (s, u)."""
         return self.state_rates[:, : self.size]
+
+    @property
+    def rate(self) -> float:
+        """The fastest that forces, or the motion, could make anything change [1/s]; 1 where nothing does."""
+        e, basis, subject = self.base, np.abs(self.basis), self.subject
+        heavy = np.einsum("ik,ij,jk->k", self.basis, e.by("balance", "a"), self.basis)
+        stiffness = np.abs(e.by("balance", "q") @ e.by("motion", "v"))
+        v = self.y[subject.nq : subject.nq + subject.nv]
+        found = [float(np.abs(v / subject.spans).max(initial=0.0))]
+        for matrix, power in ((stiffness, 0.5), (np.abs(e.by("balance", "v")), 1.0)):
+            sizes = np.einsum("ik,ij,jk->k", basis, matrix, basis)
+            moved = heavy > 1e-13 * heavy.max(initial=0.0)
+            found.append(float((sizes[moved] / heavy[moved]).max(initial=0.0)) ** power)
+        return max(found) or 1.0
+
+    @property
+    def sizes(self) -> Array:
+        """What counts as large of s and u, shape (size,)."""
+        return np.repeat([1.0, self.rate], [self.positions, self.velocities])
+
+    def sizes_of(self, names: Sequence[str]) -> Array:
+        """Return what counts as large of quantities: the mechanism's length or 1 rad, times `rate` for rates."""
+        subject = self.subject
+        units = {q.name: q.unit for q in (*subject.compiled.info.coordinates, *subject.compiled.info.velocities)}
+        own = {o.name for o in subject.mechanism.outputs}
+        found = list[float]()
+        for name in names:
+            base = name.removesuffix(RATE)
+            unit = units.get(name) or ("" if base in own else subject.form.units.get(base, ""))
+            slow = 1.0 if not unit or (unit in ("m", "rad") and not name.endswith(RATE)) else self.rate
+            found.append((subject.length if unit.startswith("m") else 1.0) * slow)
+        return np.array(found)
 
     def function(self, place: int) -> tuple[float, Array]:
         """Return the value of a quantity of the state, and how it changes."""
@@ -184,7 +221,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     now = subject.t if t is None else t
     first = subject.evaluated(y, t=now)
     d = subject.rows(first)
-    basis, inverse, _ = split(d)
+    basis, inverse = _split(subject, d, subject.loads)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, now)
     places = inputs_of(subject)
@@ -192,7 +229,7 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
         if np.any(e.by(group, "p")[:, places[: len(subject.inputs)]]):
             raise InputError("inputs", "inputs of forces and outputs", "one that moves a joint")
     motion, mass = e.by("motion", "v"), e.by("balance", "a")
-    free = split(d[subject.holonomic])[0]
+    free = _split(subject, d[subject.holonomic])[0]
     positions, velocities, inputs = free.shape[1], basis.shape[1], len(places)
     width = positions + velocities + inputs
     q, v = np.zeros((subject.nq, width)), np.zeros((subject.nv, width))
@@ -212,14 +249,23 @@ def tangent(subject: Subject, y: Array, t: float | None = None) -> Tangent:
     multipliers = -inverse.T @ (force + mass @ rates)
     q_rates = e.by("motion", "q") @ q + motion @ v
     q_rates[:, positions + velocities :] += e.by("motion", "p")[:, places]
-    back = np.linalg.pinv(motion @ free)
+    lengths = np.array([subject.length if c.unit == "m" else 1.0 for c in subject.compiled.info.coordinates])
+    back = np.linalg.pinv((motion @ free) / lengths[:, np.newaxis]) / lengths
+    along = (basis / subject.spans[:, np.newaxis] ** 2).T  # of orthonormal columns in spans
     states = np.eye(positions + velocities, width)
-    state_rates = np.vstack([back @ q_rates, basis.T @ rates])
-    drift = np.concatenate([back @ e.value("motion"), basis.T @ a])
+    state_rates = np.vstack([back @ q_rates, along @ rates])
+    drift = np.concatenate([back @ e.value("motion"), along @ a])
     return Tangent(
         *(subject, now, y, a, lam, e, positions, velocities, q, q_rates, v, rates, multipliers),
-        *(states, state_rates, drift),
+        *(states, state_rates, drift, free, basis),
     )
+
+
+def _split(subject: Subject, d: Array, loads: Array | None = None) -> tuple[Array, Array]:
+    """Return a basis of what rows leave free, and their pseudo-inverse, where the spans of velocities count alike."""
+    spans = subject.spans[:, np.newaxis]
+    basis, inverse, _ = split(d * spans.T, loads)
+    return spans * basis, spans * inverse
 
 
 def _shifted(subject: Subject, e: Evaluated, d: Array, places: list[int]) -> Array:
@@ -231,7 +277,7 @@ def _shifted(subject: Subject, e: Evaluated, d: Array, places: list[int]) -> Arr
         If a parameter opens joints that depend on each other.
     """
     rows = subject.holonomic
-    opened, inverse = e.by("positions", "p")[:, places][rows], split(d[rows])[1]
+    opened, inverse = e.by("positions", "p")[:, places][rows], _split(subject, d[rows])[1]
     found = -inverse @ opened
     left = opened + d[rows] @ found
     for name, gap, whole in zip(subject.varied, left.T, opened.T, strict=True):

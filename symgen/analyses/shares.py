@@ -65,7 +65,7 @@ def shares(x: Tangent, vectors: Array | Complex, bodies: Callable[[], Subject] |
         subject = bodies().turned(x.subject.named(x.y))
         y, dq, dv = _of_bodies(x, subject, vectors)
     first = subject.evaluated(y, t=x.t)
-    basis, inverse, _ = split(subject.rows(first))
+    basis, inverse, _ = split(subject.rows(first), subject.loads)
     a, lam = accelerations(first, basis, inverse)
     e = subject.evaluated(y, a, lam, x.t)
     dr = np.linalg.pinv(e.by("motion", "v")) @ dq

@@ -75,6 +75,12 @@ class Sparse:
         length = float(self.w[abi.LENGTH]) or 1.0
         return np.array([length if q.unit == "m" else 1.0 for q in self.compiled.info.coordinates])
 
+    @property
+    def spans(self) -> Array:
+        """The same of velocities, in a second."""
+        length = float(self.w[abi.LENGTH]) or 1.0
+        return np.array([length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
+
     def matrices(self, y: Array, lam: Array) -> tuple[Any, Any, Any, Any, Any]:
         """Return N, M, D, the stiffness K and the derivative of the balance by v at a state at rest."""
         from scipy.sparse import coo_matrix

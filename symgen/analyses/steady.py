@@ -158,15 +158,16 @@ def system(x: Tangent, names: Sequence[str]) -> tuple[Array, Array, Array, Array
     sizes : Array, shape (n,)
         What it is compared with.
     """
-    found = [x.quantity(name) for name in names]
-    n = x.size
+    found, n, sizes = [x.quantity(name) for name in names], x.size, x.sizes_of(names)[:, np.newaxis]
     width = n + len(x.inputs)
-    states = np.array([q.changes for q in found]).reshape(len(found), width)
-    rates = np.array([q.rate_changes for q in found]).reshape(len(found), width)
-    a = np.linalg.lstsq(states[:, :n].T, rates[:, :n].T, rcond=1e-11)[0].T
-    rest = rates[:, :n] - a @ states[:, :n]
-    size = max(np.abs(rates[:, :n]).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
-    return a, rates[:, n:] - a @ states[:, n:], rest, np.full(len(a), size)
+    states = np.array([q.changes for q in found]).reshape(len(found), width) / sizes
+    rates = np.array([q.rate_changes for q in found]).reshape(len(found), width) / sizes
+    alike = x.sizes  # of s and u, as `sizes` of states: digits are lost by neither
+    a = np.linalg.lstsq((states[:, :n] * alike).T, (rates[:, :n] * alike).T, rcond=1e-11)[0].T
+    rest = (rates[:, :n] - a @ states[:, :n]) * alike
+    size = max(np.abs(rates[:, :n] * alike).max(initial=1e-300), ROUNDED * np.abs(x.matrix).max(initial=0.0))
+    b = sizes * (rates[:, n:] - a @ states[:, n:])
+    return sizes * a / sizes.T, b, rest, np.full(len(a), size)
 
 
 def found_states(subject: Subject, x: Tangent, soon: Tangent) -> tuple[str, ...]:

@@ -110,6 +110,14 @@ class Subject:
         return np.array([self.length if v.unit == "m/s" else 1.0 for v in self.compiled.info.velocities])
 
     @property
+    def loads(self) -> Array:
+        """What multipliers are divided by to be compared: a moment is the force that has it at the mechanism's length.
+
+        As in runs, whose multipliers are the smallest ones by the same measure; shape (m,).
+        """
+        return np.array([self.length if row.unit == "rad" else 1.0 for row in self.compiled.info.rows])
+
+    @property
     def m(self) -> int:
         """Number of constraint rows."""
         return self.compiled.info.m

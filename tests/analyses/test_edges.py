@@ -26,6 +26,8 @@ CASES = {
     "-3*a.y*abs(a.y)": None,
     "-3*a.y - a.vy*sqrt(a.vx**2 + a.vy**2)": None,
     "-1e9*a.y - 50*tanh(1e4*a.vy)": None,
+    "-3*a.y - tanh(1e6*a.y)": None,
+    "-3*a.y - sqrt(a.y**2 + 1e-14)": None,
 }
 
 
@@ -49,6 +51,45 @@ def test_forces_without_a_derivative_are_told_of(held, force):
             (note,) = found.notes
             how, what = expected
             assert f"the force along a.vy {how} {what}" in note
+
+
+#: Outputs, and what is told of them: of what they depend on, and how.
+OUTPUTS = {
+    "abs(a.y)": [("a kink", "positions")],
+    "max(0, a.vy)": [("a kink", "velocities")],
+    "abs(a.ay) + a.x": [("a kink", "positions"), ("a kink", "'push'")],
+    "sqrt(abs(a.x))": [("rises without bound", "positions")],
+    "sign(push)": [("jumps", "'push'")],
+    "a.y**2 + tanh(1e6*a.x) + push": [],
+}
+
+
+@pytest.mark.parametrize("output", OUTPUTS)
+def test_outputs_without_a_derivative_are_told_of(output):
+    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
+    built = built.input("push", 0.0).force("f", "force", body="a", force=["-2*a.x", "push - 3*a.y"])
+    notes = symgen.load(built.output("seen", output).build()).linearise().notes
+    assert len(notes) == len(OUTPUTS[output])
+    for note, (how, what) in zip(notes, OUTPUTS[output], strict=True):
+        assert "the output 'seen'" in note and how in note and what in note
+
+
+@pytest.mark.parametrize(("force", "how"), {"max(0, push)": "a kink", "sign(push)*sqrt(abs(push))": "rises"}.items())
+def test_forces_without_a_derivative_by_an_input_are_told_of(force, how):
+    built = MechanismBuilder("held", gravity=(0.0, 0.0)).run(until=1.0).body("a", type="point", mass=1.0)
+    built = built.input("push", 0.0).force("f", "force", body="a", force=["-2*a.x", f"{force} - 3*a.y"])
+    model = symgen.load(built.build())
+    (note,) = model.linearise().notes
+    assert "along a.vy" in note and how in note and "'push'" in note
+    assert not model.linearise(inputs={"push": 0.3}).notes
+
+
+@pytest.mark.parametrize("force", ["-3*sign(a.y)", "-3*a.y - 2*max(a.vy, 0)", "-3*a.y*abs(a.y)", "-3*a.y"])
+def test_large_mechanisms_tell_the_same(held, force):
+    model = held(force)
+    assert model.equilibrium(shape="looped").notes == model.equilibrium().notes
+    if force == "-3*a.y":
+        assert not model.modes(count=1).notes
 
 
 @pytest.mark.parametrize("coordinates", ["absolute", "joint"])

@@ -91,6 +91,19 @@ def test_the_catenary_has_the_least_energy():
     assert_allclose([found.q[f"l{i}.theta"] for i in range(10)], least, atol=1e-6)  # what SLSQP reaches
 
 
+@pytest.mark.parametrize("shape", ["straight", "looped"])
+@pytest.mark.parametrize("unit", [1.0, 1e-3])
+def test_redundant_joints_share_a_load_as_in_a_run(unit, shape):
+    """A beam on two welds and a pin, its rows of different lengths, in metres and in millimetres."""
+    at = {name: [unit * x, unit * y] for name, x, y in (("A", -1.5, 0.2), ("B", 1.0, -0.4), ("C", 0.3, 0.7))}
+    beam = {"mass": 2.0, "inertia": 0.3 * unit**2, "points": at}
+    kinds = {"A": "rigid", "B": "rigid", "C": "revolute"}
+    held = rods.model({"beam": beam}, {n: rods.pin("ground", "beam", at[n], n, kinds[n]) for n in at})
+    rest, run = held.equilibrium(shape=shape), held.simulate(until=1e-3)
+    assert rest.not_unique == run.non_unique_reactions == ("A", "B", "C")
+    assert_allclose(list(rest.multipliers.values()), [run.lam[n][0] for n in rest.multipliers], rtol=1e-9)
+
+
 def test_parameters_and_drivers_are_held():
     spring = rods.mass_spring_damper()
     assert_allclose(spring.equilibrium(inputs={"push": 400.0}).q["body.x"], 0.3 + 400 / 4000, rtol=1e-13)

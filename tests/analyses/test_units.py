@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from analyses import rods
 
 
-def carousel(mass, length):
+def carousel(mass, length, time=1.0, damping=0.0):
     """A table that turns freely about the vertical with a slide in it that leans, on a spring; lengths grow alike."""
     bodies = {
         "table": {"mass": mass, "position": [0.1 * length, -0.2 * length, 0.0]},
@@ -21,9 +21,9 @@ def carousel(mass, length):
         | {"axis": [0.3, 0.5, 0.8]},
     }
     ends = [[0.5 * length, 0.1 * length, 0.9 * length], [0.0, 0.1 * length, 0.0]]
-    spring = {"type": "spring-damper", "between": ["table", "slide"], "at": ends, "stiffness": 90.0 * mass}
-    spring["free_length"] = 0.4 * length
-    pull = [0.0, 0.0, -rods.GRAVITY * length]
+    spring = {"type": "spring-damper", "between": ["table", "slide"], "at": ends, "stiffness": 90.0 * mass / time**2}
+    spring |= {"free_length": 0.4 * length, "damping": damping * mass / time}
+    pull = [0.0, 0.0, -rods.GRAVITY * length / time**2]
     return rods.model(bodies, joints, "spatial", gravity=pull, forces={"spring": spring})
 
 
@@ -48,3 +48,16 @@ def test_what_falls_freely_at_the_start_is_found_whatever_it_weighs(mass):
     assert_allclose(found.q["a.y"], -rods.GRAVITY / 1000.0, rtol=1e-10)
     assert_allclose(found.omega_squared, [1000.0], rtol=1e-10)
     assert np.isfinite(found.residual)
+
+
+@pytest.mark.parametrize(("length", "time"), [(2.0**-20, 1.0), (2.0**20, 1.0), (1.0, 2.0**-10), (1.0, 2.0**10)])
+def test_what_is_free_has_frequency_zero_in_all_units(length, time):
+    """Damped, the table's turning was compared with the slide's metres, and seconds with themselves, as numbers."""
+
+    def found(length, time):
+        model = carousel(1.0, length, time, 0.8)
+        return [time * e for e in (model.modes().eigenvalues, model.linearise().eigenvalues())]
+
+    for usual, other in zip(found(1.0, 1.0), found(length, time), strict=True):
+        assert np.sum(usual == 0.0) == np.sum(other == 0.0) == 2
+        assert_allclose(other, usual, rtol=1e-9)
