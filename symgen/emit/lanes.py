@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Container
 from dataclasses import replace
 
 from symgen.emit.emit import LiteralLayout, law_header, table_codes, table_names, versions
@@ -13,6 +15,11 @@ from symgen.formulate.equations import Equations
 from symgen.ir.program import LANE_COUNTERS, LANES, STATUS, SUFFIXES, Block, Correction, LawProgram, ModelProgram
 from symgen.ir.program import lane_bases as bases_of
 
+#: What sines are taken of is watched where it may be larger [rad]: the reduction in `templates/parts/sine.j2` would
+#: lose digits, and from 1e15 on it is of another angle.
+FAR = 4e5
+#: Angles of coordinates up to this are in no need of that: a run that turns farther is left to single runs.
+TURNED = 1e5
 _BLOCKS = ("normalise", "move", "geometry_of_model", "geometry", "refactor", "spread", "measure", "rhs")
 #: What a law's docstring says of its one array.
 _ABOUT = """
@@ -80,7 +87,8 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     if "refactor" in blocks:
         parts.add("lanes_metric")
     parts.add(f"lanes_{accept_kind(correction)}")
-    codes = [*(_over_lanes(blocks[name], access) for name in wanted), *parts.codes]
+    turning = frozenset(i for i, q in enumerate(equations.coordinates) if q.unit != "m")
+    codes = [*(_over_lanes(blocks[name], access, turning) for name in wanted), *parts.codes]
     constants = {name: (bases["spare"] + i) * LANES for i, name in enumerate(LANE_COUNTERS)}
     title = f"Method `{info.method}` for model `{model.name}` in lanes, for {LANES} runs at once."
     header = [*law_header(info, summary, reference, made), *_ABOUT.format(lanes=LANES, **bases).split("\n")]
@@ -89,10 +97,14 @@ def emit_lanes_law(program: LawProgram, model: ModelProgram, equations: Equation
     return module(title, header, codes, known, {"numbers": bases["numbers"], **constants}, note="places in z")
 
 
-def _over_lanes(block: Block, access: LaneAccess) -> Code:
+def _over_lanes(block: Block, access: LaneAccess, turning: Container[int]) -> Code:
     """Return a block as a loop over lanes."""
-    lines, alone = Printer(block, access).lines(), block.name == "rhs"
-    counted = [f"z[SUSPECTS + lane] += 1.0*{lines.flag}"] if lines.flag and alone else []
+    printer, alone = Printer(block, access), block.name == "rhs"
+    lines = printer.lines()
+    bad = [lines.flag] if lines.flag and alone else []
+    bad += [f"(abs({printer.text[node][0]}) > {FAR})" for node in _watched(block, turning)]
+    any_bad = bad[0] if len(bad) == 1 else f"({' | '.join(bad)})"
+    counted = [f"z[SUSPECTS + lane] += 1.0*{any_bad}"] if bad else []
     loop = [f"    {line}" for line in (*lines.inputs, *lines.terms, *lines.outputs, *counted)]
     # nothing is left of a factorisation that parameters decide alone
     over = ["for lane in range(lanes):", *loop] if loop else []
@@ -101,3 +113,30 @@ def _over_lanes(block: Block, access: LaneAccess) -> Code:
     sections = [*(["numbers"] if alone else []), *(["suspects"] if counted else [])]
     arguments = "t, z" if alone else "t, z, lanes"
     return function(block.name, arguments, purpose, body, calls=lines.functions, sections=sections)
+
+
+def _watched(block: Block, turning: Container[int]) -> list[int]:
+    """Return what sines and cosines of a block are taken of that may be large: more than a few angles together.
+
+    A frequency times the time, or times an angle, has no bound that is known beforehand.
+    """
+    bounds = dict[int, float]()
+    for node in block.needed:
+        op, args, payload = block.graph.nodes[node]
+        of = [bounds[a] for a in args]
+        if op == "const":
+            bounds[node] = abs(float(payload))  # type: ignore[arg-type]  # a constant's payload is a float
+        elif op == "input":
+            assert isinstance(payload, tuple), "an input's payload is its key"
+            space, index = payload
+            bounds[node] = TURNED if space == "q" and index in turning else math.inf
+        elif op in ("add", "sub"):
+            bounds[node] = sum(of)
+        elif op == "mul":
+            bounds[node] = of[0] * of[1] if 0.0 not in of else 0.0
+        elif op in ("sin", "cos", "sign"):
+            bounds[node] = 1.0
+        else:
+            bounds[node] = of[0] if op in ("neg", "abs") else math.inf
+    wanted = (block.graph.nodes[node] for node in block.needed)
+    return list(dict.fromkeys(n.args[0] for n in wanted if n.op in ("sin", "cos") and bounds[n.args[0]] > FAR))

@@ -187,3 +187,17 @@ def test_places_in_the_array_of_lanes_do_not_overlap():
     assert array.ctypes.data % 64 == 0
     assert len(array) == LANES * 145
     assert not array.any()
+
+
+@pytest.mark.parametrize("torque", ["sin(w*a.theta)", "max(0, sin(a.x*w + t))"])
+def test_sines_of_large_arguments_are_those_of_single_runs(torque):
+    """The sines of lanes lose digits beyond 4e5 and are of another angle beyond 1e15: such rows are done alone."""
+    arm = {"mass": 1.0, "inertia": 0.3, "position": [0.5, -0.1]}
+    raw = {"mechanism": {"name": "fast", "gravity": [0.0, -9.81]}, "parameters": {"w": 1.0}, "bodies": {"a": arm}}
+    raw["joints"] = {"pin": {"type": "revolute", "between": ["ground", "a"], "at": [[0.0, 0.0], [-0.5, 0.1]]}}
+    raw["forces"] = {"drive": {"type": "torque", "body": "a", "torque": f"0.01*{torque}"}}
+    chosen = {"method": "lagrange", "integrator": "rk4", "step": 1e-2, "until": 0.2}
+    single, lanes = both(mechanism_of(raw), {"w": [1.0, 1e7, 1e10, 1e16]}, **chosen)
+    assert lanes.counts == single.counts and lanes.counts["ok"] == 4
+    np.testing.assert_array_equal(lanes.values[1:], single.values[1:])
+    np.testing.assert_allclose(lanes.values[0], single.values[0], rtol=0.0, atol=1e-13)
