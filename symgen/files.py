@@ -30,20 +30,42 @@ def check_writable(where: str, path: Path) -> None:
     InputError
         If the path is a folder or a device, or its folder is missing or cannot be written.
     """
+    check_name(where, path)
     try:
-        if path.is_dir():
+        real = Path(os.path.realpath(path))  # a link leads to where the file will be
+        if real.is_dir():
             raise InputError(where, "the name of a file", f"the folder '{path}'")
-        if not path.parent.is_dir():
+        if not real.parent.is_dir():
             raise InputError(where, "a file in a folder that exists", f"'{path}'")
-        if path.exists() and not path.is_file():
+        if real.exists() and not real.is_file():
             raise InputError(where, "the name of a file", f"'{path}', which is a device or a pipe")
-        if not os.access(path.parent, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
+        if not os.access(real.parent, os.W_OK) or (real.exists() and not os.access(real, os.W_OK)):
             raise InputError(where, "a file that can be written", f"'{path}'")
-        os.lstat(path)
-    except FileNotFoundError:
-        return
-    except (OSError, ValueError) as error:  # a name too long for the system, or with a null character
+    except (OSError, RuntimeError) as error:  # a link that leads to itself
         raise InputError(where, "a file that can be written", f"'{path}' ({why(error)})") from None
+
+
+def check_name(where: str, path: Path) -> None:
+    """Refuse a name that the system cannot look up: one that is too long, or has a null character.
+
+    Parameters
+    ----------
+    where : str
+        Who asks, for the message.
+    path : Path
+        A file or folder, which need not exist.
+
+    Raises
+    ------
+    InputError
+        If nothing can have that name.
+    """
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError, PermissionError):
+        return
+    except (OSError, ValueError) as error:
+        raise InputError(where, "a name that a file can have", f"'{path}' ({why(error)})") from None
 
 
 def write_whole(path: Path, content: Content, *, replace: bool = True) -> Path:
@@ -114,7 +136,7 @@ def unheaded(heading: str) -> str:
     return heading.partition(" [")[0]
 
 
-def why(error: OSError | ValueError) -> str:
+def why(error: Exception) -> str:
     """Return what the system says about a file, in its own words."""
     return getattr(error, "strerror", None) or str(error) or "an error"
 
@@ -132,7 +154,8 @@ def _bytes(content: Content) -> bytes | memoryview:
         made = io.BytesIO()
         content(made)
         return made.getbuffer()
-    return content.encode() if isinstance(content, str) else content
+    # words of the command line may hold bytes that are no text
+    return content.encode(errors="replace") if isinstance(content, str) else content
 
 
 def _place(sibling: Path, target: Path, replace: bool) -> None:

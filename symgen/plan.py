@@ -17,12 +17,11 @@ from symgen.describe.digest import digest
 from symgen.describe.evaluate import parameter_values
 from symgen.describe.events import RECORD, STOP, events_of, watched
 from symgen.describe.holds import holds_of
-from symgen.describe.kinks import kinks_of, sides_of
 from symgen.errors import InputError, nearest, quoted
 from symgen.integrators import INTEGRATORS
 from symgen.memory import require
 from symgen.methods import METHODS
-from symgen.runtime.pieces import Piece, kinks_between, pieces_at, sides_between
+from symgen.runtime.foreseen import foreseen
 from symgen.runtime.run import MAX_STEPS, Array, RunSpec
 from symgen.settings import Settings, told_constant
 
@@ -31,13 +30,12 @@ if TYPE_CHECKING:
     from symgen.methods._base import Method
     from symgen.runtime.integrator import Integrator
     from symgen.runtime.last_state import LastState
+    from symgen.runtime.pieces import Piece
 
 #: Adaptive runs without asked output times report this many equidistant ones.
 DEFAULT_OUTPUTS = 1001
 #: Evaluations of an adaptive run in a second of motion, where nothing is known of the motion.
 ADAPTIVE_EVALUATIONS = 2000.0
-#: So far beside a jump that is known beforehand, as a part of the run, an implicit step ends and another begins.
-_BESIDE = 1e-12
 #: Default tolerances of adaptive runs.
 RTOL, ATOL = 1e-8, 1e-10
 
@@ -111,6 +109,8 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         warnings.append(
             f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
         )
+    if not adaptive and step is not None:
+        warnings += _stepped_over(mechanism, s.parameters, until, step)
     spec = RunSpec(
         until=until,
         step=step,
@@ -124,7 +124,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         max_velocity_violation=limit_of_velocities(method, s.max_violation),
         max_energy_error=s.max_energy_error,
         max_steps=MAX_STEPS if s.max_steps is None else s.max_steps,
-        pieces=_pieces(mechanism, s.parameters, until, choice.implicit) if adaptive else (),
+        pieces=_pieces(mechanism, s.parameters, until) if adaptive else (),
         # not the end of this run: where it is gone on with, it has to be the same
         duration=None if adaptive else defaults.until,
         integrator_parameters={
@@ -166,19 +166,20 @@ def limit_of_velocities(method: Method, max_violation: float) -> float | None:
     return math.sqrt(max_violation) if method.velocities_follow else None
 
 
-def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float, implicit: bool) -> tuple[Piece, ...]:
-    """Return the pieces of a run between kinks that are known beforehand, and for implicit schemes jumps as well.
+def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float) -> tuple[Piece, ...]:
+    """Return the pieces of an adaptive run between what is known beforehand."""
+    known = foreseen(mechanism)
+    return known.pieces(parameter_values(mechanism, parameters), until) if known else ()
 
-    A scheme without a stage at the begin of a step does not see what it jumps over before the first one.
-    """
-    kinks, sides = kinks_of(mechanism), sides_of(mechanism) if implicit else ()
-    if not (kinks or sides):
-        return ()
-    values = parameter_values(mechanism, parameters)
-    times = kinks_between(kinks, values, until)
-    # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
-    beside = [t + way * _BESIDE * until for t in sides_between(sides, mechanism, values, until) for way in (-1.0, 1.0)]
-    return pieces_at(sorted({*times, *(t for t in beside if 0.0 < t < until)}))
+
+def _stepped_over(mechanism: Mechanism, parameters: Mapping[str, float], until: float, step: float) -> list[str]:
+    """Return what constant steps may not see, in words: what formulas do between two times within a step."""
+    known = foreseen(mechanism)
+    near = known.closest(parameter_values(mechanism, parameters), until) if known else None
+    if near is None or near[1] - near[0] >= step:
+        return []
+    what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
+    return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]
 
 
 def _asked(s: Settings, option: str) -> bool:

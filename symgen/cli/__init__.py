@@ -100,6 +100,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     if arguments is None:  # this process is there for nothing else
         sparing()
+        _open_streams()
     # who ends a run from outside keeps what it has, as with Ctrl-C; only the main thread may say so
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -118,7 +119,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return complain("interrupted", INTERRUPTED)
     except MemoryError:
         return complain("there is not enough memory for that", FAILURE)
-    except BrokenPipeError:
+    except (BrokenPipeError, SystemExit):  # click makes the second of the first
         # whoever read our output went away: nothing is left to say, and Python must not try at exit
         _forget_stdout()
         return OK
@@ -176,6 +177,15 @@ def _sentence(error: click.ClickException) -> str:
         text = f"there is no option '{error.option_name}'" + (f"; {hint}" if hint else "")
     help_at = f" (symgen {context.info_name} --help)" if context is not None and context.parent is not None else ""
     return text[:1].lower() + text[1:].rstrip(".") + help_at
+
+
+def _open_streams() -> None:
+    """Give what is said by a process that was begun with closed streams somewhere to go."""
+    import os
+
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # as long as the process
 
 
 def _forget_stdout() -> None:

@@ -8,8 +8,6 @@ from collections.abc import Container, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import msgspec
-
 from symgen.describe.events import DOES
 from symgen.emit.text import harmless
 
@@ -28,6 +26,7 @@ _OURS |= {"README.md": "Written by symgen"}
 _PACKAGE = '''"""Emitted code of `MECHANISM`, and a consistent start; see README.md. Written by symgen."""
 
 import json
+import warnings
 from importlib import import_module
 from pathlib import Path
 
@@ -41,6 +40,8 @@ class Run:
     """A method of this mechanism at its start: `y` holds q, v and the work, `p` parameters, `w` and `iw` scratch."""
 
     def __init__(self, method=START["method"], step=START["step"]):
+        if START["events"]:  # what follows after one of them is another motion than that of `symgen run`
+            warnings.warn(f"nothing here looks for events, as a run does: {START['events']}", stacklevel=2)
         told = json.loads((_HERE / f"{method}.json").read_text(encoding="utf-8"))
         model, self.law = (import_module(f".{stem}", __name__) for stem in ("model", method))
         values, defaults = list(START["parameters"].values()), [default for _, default in told["parameters"]]
@@ -150,7 +151,7 @@ def package(
     Parameters
     ----------
     model : Model
-        What is to be generated.
+        What is to be generated, without outputs.
     choices : sequence of MethodChoice
         The methods, as they were asked for.
     coordinates : {"absolute", "joint"}
@@ -195,12 +196,10 @@ def _finds_light(model: Model, choice: MethodChoice, coordinates: str) -> bool:
 
 def _begun(model: Model, choice: MethodChoice, coordinates: str, leave: Container[str] = ()) -> Started:
     """Return what a run by ``rk4`` begins with; options to `leave` are chosen by it."""
-    from symgen.api import Model
     from symgen.cli._reading import Asked, Started
 
     options = {name: str(value) for name, value in choice.options.items() if name not in leave}
-    without = Model(msgspec.structs.replace(model.mechanism, outputs=()))  # integrals of outputs are the runtime's
-    return Started.of(without, Asked(choice.method.name, options, {}, "straight", coordinates), "rk4")
+    return Started.of(model, Asked(choice.method.name, options, {}, "straight", coordinates), "rk4")
 
 
 def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice], coordinates: str) -> dict[str, Any]:
@@ -226,6 +225,7 @@ def _settled(model: Model, choice: MethodChoice, choices: Sequence[MethodChoice]
         "until": defaults.until,
         "step": defaults.step,
         "parameters": model.parameters(),
+        "events": _events(model),
         "names": [q.name for q in (*info.coordinates, *info.velocities)] + ["work"],
         "y": state.y[: info.work + 1].tolist(),
         "counters": len(COUNTERS),
@@ -265,6 +265,7 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
     ]
     if why:
         return "\n".join([*lines, f"There is no `simulate.py`: {why}.", ""])
+    events = _events(model)
     methods = ", ".join(f"`{choice.stem}`" for choice in choices)
     return "\n".join(
         [
@@ -276,12 +277,11 @@ def _readme(model: Model, choices: Sequence[MethodChoice], why: str) -> str:
             " `accepted(t, y)` also ends a run where `symgen run` would end it, with the reason."
             " The start belongs to the parameters that stand there; with others the package has to be generated anew.",
             "",
-            *_events(model),
+            *([f"Nothing here looks for events, as `symgen run` does: {events}.", ""] if events else []),
         ]
     )
 
 
-def _events(model: Model) -> list[str]:
+def _events(model: Model) -> str:
     """Return what events of the mechanism would do that nothing here looks for."""
-    found = [f"`{e.name}` {DOES[e.action]}" for e in model.mechanism.events if e.action in DOES]
-    return [f"Nothing here looks for events, as `symgen run` does: {', '.join(found)}.", ""] if found else []
+    return ", ".join(f"`{e.name}` {DOES[e.action]}" for e in model.mechanism.events if e.action in DOES)

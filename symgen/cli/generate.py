@@ -8,11 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import click
+import msgspec
 
 from symgen.cli import OK, write_json
 from symgen.cli._options import examples, json_option, setting_options
 from symgen.cli._target import target_option
 from symgen.errors import InputError
+from symgen.files import check_name
 from symgen.ir.program import PART
 
 
@@ -68,7 +70,8 @@ def command(
         own[name] = value
     choices: Sequence[MethodChoice] = [choose_method(name, given) for name, given in wanted.items()]
     free = [name for name, given in wanted.items() if "solver" not in given]
-    mechanism = load(model)
+    # integrals of outputs belong to the runtime: on a tree they would keep the rows of drivers whose efforts they read
+    mechanism = without = msgspec.structs.replace(load(model), outputs=())
     if not methods and mechanism.has_massless:
         choices = [c for c in choices if not c.method.needs_regular_mass(c.options)]
     choices = [for_masses(mechanism, c, c.method.name in free) for c in choices]
@@ -80,6 +83,7 @@ def command(
         choices = [c if c.method.name in given else weighed(c, massless) for c in choices]
     choices = [for_coordinates(mechanism, c) for c in choices]
     folder = Path(mechanism.name if output is None else output)
+    check_name("-o", folder)
     if folder.exists() and not folder.is_dir():
         raise InputError("-o", "the name of a folder", f"the file '{folder}'")
     if shape == "looped" and not methods:
@@ -91,7 +95,7 @@ def command(
         from symgen.api import Model
         from symgen.cli._package import may_write, package
 
-        choices, found = package(Model(load(model)), choices, chosen.name, free)
+        choices, found = package(Model(without), choices, chosen.name, free)
         beside = {name: text for name, text in found.items() if may_write(folder / name)}
     generated = generate(mechanism, tuple(choices), shape, target)
     written = write_modules(folder, generated.modules, beside)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from symgen.errors import InputError
+from symgen.files import check_name
 from symgen.result.export import SAVED, need
 
 _Found = TypeVar("_Found")
@@ -36,6 +37,7 @@ def read_saved(
     if ending not in SAVED:
         raise InputError(option, f"a file ending in {', '.join(SAVED)}", f"'{path}'")
     need(option, *SAVED[ending])
+    check_name(option, path)
     if not path.is_file():
         raise InputError(option, "a file of a result", f"'{path}', which is none")
     try:

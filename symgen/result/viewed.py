@@ -14,6 +14,7 @@ from symgen.describe.evaluate import parameter_values, said
 from symgen.describe.events import DOES
 from symgen.describe.input_data import are_words_of_data
 from symgen.errors import AssemblyError, InputError
+from symgen.files import check_name
 from symgen.player.live import NONE, Live, live_part
 from symgen.player.page import Page, page
 from symgen.player.recording import LONGEST_KEY, Group, Moment, Recording, position_groups
@@ -287,6 +288,7 @@ def _dataset(option: str, path: Path) -> xr.Dataset:
     need(option, "xarray", "h5netcdf", "h5py")
     import xarray as xr
 
+    check_name(option, path)
     if not path.is_file():
         raise InputError(option, "a file of a result", f"'{path}', which is none")
     try:

@@ -12,6 +12,7 @@ import errno
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from types import TracebackType
@@ -20,6 +21,7 @@ from typing import IO, TYPE_CHECKING, Any
 from symgen import __version__
 from symgen.describe.digest import identity
 from symgen.errors import InputError, SimulationError
+from symgen.files import check_name
 
 if TYPE_CHECKING:
     from filelock import BaseFileLock
@@ -122,6 +124,7 @@ class Journal:
         self._done: dict[str, Outcome] = {}
         self._file: IO[bytes] | None = None
         self._lock: BaseFileLock | None = None
+        self._made = False
         if path is not None:
             self._open(path)
 
@@ -138,6 +141,10 @@ class Journal:
         if self._file is not None:
             self._file.close()
             self._file = None
+            if self._made and not self._done and self.path is not None:  # whoever is refused leaves nothing behind
+                for path in (self.path, _lock_of(self.path)):
+                    with suppress(OSError):
+                        path.unlink()
         if self._lock is not None:
             self._lock.release()
             self._lock = None
@@ -196,10 +203,11 @@ class Journal:
     def _open(self, path: Path) -> None:
         import filelock
 
+        check_name(f"journal '{path}'", path)
         if not path.parent.is_dir():  # the lock would make it
             raise InputError(f"journal '{path}'", "a file in a folder that exists", f"no folder '{path.parent}'")
         _content(path)  # a file that is no journal gets no lock beside it
-        lock = filelock.FileLock(path.with_name(path.name + ".lock"))
+        lock = filelock.FileLock(_lock_of(path))
         try:
             lock.acquire(timeout=0)
         except filelock.Timeout:
@@ -219,6 +227,7 @@ class Journal:
             whole, ended, torn = content.rpartition(b"\n")
             keep = len(whole) + len(ended)
             self._done.update(filter(None, map(_parsed, whole.split(b"\n")[1:] if ended else ())))
+            self._made = not path.exists()
             self._file = path.open("ab", buffering=0)
             if torn or (content and not ended):
                 self._file.truncate(keep)
@@ -226,6 +235,10 @@ class Journal:
                 self._file.write(HEADER)
         except OSError as error:
             raise _unusable(path, error) from None
+
+
+def _lock_of(path: Path) -> Path:
+    return path.with_name(path.name + ".lock")
 
 
 def _content(path: Path) -> bytes:

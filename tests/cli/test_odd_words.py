@@ -178,3 +178,35 @@ def test_a_picture_of_given_coordinates_has_no_start():
     model = symgen.load("pendulum")
     with pytest.raises(InputError, match="start: expected a picture of the start"):
         model.draw(start={"bob.x": 1.0}, q=[1.0, 0.0])
+
+
+LONG = "x" * 300
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        f"run rod.toml --from {LONG}.nc",
+        f"view {LONG}.nc",
+        f"generate rod.toml --method lagrange -o {LONG}",
+        f"sweep rod.toml --vary bar.omega=lin(0,1,2) -o {LONG}",
+        f"compare rod.toml --journal {LONG}",
+        f"run rod.toml --save {LONG}.nc",
+        f"inverse rod.toml --from {LONG}.csv",
+        # a link to a file in a folder that is not there: found before the run, not after it
+        "run rod.toml --save link.csv",
+        # refused after the journal was opened
+        "compare rod.toml --set nothing=1 --journal rows.journal",
+    ],
+)
+def test_names_that_no_file_can_have_are_refused_and_nothing_is_written(said, tmp_path, words):
+    (tmp_path / "link.csv").symlink_to("nowhere/x.csv")
+    code, out, err = said(*words.split())
+    assert code == 2 and out == "" and err.count("\n") == 1
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["link.csv", "rod.toml"]
+
+
+def test_words_that_are_no_text_do_not_keep_a_file_from_being_written(tmp_path):
+    from symgen.files import write_whole
+
+    assert write_whole(tmp_path / "a.html", "made by symgen run \udcff.toml").read_text() == "made by symgen run ?.toml"

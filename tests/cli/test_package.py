@@ -142,6 +142,25 @@ def test_a_package_says_that_it_looks_for_no_events(tmp_path):
     assert main(["generate", str(path), "--method", "lagrange", "-o", str(tmp_path / "emitted")]) == 0
     said = (tmp_path / "emitted" / "README.md").read_text()
     assert "Nothing here looks for events, as `symgen run` does: `floor` changes velocities.\n" in said
+    environment = {**os.environ, "NUMBA_DISABLE_JIT": "1"}
+    command = [sys.executable, "-W", "error", str(tmp_path / "emitted" / "simulate.py"), "lagrange", "1e-3"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False, env=environment)
+    assert "UserWarning: nothing here looks for events, as a run does: `floor` changes velocities" in done.stderr
+
+
+def test_a_package_on_a_tree_has_the_state_of_its_start(alone, tmp_path):
+    """A motor whose effort is integrated as an output keeps its row in runs; packages have no outputs."""
+    path = tmp_path / "motor.toml"
+    body = "mass = 1.0\ninertia = 0.1\npoints = { P = [-0.5, 0], Q = [0.5, 0] }\n"
+    path.write_text(
+        '[mechanism]\nname = "motor"\ngravity = [0, -9.81]\n[run]\nstep = 1e-3\n'
+        f"[bodies.a]\n{body}position = [0.5, 0]\n[bodies.b]\n{body}position = [1.5, 0]\n"
+        '[joints.j]\ntype = "revolute"\nbetween = ["ground", "a"]\nat = [[0, 0], "P"]\n'
+        '[joints.k]\ntype = "revolute"\nbetween = ["a", "b"]\nat = ["Q", "P"]\n'
+        '[joints.motor]\ntype = "driver"\njoint = "j"\nvalue = "sin(3*t)"\n'
+        '[outputs]\ngiven = "integral(motor.power)"\n'
+    )
+    assert list(agrees(str(path), alone, tmp_path, "joint")) == ["t", "b.theta", "b.omega", "work"]
 
 
 def test_what_does_not_close_is_generated_without_a_start(tmp_path):
@@ -240,7 +259,9 @@ def test_packages_of_the_catalogue_give_the_numbers_of_runs(name, alone, tmp_pat
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["bricard", "cam-follower", "flyball-governor", "spatial-slider-crank"])
+@pytest.mark.parametrize(
+    "name", ["bricard", "cam-follower", "flyball-governor", "scissor-lift", "spatial-slider-crank"]
+)
 def test_packages_in_joint_coordinates_give_the_numbers_of_runs(name, alone, tmp_path):
     agrees(name, alone, tmp_path, "joint")
 

@@ -255,7 +255,7 @@ def rows():
         yield f"sweep save {shown}", lambda x, v=value: x.sweep.save(v), f"save: expected a path, got {shown}"
     yield "save ending", lambda x: x.result.save("a.xls"), "save: expected a file ending in .nc"
     yield "save folder", lambda x: x.result.save("no/where/a.csv"), "save: expected a file in a folder that exists"
-    yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a file that can be written"
+    yield "save null", lambda x: x.result.save("a\0.csv"), "save: expected a name that a file can have"
     yield "columns", lambda x: x.result.columns("pints"), "table: expected one of q, v, a, lam, reactions"
     yield "columns 3", lambda x: x.result.columns(3), "table: expected one of q, v, a, lam, reactions"
     yield "select", lambda x: x.result.select(3), "quantities: expected a list of names, got 3"
