@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from symgen.compiling.side import compile_side
-from symgen.describe.kinks import knots_of
+from symgen.describe.kinks import knots_of, switches_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.printer import to_text
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.knots import Knots
+from symgen.runtime.switches import Switches
 
 #: Which derivative of a table jumps at its points.
 _JUMPS = {"linear": 1, "pchip": 2, "cubic": 3}
@@ -27,3 +28,13 @@ def compile_knots(mechanism: Mechanism, compiled: CompiledModel) -> Knots | None
         periods=tuple(0.0 if table is None or not table.periodic else table.x[-1] - table.x[0] for table in tables),
         orders=tuple(1 if table is None else _JUMPS[table.interpolation] for table in tables),
     )
+
+
+def compile_switches(mechanism: Mechanism, compiled: CompiledModel) -> Switches | None:
+    """Return what steps of a run may not pass two of, None where forces and integrals compare nothing of the state."""
+    found = switches_of(mechanism)
+    if not found:
+        return None
+    formulas = [(to_text(argument), argument) for argument in found]
+    side = compile_side(mechanism, compiled, "switches", "What forces and integrals compare", formulas, 1)
+    return Switches(side.plain, len(found), "ydot" in side.reads)

@@ -13,14 +13,6 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
-
-from symgen.runtime import abi
-
-if TYPE_CHECKING:
-    from symgen.runtime.records import State
 
 #: A table with more points inside a step than this is not followed: its kinks are smaller than the tolerance, or the
 #: error estimate will say so.
@@ -94,44 +86,6 @@ class Knots:
         if first > twice:
             return h
         return first if first <= h else 0.5 * first
-
-
-def stepped(knots: Knots, rtol: float, state: State, enter: Callable[[float], int], pause: float) -> int:
-    """Enter a loop for each step, with the step that ends at a point of a table; return how it ended.
-
-    Parameters
-    ----------
-    knots : Knots
-        The tables.
-    rtol : float
-        Tolerance of the run.
-    state : State
-        Of a run whose scheme keeps the rate of the state first in its memory.
-    enter : callable
-        Enters the loop, which is left (`PAUSED`) when as many steps as it is told have been accepted.
-    pause : float
-        Steps of the run after which to return.
-    """
-    rate, out = state.memory[: len(state.y)], np.zeros(3 * len(knots.levels))
-    arrays: tuple[Any, ...] = state.clock, state.control, out
-    views: list[Any] = [memoryview(array) for array in arrays]  # read and written faster than arrays are
-    clock, control, written = views
-    met = knots.met(rtol)
-    with np.errstate(all="ignore"):
-        if control[abi.BEGUN] != 1:  # the scheme has to begin before anything is known of its first step
-            code = enter(min(pause, control[abi.STEPS]))
-            if code != abi.PAUSED:
-                return code
-        while control[abi.STEPS] < pause:
-            try:
-                knots.function(clock[abi.TIME], state.y, state.p, state.w, rate, out)
-                clock[abi.NEXT] = knots.step(written, clock[abi.NEXT], met)
-            except (ArithmeticError, ValueError):
-                pass  # what plain Python refuses to evaluate is nan in compiled code: the step stays as it is
-            code = enter(min(pause, control[abi.STEPS] + 1))
-            if code != abi.PAUSED:
-                return code
-    return abi.PAUSED
 
 
 def _first_on(levels: Sequence[float], s: float, rate: float, half: float, h: float, met: float, ahead: float) -> float:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from symgen.runtime.knots import Knots
     from symgen.runtime.pieces import Piece
     from symgen.runtime.records import Outputs
+    from symgen.runtime.switches import Switches
 
 Array = NDArray[np.float64]
 Progress = Callable[[float], None]
@@ -74,6 +75,8 @@ class RunSpec:
         Events that are looked for.
     knots : Knots or None
         Points of tables that adaptive steps end at.
+    switches : Switches or None
+        What adaptive steps may not pass two of.
     """
 
     until: float
@@ -94,6 +97,7 @@ class RunSpec:
     pieces: tuple[Piece, ...] = ()
     events: Watched | None = None
     knots: Knots | None = None
+    switches: Switches | None = None
 
     @property
     def scale_time(self) -> float:

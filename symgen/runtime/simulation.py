@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from symgen.ir.numerics import WARN
 from symgen.runtime import abi
 from symgen.runtime.changes import Changes
-from symgen.runtime.knots import stepped
+from symgen.runtime.looks import stepped
 from symgen.runtime.new_state import new_outputs, new_state, sizes_of, span_of
 from symgen.runtime.probe import rates_of
 from symgen.runtime.redundancy import row_chooser
@@ -173,10 +173,9 @@ class Simulation:
             If an event asks for velocities that the constraints do not allow.
         """
         until, most = self.spec.until if until is None else until, self.span.most if most is None else most
-        knots, rtol = self.spec.knots, self.spec.rtol
-        if knots is None:
+        if self.spec.knots is None and self.spec.switches is None:
             return self._entered(outputs, until, pause, most)
-        return stepped(knots, rtol, self.state, lambda pause: self._entered(outputs, until, pause, most), pause)
+        return stepped(self, lambda pause: self._entered(outputs, until, pause, most), pause)
 
     def _entered(self, outputs: Outputs, until: float, pause: float, most: float) -> int:
         """Go on as `enter` does, by steps that look no further than their error estimate."""
@@ -284,9 +283,10 @@ class Simulation:
 
         What the run keeps before is remembered, see `go_back`.
         """
-        entry, snapshot = self._entry, self.snapshot
-        if entry is None or not self.direct:
+        entry, snapshot, spec = self._entry, self.snapshot, self.spec
+        if entry is None or not self.direct or spec.knots is not None or spec.switches is not None:
             snapshot.take(self.scheme)
+            self._prepared = None if entry is None or not self.direct else (self._nothing, entry)
             return self.enter(self._nothing, until, pause, most)
         if not self._copied or self._counts[abi.EVENTS] > 0:
             snapshot.take(self.scheme)
@@ -302,7 +302,7 @@ class Simulation:
                 return ended
 
     def go_back(self) -> None:
-        """Take up what was remembered when `go` was called last, or entered its loop after an event."""
+        """Take up what was remembered in `snapshot` last, as by `go` where it enters its loop."""
         self.scheme = self.snapshot.put_back(self.scheme)
         if self.events is not None:
             self.events.forget_after(self._clock[abi.TIME])

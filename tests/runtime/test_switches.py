@@ -1,0 +1,250 @@
+"""What forces and integrands compare over the state: parts of a motion that begin and end inside a step are seen."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import symgen
+from symgen import catalogue
+from symgen.describe.kinks import switches_of
+from symgen.ensemble.sweep import sweep
+from symgen.runtime.switches import Switches
+
+#: Two kilograms under 3 N, and what is added between two values, beside an oscillation that has steps of usual length.
+WINDOW = """[mechanism]
+name = "window"
+gravity = [0.0, 0.0]
+[parameters]
+low = 0.3
+high = 0.31
+[bodies.bob]
+type = "point"
+mass = 2.0
+position = [0.0, 0.5]
+velocity = [0.5, 0.0]
+[forces.push]
+type = "force"
+body = "bob"
+force = ["FORCE", "-400*bob.y"]
+"""
+OVER_SPEED = "3 + 5*(1 if low < bob.vx and bob.vx < high else 0)"
+OVER_TIME = "3 + 5*(1 if low < t and t < high else 0)"
+TIMES = np.linspace(0.05, 0.8, 16)
+ADAPTIVE = ("abm", "dop853", "dopri5", "radau5", "sdirk")
+
+
+def speeds(low: float, high: float, where: str) -> np.ndarray:
+    """Speeds at the times, in closed form."""
+    begin = (low - 0.5) / 1.5 if where == "speed" else low
+    end = begin + (high - low) / 4.0 if where == "speed" else high
+    inside = np.clip(TIMES, begin, end) - begin
+    return 0.5 + 1.5 * TIMES + 2.5 * inside
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("switches")
+
+
+def made(folder: Path, force: str, more: str = "") -> symgen.Model:
+    file = folder / f"w{abs(hash(force + more))}.toml"
+    file.write_text(WINDOW.replace("FORCE", force) + more, encoding="utf-8")
+    return symgen.load(file)
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+@pytest.mark.parametrize(("force", "where"), [(OVER_SPEED, "speed"), (OVER_TIME, "time")])
+def test_short_pushes_are_not_stepped_over(folder: Path, integrator: str, force: str, where: str) -> None:
+    """They were at a third of the places: off by 1e-2 m/s, and `ok`."""
+    model, shift = made(folder, force), 0.5 if where == "speed" else 0.0
+    for place in np.linspace(0.031, 0.67, 9):
+        for width in (0.002, 0.008):
+            low = shift + place
+            result = model.simulate(
+                method="lagrange",
+                integrator=integrator,
+                rtol=1e-8,
+                times=TIMES,
+                until=0.8,
+                parameters={"low": low, "high": low + width},
+            )
+            assert result.status == "ok", result.reason
+            np.testing.assert_allclose(result["bob.vx"], speeds(low, low + width, where), rtol=0.0, atol=2e-5)
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+def test_runs_step_by_step_do_not_step_over_them(folder: Path, integrator: str) -> None:
+    model = made(folder, OVER_SPEED)
+    for low in (0.55, 0.81, 1.07):
+        changed = {"low": low, "high": low + 0.004}
+        run = model.start(method="lagrange", integrator=integrator, rtol=1e-8, parameters=changed)
+        for k, expected in enumerate(speeds(low, low + 0.004, "speed")):
+            if k == 5:
+                saved = run.save()
+            run.run(TIMES[k])
+            assert run.bodies["bob.vx"] == pytest.approx(expected, abs=2e-5)
+        run.restore(saved)
+        run.step(TIMES[-1] - TIMES[4])
+        assert run.bodies["bob.vx"] == pytest.approx(expected, abs=2e-5)
+
+
+@pytest.mark.parametrize("integrator", ADAPTIVE)
+@pytest.mark.parametrize(
+    ("integrand", "area"),
+    [
+        ("1 if low < bob.x and bob.x < high else 0", 1.0),
+        ("(sign(bob.x - low) - sign(bob.x - high))/2", 1.0),
+        ("max(0, 1 - abs(2*bob.x - low - high)/(high - low))", 0.5),
+    ],
+)
+def test_short_parts_of_integrands_are_not_stepped_over(
+    folder: Path, integrator: str, integrand: str, area: float
+) -> None:
+    """Nothing acts on the motion: with `abm` and implicit schemes nothing was added up, with others by chance."""
+    model = made(folder, "0", f'[outputs]\nnarrow = "integral({integrand})"\n')
+    for low in np.linspace(0.02, 0.36, 7):
+        result = model.simulate(
+            method="lagrange",
+            integrator=integrator,
+            rtol=1e-8,
+            times=[0.8],
+            until=0.8,
+            parameters={"low": low, "high": low + 0.002},
+        )
+        assert result.status == "ok", result.reason
+        assert abs(result["narrow"][-1] - area * 0.004) < 1e-6
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "radau5"])
+def test_bumps_are_not_stepped_over(folder: Path, integrator: str) -> None:
+    """The work of a bump in the way gives the speed behind it."""
+    model = made(folder, "60*max(0, 1 - abs(2*bob.x - low - high)/(high - low))")
+    for low in np.linspace(0.02, 0.33, 7):
+        result = model.simulate(
+            method="lagrange",
+            integrator=integrator,
+            rtol=1e-8,
+            times=[0.8],
+            until=0.8,
+            parameters={"low": low, "high": low + 0.003},
+        )
+        assert abs(result["bob.vx"][-1] - math.sqrt(0.25 + 30.0 * 0.003)) < 1e-5
+
+
+@pytest.mark.parametrize("integrator", ["dopri5", "radau5"])
+def test_events_behind_short_pushes(folder: Path, integrator: str) -> None:
+    """What stops a run, and what is noted, inside the push and behind it."""
+    model = made(folder, OVER_SPEED)
+    low, high = 0.8113, 0.8153
+    begin, end = (low - 0.5) / 1.5, (low - 0.5) / 1.5 + 0.001
+    result = model.simulate(
+        method="lagrange",
+        integrator=integrator,
+        rtol=1e-9,
+        times=TIMES,
+        until=0.8,
+        parameters={"low": low, "high": high},
+        record_when=("bob.vx > 0.8133",),
+        stop_when=("bob.vx > 1.2",),
+    )
+    times = [event.t for event in result.events]
+    np.testing.assert_allclose(times, [begin + 0.0005, end + (1.2 - high) / 1.5], rtol=0.0, atol=1e-7)
+
+
+def test_what_is_passed_alone_changes_no_step(folder: Path) -> None:
+    """One switch a step is what the error estimate sees; a force beside it that compares nothing has the same steps."""
+    settings = {"method": "lagrange", "rtol": 1e-8, "until": 0.8, "times": [0.8]}
+    for integrator in ADAPTIVE:
+        compared = made(folder, "3*(1 if bob.x > -1 else 0)").simulate(integrator=integrator, **settings)
+        plain = made(folder, "3").simulate(integrator=integrator, **settings)
+        assert (compared.steps, compared.rejected) == (plain.steps, plain.rejected)
+        assert compared["bob.x"][-1] == plain["bob.x"][-1]
+
+
+def test_rebounds_pass_nothing(folder: Path) -> None:
+    """Velocities on both sides of a reset: what lies between was not passed, and no step is taken again for it."""
+    rebound = """[events.floor]
+when = "bob.x < 0"
+reset = { "bob.vx" = "-0.8*bob.vx" }
+"""
+    settings = {"method": "lagrange", "integrator": "radau5", "rtol": 1e-8, "until": 0.8, "times": [0.8]}
+    started = "velocity = [0.5, 0.0]", "position = [0.0, 0.5]"
+    found = []
+    for force in ("-9", "-9 + 1e-40*(abs(bob.vx) + abs(bob.vx + 0.3))"):
+        file = folder / "rebound.toml"
+        text = WINDOW.replace("FORCE", force).replace(started[1], "position = [0.2, 0.5]")
+        file.write_text(text + rebound, encoding="utf-8")
+        result = symgen.load(file).simulate(**settings)
+        assert result.status == "ok" and result.events
+        found.append((result.steps, result.rejected, result["bob.x"][-1]))
+    assert found[1] == found[0]
+
+
+def test_rows_of_sweeps_see_what_single_runs_see(folder: Path) -> None:
+    settings = {"method": "lagrange", "integrator": "dop853", "rtol": 1e-8, "until": 0.8, "times": [0.8]}
+    for force, shift in ((OVER_SPEED, 0.5), (OVER_TIME, 0.0)):
+        model = made(folder, force)
+        lows = [shift + 0.2, shift + 0.4137]
+        found = sweep(model, {"low": lows, "high": [low + 0.003 for low in lows]}, quantities=["bob.vx"], **settings)
+        for r, (low, high) in enumerate((low, high) for low in lows for high in [x + 0.003 for x in lows]):
+            alone = model.simulate(**settings, parameters={"low": low, "high": high})
+            assert found.values[r, 0, 0] == alone["bob.vx"][-1]
+
+
+def test_switches_of_the_catalogue() -> None:
+    """Runs of all others are entered once, as ever."""
+    entries = (*catalogue.entries(), *catalogue.entries(catalogue.MACHINES))
+    found = {entry.name for entry in entries if switches_of(symgen.load(entry.name).mechanism)}
+    assert found == {"inverted-pendulum"}
+
+
+# -- what a step has passed --------------------------------------------------------------------------------------------
+
+
+def part(functions: list[np.polynomial.Polynomial], h: float, least: float = 1e-8) -> float:
+    """Return the part to take of a step from 0 to `h`, switches being polynomials of time."""
+    before = [float(f(t)) for f in (*functions, *(f.deriv() for f in functions)) for t in (0.0,)]
+    after = [float(f(t)) for f in (*functions, *(f.deriv() for f in functions)) for t in (h,)]
+    return Switches(lambda *_: None, len(functions), False).part(before, after, h, least)
+
+
+def test_a_step_ends_between_the_first_two_passages() -> None:
+    """Beside NumPy's roots of all cubics: what the values and rates at both ends of a step determine."""
+    random, seen = np.random.default_rng(3), set()
+    for _ in range(400):
+        h, count = random.uniform(0.01, 0.3), int(random.integers(1, 4))
+        functions = [np.polynomial.Polynomial(random.normal(size=2) * [0.3, 1.0]) for _ in range(count)]
+        functions = [np.polynomial.Polynomial([f.coef[0], f.coef[1] / h]) for f in functions]
+        roots = sorted(-f.coef[0] / f.coef[1] / h for f in functions)
+        roots = [x for x in roots if 0.0 < x < 1.0]
+        expected = 1.0 if len(roots) < 2 else 0.5 * (roots[0] + roots[1])
+        assert part(functions, h) == pytest.approx(expected, abs=1e-9)
+        seen.add(len(roots))
+    assert seen == {0, 1, 2, 3}
+
+
+def test_a_step_ends_where_a_switch_is_passed_forth_and_back() -> None:
+    there_and_back = np.polynomial.Polynomial([0.21, -1.0, 1.0])  # passes 0 at 0.3 and at 0.7
+    assert part([there_and_back], 1.0) == pytest.approx(0.5)
+    assert part([-there_and_back], 1.0) == pytest.approx(0.5)
+    assert part([there_and_back + 0.05], 1.0) == 0.5, "tangents meet on the other side: it may have a corner"
+    assert part([there_and_back + 0.5], 1.0) == 1.0
+    assert part([np.polynomial.Polynomial([-0.25, 1.0]), there_and_back], 1.0) == pytest.approx(0.375)
+
+
+def test_what_is_short_and_what_is_not_finite_is_left() -> None:
+    line = np.polynomial.Polynomial([-0.5, 1.0])
+    assert part([line, line], 1.0) == 1.0
+    assert part([line, line - 1e-9], 1.0) == 1.0
+    assert part([line, line - 1e-7], 1.0) == pytest.approx(0.5)
+    assert part([line * math.nan, line], 1.0) == 1.0
+
+
+def test_integrals_of_efforts_that_are_cut_off() -> None:
+    """What `min` compares in an effort reads its own measure: with outputs that integrate it, nothing ran."""
+    result = symgen.load("inverted-pendulum").simulate(integrator="dop853", method="lagrange", until=0.02, times=[0.02])
+    assert result.status == "ok", result.reason
