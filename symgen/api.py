@@ -20,13 +20,13 @@ from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
 from symgen.errors import AssemblyError, InputError, nearest
 from symgen.plan import Plan, make_plan
-from symgen.run_setup import give_inputs, ready, start_of, watching
+from symgen.run_setup import give_inputs, ready, start_of
 from symgen.runtime.compiled import CompiledModel
 from symgen.runtime.motions import refuse_jumps
 from symgen.runtime.pieces import merged
 from symgen.runtime.run import Array
 from symgen.settings import SHAPES, Settings, changed, is_given
-from symgen.tree_run import begun, tree_run
+from symgen.tree_run import begun
 
 if TYPE_CHECKING:
     from symgen.compiling.pipeline import MethodChoice
@@ -375,11 +375,7 @@ class Model(Analysed):
         plan = replace(plan, spec=replace(plan.spec, pieces=given.pieces))
         loop = plan.tableau.loop(plan.spec.adaptive)
         ahead.start(with_events(loop) if plan.events else loop)
-        if plan.coordinates == "joint":
-            tree = tree_run(mechanism, plan, chosen.parameters, chosen.strict)
-            mechanism, compiled, start = tree.mechanism, tree.compiled, tree.start
-        else:
-            compiled, start = ready(mechanism, plan, chosen.parameters, chosen.strict)
-        plan = watching(mechanism, plan, compiled, chosen.parameters)
+        plan, compiled, start, tree = begun(mechanism, plan, chosen.parameters, chosen.strict)
+        moved = mechanism if tree is None else tree.mechanism
         start = replace(start, notes=(*reasons, *start.notes))
-        return SteppedRun(mechanism, plan, compiled, start, chosen.parameters, chosen.step is None, given)
+        return SteppedRun(moved, plan, compiled, start, chosen.parameters, chosen.step is None, given)

@@ -344,17 +344,18 @@ def watching(
 
 
 def stopping(mechanism: Mechanism, plan: Plan, compiled: CompiledModel) -> Plan:
-    """Return a plan whose run ends steps at points of tables that are read over the state."""
-    if not stops(mechanism, plan):
+    """Return a plan whose run ends steps at kinks over the state, and passes no two switches in a step."""
+    if not plan.spec.adaptive:
         return plan
-    from symgen.compiling.knots import compile_knots
+    from symgen.compiling.knots import compile_knots, compile_switches
 
-    return replace(plan, spec=replace(plan.spec, knots=compile_knots(mechanism, compiled)))
+    knots = compile_knots(mechanism, compiled) if stops(mechanism, plan) else None
+    return replace(plan, spec=replace(plan.spec, knots=knots, switches=compile_switches(mechanism, compiled)))
 
 
-def stops(mechanism: Mechanism, plan: Plan) -> bool:
-    """Whether runs end steps at points of tables that are read over the state.
+def stops(mechanism: Mechanism, plan: Plan, bends: bool = True) -> bool:
+    """Whether runs end steps at points of tables and at kinks that the state passes, those of forces with `bends`.
 
     They do where steps follow an error estimate and the scheme has the accelerations at the beginning of a step.
     """
-    return plan.spec.adaptive and isinstance(plan.tableau, Tableau) and bool(knots_of(mechanism))
+    return plan.spec.adaptive and isinstance(plan.tableau, Tableau) and bool(knots_of(mechanism, bends))

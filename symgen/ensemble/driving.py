@@ -11,13 +11,13 @@ import numpy as np
 
 from symgen.describe.derived import derived
 from symgen.describe.evaluate import parameter_values
-from symgen.describe.inputs import Jump
-from symgen.runtime.pieces import Piece, kinks_between, merged, pieces_at, pieces_of
+from symgen.runtime.pieces import Piece, merged, pieces_of
 from symgen.vocabulary.expressions import names
 
 if TYPE_CHECKING:
     from symgen.ensemble.starts import Rows
     from symgen.run_setup import Given
+    from symgen.runtime.foreseen import Foreseen
 
 
 @dataclass(frozen=True)
@@ -32,28 +32,30 @@ class Driving:
         What varies.
     until : float
         End of the runs [s].
-    kinks : tuple of Jump
-        Of tables of the time, where runs stop at them.
+    foreseen : Foreseen, optional
+        What formulas pass at times that are known beforehand, where runs stop at them.
     """
 
     given: Given
     varied: tuple[str, ...]
     until: float
-    kinks: tuple[Jump, ...] = ()
+    foreseen: Foreseen | None = None
 
     @cached_property
     def own(self) -> bool:
         """Whether jumps and kinks are elsewhere in each run."""
         driven = self.given.driven
         depends = {*self.varied, *(name for name, _ in derived(self.given.mechanism.parameters))}
-        jumps = (*self.kinks, *(() if driven is None else driven.jumps))
-        return any(depends & {*names(jump.argument), *names(jump.value)} for jump in jumps)
+        reads = [{*names(jump.argument), *names(jump.value)} for jump in (() if driven is None else driven.jumps)]
+        return any(depends & read for read in (*reads, self.foreseen.reads if self.foreseen else frozenset[str]()))
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """The pieces of all runs, where they are the same."""
-        values = parameter_values(self.given.mechanism, self.given.settings.parameters) if self.kinks else {}
-        return merged(self.given.pieces, pieces_at(kinks_between(self.kinks, values, self.until)))
+        if not self.foreseen:
+            return self.given.pieces
+        values = parameter_values(self.given.mechanism, self.given.settings.parameters)
+        return merged(self.given.pieces, self.foreseen.pieces(values, self.until))
 
     @property
     def jumps(self) -> bool:
@@ -89,7 +91,8 @@ class Driving:
             pieces: tuple[Piece, ...] = ()
             if np.all(np.isfinite(row)):
                 pieces = () if driven is None else pieces_of(driven, values, self.until)
-                pieces = merged(pieces, pieces_at(kinks_between(self.kinks, values, self.until)))
+                if self.foreseen:
+                    pieces = merged(pieces, self.foreseen.pieces(values, self.until))
             found.append(pieces)
             for name, value in (pieces[0].values if pieces else {}).items():
                 row[parameters.index(name)] = value

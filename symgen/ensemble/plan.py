@@ -17,7 +17,7 @@ from symgen.compiling.pipeline import compile_model
 from symgen.describe.derived import derived
 from symgen.describe.digest import identity
 from symgen.describe.events import RECORD
-from symgen.describe.kinks import kinks_of
+from symgen.describe.kinks import switches_of
 from symgen.describe.sides import sides_of
 from symgen.ensemble.axes import Grid, make_grid
 from symgen.ensemble.driving import Driving
@@ -36,6 +36,7 @@ from symgen.errors import InputError, nearest
 from symgen.ir.program import LANES
 from symgen.plan import Plan, make_plan, refuse_events
 from symgen.run_setup import give_inputs, stops
+from symgen.runtime.foreseen import foreseen
 from symgen.runtime.motions import refuse_jumps
 from symgen.settings import Settings
 
@@ -220,10 +221,12 @@ def make_ensemble(
     # before anything is derived; where it depends on what varies, rows are told apart behind their runs
     if not read_by_motions(mechanism, grid.names):
         refuse_jumps(mechanism, chosen.parameters, plan.spec.until)
-    # lanes and devices have nothing between two parts of a run: they go across kinks, as the error estimate lets them
-    kinks = kinks_of(mechanism) if target == "cpu" and plan.spec.adaptive else ()
+    known = foreseen(mechanism) if plan.spec.adaptive else None
+    if known and target != "cpu":  # devices have nothing between two parts of a run
+        notes = (*notes, f"target '{target}' goes across times at which formulas jump or have kinks; cpu stops there")
+        known = None
     plan = replace(plan, spec=replace(plan.spec, pieces=()))
-    driving = Driving(given, grid.names, plan.spec.until, kinks)
+    driving = Driving(given, grid.names, plan.spec.until, known)
     kept_names, events = _events(mechanism, plan, quantities)
     joint = plan.coordinates == "joint"
     compiled = compile_model(mechanism, plan.choice)
@@ -238,9 +241,11 @@ def make_ensemble(
     integrator_of_rows(plan.tableau.name, plan.spec)
     if target == "lanes":
         check_lanes(plan.tableau.name, plan.spec)
-    knots = target == "cpu" and stops(mechanism, plan)
-    parts = bool(events) or driving.jumps or knots  # what Python does something between
-    singly = Singly(mechanism, events, ends, knots) if parts or joint else None
+    looks = target == "cpu" and plan.spec.adaptive
+    # kinks of forces alone leave rows in loops, where the error estimate sees what it sees of them
+    steps = looks and (stops(mechanism, plan, bends=False) or bool(switches_of(mechanism, jumps=True)))
+    parts = bool(events) or driving.jumps or steps  # what Python does something between
+    singly = Singly(mechanism, events, ends, looks) if parts or joint else None
     # single runs add up all that outputs ask for, which their steps follow, too
     adds = integral is not None or (singly is not None and can_integrate(compiled))
     made = Made(mechanism, compiled, plan, adds, kept if singly is None else ())

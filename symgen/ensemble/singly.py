@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from symgen.compiling.carrying import carrying_of
 from symgen.compiling.events import compile_events, masses_of
-from symgen.compiling.knots import compile_knots
+from symgen.compiling.knots import compile_knots, compile_switches
 from symgen.compiling.side import compile_side
 from symgen.describe.digest import identity
 from symgen.describe.events import RESET, in_words
@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from symgen.runtime.knots import Knots
     from symgen.runtime.outcome import Outcome
     from symgen.runtime.start_records import Instant
+    from symgen.runtime.switches import Switches
     from symgen.runtime.tree_start import Carrying
 
 Array = NDArray[np.float64]
@@ -66,14 +67,14 @@ class Singly:
         What is looked for.
     ends : bool
         Whether the only output is the end of a run, wherever an event puts it.
-    knots : bool
-        Whether steps end at points of tables that are read over the state.
+    looks : bool
+        Whether it is looked between steps at tables over the state, and at what they pass of switches.
     """
 
     mechanism: Mechanism
     events: tuple[Event, ...] = ()
     ends: bool = False
-    knots: bool = False
+    looks: bool = False
 
     @property
     def width(self) -> int:
@@ -83,7 +84,7 @@ class Singly:
     @property
     def described(self) -> list[Any]:
         """What it is, as JSON can express it."""
-        return [identity(self.mechanism), in_words(self.events), self.ends, *(["knots"] if self.knots else [])]
+        return [identity(self.mechanism), in_words(self.events), self.ends, *(["looks"] if self.looks else [])]
 
 
 @dataclass
@@ -113,8 +114,11 @@ class SingleRuns:
         return (self.singly.mechanism, self.compiled) if self.tree is None else self.tree
 
     @cached_property
-    def _knots(self) -> Knots | None:
-        return compile_knots(*self._run_of) if self.singly.knots else None
+    def _looks(self) -> tuple[Knots | None, Switches | None]:
+        """What is looked at between steps."""
+        if not self.singly.looks:
+            return None, None
+        return compile_knots(*self._run_of), compile_switches(*self._run_of)
 
     @cached_property
     def _watched(self) -> Watched | None:
@@ -182,11 +186,12 @@ class SingleRuns:
     def _run(self, r: int, rows: Rows, began: Start | TreeRun, out: Results, control: Integers) -> bool:
         tree = began if isinstance(began, TreeRun) else None
         start, compiled = (began.start, began.compiled) if isinstance(began, TreeRun) else (began, self.compiled)
-        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r), knots=self._knots)
+        spec = replace(self.recipe.spec, pieces=rows.pieces_of(r), events=self._events(rows, r))
+        spec = replace(spec, knots=self._looks[0], switches=self._looks[1])
         simulation = Simulation(compiled, self.integrator, start, spec)
         outputs = simulation.outputs(spec.times)
         with self._lock:
-            if not self._warm or self._knots is not None:  # which enter the loop at each step, by its address
+            if not self._warm or any(self._looks):  # which enter the loop at each step, by its address
                 simulation.warm(outputs)
                 self._warm = True
         held, follow = simulation.follower(outputs)

@@ -6,10 +6,8 @@ fail.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,85 +16,13 @@ from numpy.typing import NDArray
 from symgen.describe.derived import derived
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.start import described_start
-from symgen.vocabulary.expressions import FUNCTIONS, Expr, Name, Number, Reading
+from symgen.runtime.columns import Columns
+from symgen.vocabulary.expressions import Expr
 
 if TYPE_CHECKING:
     from symgen.runtime.pieces import Piece
 
 Array = NDArray[np.float64]
-
-#: Functions that operators of arrays work out for all runs at once; the others are called for each.
-_OPERATORS = ("add", "sub", "mul", "div", "neg")
-
-
-@dataclass(frozen=True)
-class Columns:
-    """The numbers of many runs (`symgen.describe.numbers.Numbers`), by the functions that one run's are worked out by.
-
-    What is undefined is nan, and stays so whatever is done with it, unless a choice leaves it aside. What is the same
-    for all runs is worked out once.
-
-    Attributes
-    ----------
-    values : mapping of str to float or Array
-        For every name a number, or an array of shape (k,).
-    """
-
-    values: Mapping[str, Any]
-
-    def value(self, expression: Expr, where: str = "") -> Any:
-        """Return a formula's values."""
-        if isinstance(expression, Number):
-            return expression.value
-        if isinstance(expression, Name | Reading):
-            return self.values[expression.name]
-        return self.apply(expression.function, *(self.value(a) for a in expression.arguments))
-
-    def apply(self, function: str, *arguments: Any) -> Any:
-        """Return a function of formulas."""
-        if function == "where":
-            condition, yes, no = arguments
-            if not _varies(arguments):
-                return condition if condition != condition else yes if condition else no
-            return np.where(np.isnan(condition), np.nan, np.where(condition != 0.0, yes, no))
-        if function in ("and", "or"):
-            return _joined(function == "or", *arguments)
-        work_out: Any = FUNCTIONS[function][1]
-        if not _varies(arguments):
-            return _number(work_out, *arguments)
-        if function not in _OPERATORS:
-            work_out = np.frompyfunc(partial(_number, work_out), len(arguments), 1)
-        with np.errstate(all="ignore"):
-            found = np.asarray(work_out(*arguments), dtype=np.float64)
-        return np.where(np.isfinite(found), found, np.nan)
-
-    def above(self, limit: Any, x: Any, where: str, expected: str, got: str) -> Any:
-        """Return `x`, nan where it is not above a limit."""
-        return np.where(x > limit, x, np.nan) if _varies((limit, x)) else x if x > limit else np.nan
-
-
-def _joined(deciding: bool, a: Any, b: Any) -> Any:
-    """Return whether one of two conditions holds (`deciding`), or both; undefined ones yield to those that decide."""
-    values = np.asarray([*np.broadcast_arrays(a, b)], dtype=np.float64)
-    undefined = np.isnan(values)
-    decided = (~undefined & ((values != 0.0) == deciding)).any(axis=0)
-    found = np.where(decided, float(deciding), np.where(undefined.any(axis=0), np.nan, float(not deciding)))
-    return found if _varies((a, b)) else float(found)
-
-
-def _varies(arguments: Iterable[Any]) -> bool:
-    return any(isinstance(a, np.ndarray) for a in arguments)
-
-
-def _number(function: Callable[..., Any], *arguments: float) -> float:
-    """Return a function of numbers, nan where it is undefined."""
-    if any(a != a for a in arguments):
-        return math.nan
-    try:
-        found = function(*arguments)
-    except (ArithmeticError, ValueError):
-        return math.nan
-    return found if isinstance(found, float) and math.isfinite(found) else math.nan
 
 
 @dataclass(frozen=True)

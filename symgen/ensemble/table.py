@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from symgen.ensemble.kernel import Chunk
 from symgen.errors import InputError, SimulationError
-from symgen.files import why, write_whole
+from symgen.files import check_name, why, write_whole
 from symgen.runtime.ensemble_abi import N_SUMMARY
 
 if TYPE_CHECKING:
@@ -292,6 +292,7 @@ def check_folder(folder: Path, resume: bool) -> bool:
         If it holds something else, or a sweep that nobody asked to continue.
     """
     where = f"folder '{folder}'"
+    check_name(where, folder)
     if not folder.exists():
         if not folder.parent.is_dir() or not os.access(folder.parent, os.W_OK):
             raise InputError(where, "a folder that can be made", f"no folder '{folder.parent}' to make it in")

@@ -18,7 +18,7 @@ from symgen.describe.inputs import Jump
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
-from symgen.runtime.pieces import crossings, line_of, values_at
+from symgen.runtime.in_time import InTime
 from symgen.vocabulary.expressions import Call, Expr, call, names
 from symgen.vocabulary.measures import Holonomic
 
@@ -70,18 +70,18 @@ def jump_of(mechanism: Mechanism, values: Mapping[str, float], until: float) -> 
     until : float
         End of the run [s].
     """
-    at = values_at(mechanism, values)
+    formulas = InTime(mechanism, values)
     for joint, unit, formula, changes in _moved(mechanism):
         found = set[float]()
         for change in changes:
             try:
-                found.update(crossings(partial(at, change.argument), line_of(change, values), change.levels, until))
+                found.update(formulas.crossings(change, until))
             except InputError:  # more often than can be told
                 continue
         times = [0.0, *sorted(t for t in found if 1e-9 * until < t < (1.0 - 1e-9) * until), until]
         for (before, t), (_, after) in zip(pairwise(times), pairwise(times[1:]), strict=False):
             h = min(_NEAR * until, _APART * (t - before), _APART * (after - t))
-            kind, size = _jump(partial(at, formula), t, h, until)
+            kind, size = _jump(partial(formulas.at, formula), t, h, until)
             if kind:
                 return InputError(
                     f"{mechanism.name}: joints.{joint}.value",

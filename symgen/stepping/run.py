@@ -17,14 +17,16 @@ from symgen.errors import InputError, SimulationError
 from symgen.runtime import abi
 from symgen.runtime.changes import begin_with_step
 from symgen.runtime.events import EventRecord, record_of
+from symgen.runtime.foreseen import Foreseen, foreseen
 from symgen.runtime.motions import refuse_jumps
-from symgen.runtime.pieces import pieces_of
+from symgen.runtime.pieces import merged, pieces_of
 from symgen.runtime.simulation import Simulation
 from symgen.stepping.advance import Advance
 from symgen.stepping.carried import CarriedBodies
 from symgen.stepping.clock import Clock, Controller
 from symgen.stepping.named import Named
 from symgen.stepping.saved import Saved
+from symgen.stepping.windows import Windows
 
 if TYPE_CHECKING:
     from symgen.describe.mechanism import Mechanism
@@ -95,6 +97,10 @@ class SteppedRun:
         self._clocks, self._calling, self._advance = list[Clock](), False, Advance(self._loop)
         inputs: Mapping[str, str | float] = {} if given is None else given.told
         self._described, self._driven = (mechanism, None) if given is None else (given.mechanism, given.driven)
+        known = foreseen(self._described) if self._adaptive else Foreseen(mechanism)
+        self._jumps, self._windows = plan.spec.pieces, Windows(known, plan.spec.until, self.t)
+        if known:
+            self._loop.spec = self._divided(parameter_values(mechanism, self._changed))
         self._given = {name: words for name, words in inputs.items() if isinstance(words, str)}
         self._inputs = {name: x for name, x in inputs.items() if not isinstance(x, str)}
         places = {q.name: i for i, q in enumerate(info.parameters)}
@@ -177,7 +183,7 @@ class SteppedRun:
             self.set(u)
         if self._free:
             self._advance.take_steps_of(dt)
-        if self._clocks or self._loop.spec.pieces:
+        if self._clocks or self._loop.spec.pieces or self._windows.known:
             return self._go(self._clock[_TIME] + dt)
         return self._advance.to(self._clock[_TIME] + dt)
 
@@ -341,11 +347,11 @@ class SteppedRun:
         }
 
     def _divided(self, values: Mapping[str, float]) -> RunSpec:
-        """Return what the run is to do with values of parameters: inputs may jump elsewhere with them."""
+        """Return what the run is to do with values of parameters: inputs jump, and formulas have kinks, elsewhere."""
         spec, driven = self._loop.spec, self._driven
-        if driven is None or not driven.jumps:
-            return spec
-        return replace(spec, pieces=pieces_of(driven, values, spec.until))
+        if driven is not None and driven.jumps:
+            self._jumps = pieces_of(driven, values, spec.until)
+        return replace(spec, pieces=merged(self._jumps, self._windows.pieces(values)))
 
     def _ready(self, what: str) -> None:
         """Refuse a call from inside a controller, and have an accepted state."""
@@ -356,12 +362,15 @@ class SteppedRun:
     def _go(self, until: float) -> EventRecord | None:
         """Go on to a time, with the controllers called and the jumps of inputs made on the way."""
         loop, event = self._loop, None
-        if loop.spec.pieces and until - loop.spec.until > loop.same(until):
+        if self._jumps and until - loop.spec.until > loop.same(until):
             where = f"a time up to the setting until = {loop.spec.until:g} s: jumps of inputs are known up to there"
             raise InputError("until", where, f"{until:g}")
         while event is None and loop.is_ahead(until):
             self._call()
-            event = self._advance.to(min([until, loop.next_piece, *(clock.due for clock in self._clocks)]))
+            if self._windows.follow(self.t, loop.same(self.t)):
+                loop.divide(self._divided(parameter_values(self._mechanism, self._changed)))
+            ends = until, loop.next_piece, self._windows.end, *(clock.due for clock in self._clocks)
+            event = self._advance.to(min(ends))
             loop.take_pieces()
         return event
 

@@ -77,3 +77,16 @@ def test_all_runs_failed(cli):
 def test_bad_words_are_refused_in_one_sentence(cli, words, said):
     code, out, err = cli(*BASE, *words)
     assert code == 2 and out == "" and err.count("\n") == 1 and said in err
+
+
+def test_velocities_that_the_joints_do_not_allow_are_told(tmp_path, monkeypatch, capsys):
+    """The bob hangs sideways: it can only move up and down, so that what varies is 0 in every run but the first."""
+    monkeypatch.chdir(tmp_path)
+    words = ["sweep", "pendulum", "--vary", "bob.vx=values(0,0.3,0.5)", "--until", "0.002", "--quantity", "bob.vx"]
+    assert main(words) == 0
+    told = (
+        "in 2 of 3 runs given velocities contradicted the constraints and were projected; --strict lets such runs fail"
+    )
+    assert told in capsys.readouterr().err
+    assert main([*words[:3], "bob.vy=values(0,0.3)", *words[4:]]) == 0
+    assert "projected" not in capsys.readouterr().err

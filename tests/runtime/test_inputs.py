@@ -14,7 +14,8 @@ from symgen.describe.load import load as load_mechanism
 from symgen.ensemble.sweep import sweep
 from symgen.errors import InputError
 from symgen.runtime import pieces
-from symgen.runtime.pieces import crossings, pieces_of
+from symgen.runtime.in_time import crossings
+from symgen.runtime.pieces import pieces_of
 
 STIFFNESS = 40.0
 OMEGA = math.sqrt(STIFFNESS)

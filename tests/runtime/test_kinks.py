@@ -16,8 +16,8 @@ from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of
 from symgen.describe.parser import Names, parse
 from symgen.ensemble.sweep import sweep
-from symgen.runtime import pieces
-from symgen.runtime.pieces import Piece, kinks_between, merged
+from symgen.runtime.foreseen import MOST_KINKS, times_between
+from symgen.runtime.pieces import Piece, merged
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
 X, Y = (0.13, 0.29, 0.41, 0.77), (0.0, 5.0, -3.0, 2.0)
@@ -83,7 +83,7 @@ def test_implicit_schemes_see_forces_that_jump(tmp_path: Path, integrator: str, 
 
 def test_what_is_compared_too_often_is_left_to_the_steps() -> None:
     often = Jump(parse("sin(1e7*t)", Names("a formula", {"t": "t"}, {}, {}), "here"))
-    assert pieces.sides_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ()
+    assert times_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ()
 
 
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5"])
@@ -169,14 +169,18 @@ def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:
 
 
 def test_times_of_kinks() -> None:
+    plain = symgen.load("pendulum").mechanism
     values, levels = {"w": -2.0}, (0.0, 1.0, 3.0)
-    assert kinks_between([_jump("3 + w*t", levels)], values, 5.0) == (1.0, 1.5)
+    assert times_between([_jump("3 + w*t", levels)], plain, values, 5.0) == (1.0, 1.5)
     # period 3: 2, 1, 0, -2, -3, ... are met at (3 - level) / 2
-    found = kinks_between([_jump("2.5 + w*t", levels, 3.0)], values, 4.0)
+    found = times_between([_jump("2.5 + w*t", levels, 3.0)], plain, values, 4.0)
     np.testing.assert_allclose(found, [0.75, 1.25, 2.25, 2.75, 3.75])
-    assert kinks_between([_jump("w", levels), _jump("sin(t)", levels)], values, 5.0) == ()
-    assert kinks_between([_jump("1e6*t", levels, 3.0)], values, 5.0) == ()  # each would cost a step
-    assert len(kinks_between([_jump("100*t", levels, 3.0)], values, 5.0)) < pieces.MOST_KINKS
+    assert times_between([_jump("w", levels)], plain, values, 5.0) == ()
+    half = math.asin(0.5)
+    assert times_between([_jump("sin(t)", (0.5, 2.0))], plain, values, 5.0) == pytest.approx((half, math.pi - half))
+    assert times_between([_jump("sin(t)", levels, 3.0)], plain, values, 5.0) == ()  # levels without an end
+    assert times_between([_jump("1e6*t", levels, 3.0)], plain, values, 5.0) == ()  # each would cost a step
+    assert len(times_between([_jump("100*t", levels, 3.0)], plain, values, 5.0)) < MOST_KINKS
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:
