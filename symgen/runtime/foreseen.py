@@ -32,16 +32,16 @@ _BESIDE = 1e-12
 
 @dataclass(frozen=True)
 class Foreseen:
-    """What formulas of a mechanism pass at times that are known beforehand.
+    """What formulas of a mechanism pass at times that are known beforehand; false where that is nothing.
+
+    The times depend on parameters: what was worked out last for some of them is remembered.
 
     Attributes
     ----------
     mechanism : Mechanism
         Whose tables they may read.
-    kinks : tuple of Jump
-        From `symgen.describe.kinks.kinks_of`.
-    sides : tuple of Jump
-        From `symgen.describe.kinks.sides_of`.
+    kinks, sides : tuple of Jump
+        From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
     known : dict
         What `pieces` returned last, by what it depends on.
     """
