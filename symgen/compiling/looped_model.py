@@ -139,4 +139,5 @@ def describe_model(mechanism: Mechanism, shape: Shape, tables: Tables) -> ModelI
         spins=tuple(shape.spins),
         operations=operations,
         inputs=mechanism.inputs,
+        alone=shape.gram.alone,
     )

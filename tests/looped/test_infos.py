@@ -26,7 +26,7 @@ from symgen.lower.model import lower_model
 PLANAR = ("revolute", "rigid", "translational", "pin-in-slot", "driver", "gear", "distance", "knife-edge", "rolling")
 SPATIAL = ("revolute", "spherical", "cylindrical", "universal", "translational", "rigid", "screw", "driver", "distance")
 #: What each shape lays out in its own way, and a digest that only straight code is told.
-OWN = ("digest", "sections", "jacobian", "hoisted", "operations", "alone")
+OWN = ("digest", "sections", "jacobian", "hoisted", "operations")
 
 
 def infos(mechanism: Mechanism) -> list[dict[str, Any]]:

@@ -87,6 +87,12 @@ class Elimination:
         largest = max((len(n.columns) * len(n.below) for n in nodes), default=0)
         return cls(nodes, tuple(first), size, largest, place, tuple(local))
 
+    @property
+    def alone(self) -> tuple[int, ...]:
+        """Rows that are eliminated before all that have to do with them, in their order."""
+        behind = {row for node in self.nodes for row in (*node.columns[1:], *node.below)}
+        return tuple(sorted(self.place.keys() - behind))
+
     def target(self, a: int, b: int) -> int:
         """Return where the entry of rows `a` and `b` stands."""
         (sa, ka), (sb, kb) = self.place[a], self.place[b]
