@@ -109,8 +109,7 @@ def make_plan(mechanism: Mechanism, s: Settings) -> Plan:
         warnings.append(
             f"the step {step:g} s exceeds {limit:.3g} s, where {method.name} is unstable with {tableau.name}"
         )
-    if not adaptive and step is not None:
-        warnings += _stepped_over(mechanism, s.parameters, until, step)
+    warnings += _stepped_over(mechanism, s.parameters, until, None if adaptive else step)
     spec = RunSpec(
         until=until,
         step=step,
@@ -172,11 +171,17 @@ def _pieces(mechanism: Mechanism, parameters: Mapping[str, float], until: float)
     return known.pieces(parameter_values(mechanism, parameters), until) if known else ()
 
 
-def _stepped_over(mechanism: Mechanism, parameters: Mapping[str, float], until: float, step: float) -> list[str]:
-    """Return what constant steps may not see, in words: what formulas do between two times within a step."""
+def _stepped_over(mechanism: Mechanism, parameters: Mapping[str, float], until: float, step: float | None) -> list[str]:
+    """Return what steps may not see, in words: constant ones what formulas do between two times within one."""
     known = foreseen(mechanism)
-    near = known.closest(parameter_values(mechanism, parameters), until) if known else None
-    if near is None or near[1] - near[0] >= step:
+    if not known:
+        return []
+    values = parameter_values(mechanism, parameters)
+    if not known.are_all(values, until):
+        often = "formulas change, or pass points of tables, more often than can be told apart"
+        return [f"{often}: steps do not end there, and may miss what is short"]
+    near = None if step is None else known.closest(values, until)
+    if near is None or near[1] - near[0] >= (step or 0.0):
         return []
     what = f"formulas change at t = {near[0]:.9g} and {near[1]:.9g} s, within one step of {step:g} s"
     return [f"{what}: constant steps may miss what lies between; adaptive ones do not"]

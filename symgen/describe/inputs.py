@@ -224,4 +224,4 @@ class _Switching:
 
 
 #: Points of a table that a run stops at; one with more of them is evaluated as it stands.
-MOST_KNOTS = 2000
+MOST_KNOTS = 100_000

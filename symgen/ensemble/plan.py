@@ -216,6 +216,7 @@ def make_ensemble(
         chosen = replace(chosen, coordinates="absolute")
         refuse_events(f"target '{target}'", mechanism, chosen)
     plan = make_plan(mechanism, chosen)
+    notes = (*notes, *(f"warning: {sentence}" for sentence in plan.warnings))
     names.check((*vary, *runs), taken)
     grid = make_grid(vary, runs, names.starts)
     # before anything is derived; where it depends on what varies, rows are told apart behind their runs

@@ -19,13 +19,10 @@ from symgen.describe.kinks import kinks_of, sides_of
 from symgen.describe.mechanism import Mechanism
 from symgen.describe.remembered import remembered
 from symgen.errors import InputError
-from symgen.runtime.in_time import InTime, line_of
+from symgen.runtime.in_time import MOST_PIECES, InTime
 from symgen.runtime.pieces import SAME, Piece
 from symgen.vocabulary.expressions import names
 
-#: Kinks of tables, and times at which comparisons change, that a run stops at, at most: with more of them none, as each
-#: costs a step.
-MOST_KINKS = 2000
 #: So far beside a jump, as a part of the run, a step ends and another begins.
 _BESIDE = 1e-12
 
@@ -43,13 +40,15 @@ class Foreseen:
     kinks, sides : tuple of Jump
         From `kinks_of` and `sides_of` of `symgen.describe.kinks`.
     known : dict
-        What `pieces` returned last, by what it depends on.
+        What was found last, by what it depends on: pieces, and whether these are all.
     """
 
     mechanism: Mechanism
     kinks: tuple[Jump, ...] = ()
     sides: tuple[Jump, ...] = ()
-    known: dict[tuple[float, ...], tuple[Piece, ...]] = field(default_factory=dict, repr=False, compare=False)
+    known: dict[tuple[float, ...], tuple[tuple[Piece, ...], bool]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     def __bool__(self) -> bool:
         """Whether there is anything."""
@@ -70,15 +69,27 @@ class Foreseen:
         until, first : float
             End of the motion, and its begin [s].
         """
+        return self._found(values, until, first)[0]
+
+    def are_all(self, values: Mapping[str, float], until: float) -> bool:
+        """Return whether `pieces` end at all that formulas pass; with too many times they end at none.
+
+        Parameters
+        ----------
+        values, until
+            As for `pieces`.
+        """
+        return self._found(values, until, 0.0)[1]
+
+    def _found(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
         if not self:
-            return ()
+            return (), True
         key = (until, first, *(values[name] for name in sorted(self.reads & values.keys())))
-        found = self.known.get(key)  # runs that are compared, or of a sweep, often differ in nothing of that
-        if found is None:
+        if key not in self.known:  # runs that are compared, or of a sweep, often differ in nothing of that
             found = self._looked_for(values, until, first)
             self.known.clear()
             self.known[key] = found
-        return found
+        return self.known[key]
 
     def closest(self, values: Mapping[str, float], until: float) -> tuple[float, float] | None:
         """Return the two times inside a run [s] that are closest to each other, points of tables left aside.
@@ -89,15 +100,18 @@ class Foreseen:
             As for `pieces`.
         """
         jumps = [*self.sides, *(kink for kink in self.kinks if kink.levels == (0.0,))]
-        times = times_between(jumps, self.mechanism, values, until)
+        times, _ = times_between(jumps, self.mechanism, values, until)
         return min(pairwise(times), key=lambda pair: pair[1] - pair[0], default=None)
 
-    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> tuple[Piece, ...]:
-        times = set(times_between(self.kinks, self.mechanism, values, until, first))
+    def _looked_for(self, values: Mapping[str, float], until: float, first: float) -> tuple[tuple[Piece, ...], bool]:
+        kinks, all_kinks = times_between(self.kinks, self.mechanism, values, until, first)
+        sides, all_sides = times_between(self.sides, self.mechanism, values, until, first)
+        times = set(kinks)
         # a short piece around each: no stage of those beside it is at the very time, which belongs to one side
-        for t in times_between(self.sides, self.mechanism, values, until, first):
+        for t in sides:
             times |= {beside for way in (-1.0, 1.0) if first < (beside := t + way * _BESIDE * until) < until}
-        return tuple(Piece(t, {}) for t in (first, *sorted(times))) if times else ()
+        pieces = tuple(Piece(t, {}) for t in (first, *sorted(times))) if times else ()
+        return pieces, all_kinks and all_sides
 
 
 def foreseen(mechanism: Mechanism) -> Foreseen:
@@ -112,14 +126,13 @@ def _passed(mechanism: Mechanism) -> tuple[tuple[Jump, ...], tuple[Jump, ...], d
 
 def times_between(
     jumps: Sequence[Jump], mechanism: Mechanism, values: Mapping[str, float], until: float, first: float = 0.0
-) -> tuple[float, ...]:
-    """Return the times inside a run at which formulas pass levels.
+) -> tuple[tuple[float, ...], bool]:
+    """Return the times inside a run at which formulas pass levels, and whether these are all.
 
     Parameters
     ----------
     jumps : sequence of Jump
-        From `symgen.describe.kinks`. What passes levels more often than can be told apart is left out, and what repeats
-        its levels unless it is a straight line in t.
+        From `symgen.describe.kinks`. What passes levels more often than can be told apart is left out.
     mechanism : Mechanism
         Whose tables they may read.
     values : mapping of str to float
@@ -130,30 +143,37 @@ def times_between(
     Returns
     -------
     tuple of float
-        In order [s]; empty where they are more than `MOST_KINKS`.
+        In order [s]; empty where they are more than `MOST_PIECES`.
+    bool
+        Whether nothing was left out.
     """
-    formulas, found, apart = InTime(mechanism, values), set[float](), SAME * until
+    formulas, found, apart, whole = InTime(mechanism, values), set[float](), SAME * until, True
     for jump in jumps:
-        if jump.period > 0.0:
-            line = line_of(jump, values)
-            if line is None or not math.isfinite(sum(line)):
-                continue
-            jump = _unrolled(jump, *sorted(line[0] + line[1] * t for t in (first, until)))
         try:
-            found.update(formulas.crossings(jump, until, first, MOST_KINKS))
+            found.update(formulas.crossings(_unrolled(jump, formulas, until, first), until, first))
         except InputError:
-            continue
+            whole = False
     times = list[float]()
     for t in sorted(found):
         if t - (times[-1] if times else first) > apart and until - t > apart:
             times.append(t)
-    return tuple(times) if len(times) <= MOST_KINKS else ()
+    return (tuple(times), whole) if len(times) <= MOST_PIECES else ((), False)
 
 
-def _unrolled(jump: Jump, low: float, high: float) -> Jump:
-    """Return a jump with all the levels between two values that repeat themselves, none where they are too many."""
-    first, last = (math.floor((x - jump.levels[0]) / jump.period) for x in (low, high))
+def _unrolled(jump: Jump, formulas: InTime, until: float, first: float) -> Jump:
+    """Return a jump with all the levels that repeat themselves where its argument is in a run.
+
+    Raises
+    ------
+    InputError
+        If they are too many.
+    """
+    if jump.period == 0.0:
+        return jump
+    low, high = formulas.range(jump, until, first)
+    turns = [(x - jump.levels[0]) / jump.period for x in (low, high)]
     own = jump.levels[:-1]  # the last point is the first one of the next period
-    if (last - first + 1) * len(own) > MOST_KINKS + 2 * len(jump.levels):
-        return replace(jump, levels=())
-    return replace(jump, levels=tuple(x + k * jump.period for k in range(first, last + 1) for x in own))
+    if not (turns[1] - turns[0] + 1.0) * len(own) <= MOST_PIECES:
+        raise InputError("formulas", f"at most {MOST_PIECES} points of a table", "more periods of it")
+    count = range(math.floor(turns[0]), math.floor(turns[1]) + 1)
+    return replace(jump, levels=tuple(x + k * jump.period for k in count for x in own))

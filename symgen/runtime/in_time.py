@@ -17,11 +17,16 @@ from symgen.runtime.columns import Columns
 from symgen.vocabulary.expressions import Call, Expr, Name, Number, names
 
 Array = NDArray[np.float64]
+Integers = NDArray[np.intp]
+#: Values of a function at many times.
+Over = Callable[[Array], Array]
 
 #: Pieces of a run at most.
 MOST_PIECES = 100_000
 #: Instants at which a formula is looked at first, and at most, until it changes sides as often as the time before.
-_FIRST, _MOST = 2048, 65536
+_FIRST, _MOST = 2048, 2**19
+#: Looks at each passage, or near one, at least: with fewer it cannot be told from the next.
+_LOOKS = 4
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
@@ -52,98 +57,113 @@ class InTime:
         """Return a formula's values at many times, each that of `at`."""
         return np.broadcast_to(Columns({**self._values, "t": times}, self._tables).value(e), len(times))
 
-    def crossings(self, jump: Jump, until: float, first: float = 0.0, most: int = MOST_PIECES) -> list[float]:
+    def crossings(self, jump: Jump, until: float, first: float = 0.0) -> list[float]:
         """Return the times from `first` to `until` at which what `jump` reads passes its levels; see `crossings`."""
-        function, over = partial(self.at, jump.argument), partial(self.over, jump.argument)
-        return crossings(function, line_of(jump, self._values), jump.levels, until, first, most, over)
+        over = partial(self.over, jump.argument)
+        return crossings(over, line_of(jump, self._values), jump.levels, until, first)
+
+    def range(self, jump: Jump, until: float, first: float = 0.0) -> tuple[float, float]:
+        """Return the least and the largest value of what `jump` reads, as far as looks tell; nan where undefined."""
+        line = line_of(jump, self._values)
+        times = np.linspace(first, until, 2 if line is not None else _FIRST)
+        values = self.over(jump.argument, times)
+        known = values[np.isfinite(values)]
+        return (float(known.min()), float(known.max())) if len(known) else (math.nan, math.nan)
 
 
 def crossings(
-    function: Callable[[float], float],
+    over: Over,
     line: tuple[float, float] | None,
     levels: Sequence[float],
     until: float,
     first: float = 0.0,
-    most: int = MOST_PIECES,
-    over: Callable[[Array], Array] | None = None,
 ) -> list[float]:
     """Return the times from `first` to `until` at which a function passes one of some levels.
 
     Parameters
     ----------
-    function : callable
-        Of the time [s].
+    over : callable
+        Its values at many times [s].
     line : tuple of float or None
         Its value at 0 and its slope where it is a straight line.
     levels : sequence of float
         What it passes.
     until, first : float
         End and begin [s].
-    most : int
-        Times at most, where they are looked for.
-    over : callable, optional
-        Its values at many times, where that is quicker than one by one.
 
     Raises
     ------
     InputError
         If it passes them more often, or too often to tell one time from the next.
     """
-    if line is not None:
-        value, slope = line
+    if line is not None or not levels:
+        value, slope = line or (0.0, 0.0)
         return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
-    found, count, span = list[float](), _FIRST, until - first
-    while True:
-        # not equidistant, so that what is faster than the looks is seen to be: doubling finds more then
-        i = np.arange(count)
-        times = np.append(first + span * (i + 0.6 * (_GOLDEN * i % 1.0)) / count, until)
-        samples = np.array([function(t) for t in times.tolist()]) if over is None else over(times)
-        if sum(int(np.count_nonzero(np.diff(samples > level))) for level in levels) > most:
-            raise InputError("inputs", f"at most {most} jumps", "a formula that changes sides more often")
-        before, found = len(found), [t for level in levels for t in _passed(function, times, samples, level)]
-        if count > _FIRST and len(found) == before:
-            return found
-        if count >= _MOST:
-            got = "a formula that changes sides more often than can be told apart"
-            raise InputError("inputs", f"at most {MOST_PIECES} jumps", got)
-        count *= 2
+    count, before, span, often = _FIRST, -1, until - first, "a formula that changes sides more often"
+    while count <= _MOST:
+        # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
+        anywhere = np.random.default_rng(count).random(count)
+        times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
+        samples, passed = over(times), -1
+        passes, close = zip(*(_seen(samples, level) for level in levels), strict=True)
+        if sum(len(x) for x in passes) > MOST_PIECES:
+            raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
+        known = samples[np.isfinite(samples)]
+        moving = float(np.ptp(known)) if len(known) else 0.0
+        active = sum(len(x) + int((n < moving).sum()) for x, (_, n) in zip(passes, close, strict=True))
+        if _LOOKS * active <= count:
+            found = [_around(over, times, samples, *seen) for seen in zip(passes, close, levels, strict=True)]
+            passed = sum(len(low) for low, _ in found)
+            if passed == before:
+                return [
+                    t for at, level in zip(found, levels, strict=True) for t in _bisected(over, *at, level).tolist()
+                ]
+        count, before = 2 * count, passed
+    raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be told apart")
 
 
-def _passed(function: Callable[[float], float], times: Array, samples: Array, level: float) -> list[float]:
-    """Return where a function passes a level between instants at which it is known."""
-    above, near, at = samples > level, np.abs(samples - level), times.tolist()
+def _seen(samples: Array, level: float) -> tuple[Integers, tuple[Integers, Array]]:
+    """Return the looks before which a level is passed; those behind which it may be twice, and how near they are."""
+    above, near = samples > level, np.abs(samples - level)
     passes = above[1:] != above[:-1]
-    before, here, after = near[:-2], near[1:-1], near[2:]
+    beside = np.concatenate([[math.inf], near, [math.inf]])
+    before, after = beside[:-2], beside[2:]
+    passing = np.concatenate([[False], passes]) | np.concatenate([passes, [False]])
     # nearest to the level among its neighbours, but not all along a plateau: it may pass it twice there
-    close = ~(passes[1:] | passes[:-1]) & (here <= np.minimum(before, after)) & (here < np.maximum(before, after))
-    found = [_bisected(function, at[i], at[i + 1], level) for i in np.flatnonzero(passes).tolist()]
-    for i in np.flatnonzero(close).tolist():
-        low, high, side = at[i], at[i + 2], bool(above[i])
-        t = _lowest(function, 1.0 if side else -1.0, low, high)
-        if (function(t) > level) != side:
-            found += [_bisected(function, low, t, level), _bisected(function, t, high, level)]
-    return found
+    close = ~passing & (near <= np.minimum(before, after)) & (near < np.maximum(before, after))
+    return np.flatnonzero(passes), (np.flatnonzero(close), near[close])
 
 
-def _bisected(function: Callable[[float], float], low: float, high: float, level: float) -> float:
-    """Return the first number at which a function is on the side that it is on at `high`."""
-    side = function(high) - level > 0.0
-    while low < (middle := 0.5 * (low + high)) < high:
-        if (function(middle) - level > 0.0) == side:
-            high = middle
-        else:
-            low = middle
-    return high
+def _around(
+    over: Over, times: Array, samples: Array, passes: Integers, close: tuple[Integers, Array], level: float
+) -> tuple[Array, Array]:
+    """Return times before and behind each passage of a level."""
+    above = samples[close[0]] > level
+    before, after = times[np.maximum(close[0] - 1, 0)], times[np.minimum(close[0] + 1, len(times) - 1)]
+    t = _lowest(over, np.where(above, 1.0, -1.0), before, after)
+    twice = (over(t) > level) != above
+    before, t, after = before[twice], t[twice], after[twice]
+    return np.concatenate([times[passes], before, t]), np.concatenate([times[passes + 1], t, after])
 
 
-def _lowest(function: Callable[[float], float], sign: float, low: float, high: float) -> float:
+def _bisected(over: Over, low: Array, high: Array, level: float) -> Array:
+    """Return the first numbers at which a function is on the side that it is on at `high`."""
+    side = over(high) > level
+    while True:
+        middle = 0.5 * (low + high)
+        inside = (low < middle) & (middle < high)
+        if not inside.any():
+            return high
+        same = (over(middle) > level) == side
+        low, high = np.where(inside & ~same, middle, low), np.where(inside & same, middle, high)
+
+
+def _lowest(over: Over, sign: Array, low: Array, high: Array) -> Array:
     """Return where a function, times a sign, is smallest, by golden sections."""
-    for _ in range(60):
+    for _ in range(60 if len(low) else 0):
         a, b = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
-        if sign * function(a) < sign * function(b):
-            high = b
-        else:
-            low = a
+        left = sign * over(a) < sign * over(b)
+        low, high = np.where(left, low, a), np.where(left, b, high)
     return 0.5 * (low + high)
 
 

@@ -304,7 +304,7 @@ def test_random_crossings_are_all_found():
     random = np.random.default_rng(5)
     for _ in range(20):
         omega, phase = random.uniform(1.0, 300.0), random.uniform(0.0, 6.0)
-        found = crossings(lambda t, w=omega, p=phase: math.sin(w * t + p), None, (0.0,), 3.0)
+        found = crossings(lambda t, w=omega, p=phase: np.sin(w * t + p), None, (0.0,), 3.0)
         first, last = math.ceil(phase / math.pi), math.floor((3.0 * omega + phase) / math.pi)
         expected = [(k * math.pi - phase) / omega for k in range(first, last + 1)]
         np.testing.assert_allclose(sorted(found), expected, rtol=0.0, atol=1e-13)

@@ -16,7 +16,7 @@ from symgen.describe.inputs import Jump
 from symgen.describe.kinks import kinks_of
 from symgen.describe.parser import Names, parse
 from symgen.ensemble.sweep import sweep
-from symgen.runtime.foreseen import MOST_KINKS, times_between
+from symgen.runtime.foreseen import times_between
 from symgen.runtime.pieces import Piece, merged
 
 #: Force over time, linear between points that no step would meet, and beyond them constant.
@@ -83,7 +83,7 @@ def test_implicit_schemes_see_forces_that_jump(tmp_path: Path, integrator: str, 
 
 def test_what_is_compared_too_often_is_left_to_the_steps() -> None:
     often = Jump(parse("sin(1e7*t)", Names("a formula", {"t": "t"}, {}, {}), "here"))
-    assert times_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ()
+    assert times_between([often], symgen.load("pendulum").mechanism, {}, 1.0) == ((), False)
 
 
 @pytest.mark.parametrize("integrator", ["dop853", "dopri5", "radau5"])
@@ -171,16 +171,29 @@ def _jump(text: str, levels: tuple[float, ...], period: float = 0.0) -> Jump:
 def test_times_of_kinks() -> None:
     plain = symgen.load("pendulum").mechanism
     values, levels = {"w": -2.0}, (0.0, 1.0, 3.0)
-    assert times_between([_jump("3 + w*t", levels)], plain, values, 5.0) == (1.0, 1.5)
+
+    def times(text: str, until: float, levels: tuple[float, ...] = levels, period: float = 0.0) -> tuple[float, ...]:
+        found, whole = times_between([_jump(text, levels, period)], plain, values, until)
+        assert whole
+        return found
+
+    assert times("3 + w*t", 5.0) == (1.0, 1.5)
     # period 3: 2, 1, 0, -2, -3, ... are met at (3 - level) / 2
-    found = times_between([_jump("2.5 + w*t", levels, 3.0)], plain, values, 4.0)
-    np.testing.assert_allclose(found, [0.75, 1.25, 2.25, 2.75, 3.75])
-    assert times_between([_jump("w", levels)], plain, values, 5.0) == ()
+    np.testing.assert_allclose(times("2.5 + w*t", 4.0, period=3.0), [0.75, 1.25, 2.25, 2.75, 3.75])
+    assert times("w", 5.0) == ()
     half = math.asin(0.5)
-    assert times_between([_jump("sin(t)", (0.5, 2.0))], plain, values, 5.0) == pytest.approx((half, math.pi - half))
-    assert times_between([_jump("sin(t)", levels, 3.0)], plain, values, 5.0) == ()  # levels without an end
-    assert times_between([_jump("1e6*t", levels, 3.0)], plain, values, 5.0) == ()  # each would cost a step
-    assert len(times_between([_jump("100*t", levels, 3.0)], plain, values, 5.0)) < MOST_KINKS
+    assert times("sin(t)", 5.0, (0.5, 2.0)) == pytest.approx((half, math.pi - half))
+    # from 0 to 4.5 and back to 0: over 1, 3, 4 = 1 + 3 and back again
+    up = [math.asin(level / 4.5) for level in (1.0, 3.0, 4.0)]
+    there = times("4.5*sin(t)", math.pi - 1e-3, period=3.0)
+    np.testing.assert_allclose(there, [*up, *(math.pi - t for t in reversed(up))], rtol=1e-12)
+    assert len(times("100*t", 5.0, period=3.0)) == 333
+    assert times_between([_jump("1e6*t", levels, 3.0)], plain, values, 5.0) == ((), False)  # each would cost a step
+    assert times_between([_jump("sin(1e6*t)", levels)], plain, values, 5.0) == ((), False)  # none is told from the next
+    assert times_between([_jump("5 + sin(1e6*t)", (0.0, 1.0))], plain, values, 5.0) == (
+        (),
+        True,
+    )  # nowhere near a level
 
 
 def test_kinks_and_jumps_end_pieces_together() -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +14,8 @@ from symgen.describe.parser import Names, parse
 from symgen.ensemble.plan import make_ensemble
 from symgen.ensemble.sweep import sweep
 from symgen.runtime.foreseen import foreseen
-from symgen.runtime.in_time import InTime
+from symgen.runtime.in_time import InTime, crossings
+from symgen.vocabulary.expressions import Expr
 
 SCHEMES = ["dop853", "dopri5", "abm", "sdirk", "radau5"]
 #: Two points without weight, each direction pushed once: force over t, impulse [N s], and the middle of the push [s].
@@ -130,13 +133,73 @@ def test_values_over_times_are_those_at_each(pushed: symgen.Model) -> None:
 def test_plateaus_are_not_searched(pushed: symgen.Model) -> None:
     """What stays where it is has a least value everywhere: looking for it between all looks would take seconds."""
     looks, formulas = [0], InTime(pushed.mechanism, {"at": AT})
-    at = formulas.at
+    over = formulas.over
 
-    def counted(e: object, t: float) -> float:
-        looks[0] += 1
-        return at(e, t)  # type: ignore[arg-type]
+    def counted(e: Expr, times: np.ndarray) -> np.ndarray:
+        looks[0] += len(times)
+        return over(e, times)
 
-    formulas.at = counted  # type: ignore[method-assign]
+    formulas.over = counted  # type: ignore[method-assign]
     (jump,) = (jump for jump in foreseen(pushed.mechanism).kinks if abs(formulas.at(jump.argument, 0.0)) > 1e6)
     assert len(formulas.crossings(jump, 10.0)) == 2
-    assert looks[0] < 1000
+    assert looks[0] < 2 * (2048 + 4096)
+
+
+def test_passages_of_any_frequency_are_found() -> None:
+    """Peaks that pass a level for a moment, more of them than the first looks, with known times."""
+    random = np.random.default_rng(7)
+    for _ in range(25):
+        w, phase, part = 10.0 ** random.uniform(0.0, 4.0), random.uniform(0.0, 6.0), 10.0 ** random.uniform(-5.0, -0.4)
+        found = crossings(lambda t, w=w, p=phase, d=part: np.sin(w * t + p) - math.cos(d), None, (0.0,), 10.0)
+        turns = np.arange(math.floor(phase / math.tau) - 1, math.ceil((10.0 * w + phase) / math.tau) + 1)
+        peaks = (0.5 * math.pi + math.tau * turns - phase) / w
+        expected = np.sort(np.concatenate([peaks - part / w, peaks + part / w]))
+        # a double root is known to the root of rounding of an angle of w t
+        sure = 1e-7 * (1.0 + w) / w
+        kept = expected[(expected > sure) & (expected < 10.0 - sure)]
+        there = np.sort([t for t in found if sure < t < 10.0 - sure])
+        np.testing.assert_allclose(there, kept, rtol=0.0, atol=sure)
+
+
+def pulsed(folder: Path, force: str, until: float, tables: str = "") -> symgen.Model:
+    """A point of 1 kg without weight under a force over the time."""
+    text = (
+        f'[mechanism]\nname = "pulsed"\ngravity = [0.0, 0.0]\n[run]\nuntil = {until}\n[parameters]\nf = 50.0\n{tables}'
+    )
+    text += '[bodies.a]\ntype = "point"\nmass = 1.0\nposition = [0.0, 0.0]\nvelocity = [0.1, 0.0]\n'
+    text += f'[forces.push]\ntype = "force"\nbody = "a"\nforce = ["{force}", "0"]\n'
+    file = folder / "pulsed.toml"
+    file.write_text(text, encoding="utf-8")
+    return symgen.load(file)
+
+
+@pytest.mark.parametrize("integrator", ["dop853", "radau5"])
+def test_thousands_of_pushes_are_seen(tmp_path: Path, integrator: str) -> None:
+    """A hundredth of each period at 50 Hz for 30 s: 3000 times on and off."""
+    model = pulsed(tmp_path, "10 if sin(2*pi*f*t) > cos(0.01*pi) else 0", 30.0)
+    result = model.simulate(method="lagrange", integrator=integrator, rtol=1e-8)
+    assert (result.status, result.warnings) == ("ok", ())
+    assert result["a.vx"][-1] == pytest.approx(0.1 + 10.0 * 0.01 * 30.0, abs=1e-6)
+
+
+def test_a_spike_of_a_long_table_is_seen(tmp_path: Path) -> None:
+    """One point of 6000, and the same table read along a curve that goes over it twice."""
+    x = np.linspace(0.0, 10.0, 6001)
+    y = np.zeros(6001)
+    y[3210] = 300.0
+    tables = f"[tables.spike]\nx = {x.tolist()}\ny = {y.tolist()}\n"
+    for formula, until in (("spike(t)", 10.0), ("spike(10*sin(pi*t/20))", 20.0)):
+        result = pulsed(tmp_path, formula, until, tables).simulate(method="lagrange", integrator="dop853", rtol=1e-8)
+        times = np.linspace(0.0, until, 2_000_001)
+        there = np.interp(times if until == 10.0 else 10.0 * np.sin(math.pi * times / 20.0), x, y)
+        # each flank is off by half a step of the sum, 5e-6 s, times how far the force is from a line there
+        assert result["a.vx"][-1] == pytest.approx(0.1 + float(np.trapezoid(there, times)), abs=1e-5)
+
+
+@pytest.mark.parametrize("settings", [{"integrator": "dop853"}, {"integrator": "rk4", "step": 0.01}])
+def test_what_cannot_be_told_apart_is_told(tmp_path: Path, settings: dict[str, object]) -> None:
+    model = pulsed(tmp_path, "10 if sin(2e7*t) > 0.999 else 0", 1.0)
+    expected = "formulas change, or pass points of tables, more often than can be told apart"
+    assert any(expected in warning for warning in model.simulate(method="lagrange", **settings).warnings)
+    found = make_ensemble(model, symgen.Settings(method="lagrange", **settings), {"f": [1.0, 2.0]}, {}, None)
+    assert any(expected in note for note in found.notes)
