@@ -99,62 +99,83 @@ def crossings(
     if line is not None or not levels:
         value, slope = line or (0.0, 0.0)
         return [t for level in levels if slope and first <= (t := (level - value) / slope) <= until]
-    count, before, span, often = _FIRST, -1, until - first, "a formula that changes sides more often"
+    count, before, span, sorted_levels = _FIRST, -1, until - first, np.sort(np.asarray(levels, dtype=np.float64))
+    often = "a formula that changes sides more often"
     while count <= _MOST:
         # anywhere in equal parts, so that what is faster than the looks is seen to be, whatever its frequency
         anywhere = np.random.default_rng(count).random(count)
         times = np.concatenate([[first], first + span * (np.arange(count) + anywhere) / count, [until]])
-        samples, passed = over(times), -1
-        passes, close = zip(*(_seen(samples, level) for level in levels), strict=True)
-        if sum(len(x) for x in passes) > MOST_PIECES:
+        looks = _Looks(times, samples := over(times), sorted_levels)
+        if len(looks.passes) > MOST_PIECES:
             raise InputError("inputs", f"at most {MOST_PIECES} jumps", often)
-        known = samples[np.isfinite(samples)]
-        moving = float(np.ptp(known)) if len(known) else 0.0
-        active = sum(len(x) + int((n < moving).sum()) for x, (_, n) in zip(passes, close, strict=True))
-        if _LOOKS * active <= count:
-            found = [_around(over, times, samples, *seen) for seen in zip(passes, close, levels, strict=True)]
-            passed = sum(len(low) for low, _ in found)
+        passed, known = -1, samples[np.isfinite(samples)]
+        if _LOOKS * (len(looks.passes) + looks.near(float(np.ptp(known)) if len(known) else 0.0)) <= count:
+            low, high, at = looks.around(over)
+            passed = len(at)
             if passed == before:
-                return [
-                    t for at, level in zip(found, levels, strict=True) for t in _bisected(over, *at, level).tolist()
-                ]
+                return [float(x) for x in _bisected(over, low, high, at)]
         count, before = 2 * count, passed
     raise InputError("inputs", f"at most {MOST_PIECES} jumps", f"{often} than can be told apart")
 
 
-def _seen(samples: Array, level: float) -> tuple[Integers, tuple[Integers, Array]]:
-    """Return the looks before which a level is passed; those behind which it may be twice, and how near they are."""
-    above, near = samples > level, np.abs(samples - level)
-    passes = above[1:] != above[:-1]
-    beside = np.concatenate([[math.inf], near, [math.inf]])
-    before, after = beside[:-2], beside[2:]
-    passing = np.concatenate([[False], passes]) | np.concatenate([passes, [False]])
-    # nearest to the level among its neighbours, but not all along a plateau: it may pass it twice there
-    close = ~passing & (near <= np.minimum(before, after)) & (near < np.maximum(before, after))
-    return np.flatnonzero(passes), (np.flatnonzero(close), near[close])
+class _Looks:
+    """What is seen of a function at some times: where it passes levels, and where it may do so twice.
+
+    Parameters
+    ----------
+    times, samples, levels : Array
+        Times, the function there, and levels, increasing.
+    """
+
+    def __init__(self, times: Array, samples: Array, levels: Array) -> None:
+        self.times, self.samples, self.levels = times, samples, levels
+        self.below = self._below(samples)
+        self.passes, self._of_passes = _counted(self.below[:-1], self.below[1:])
+        # largest or smallest among its neighbours, but not all along a plateau: what lies beyond may be passed there
+        padded = np.concatenate([[np.nan], samples, [np.nan]])
+        before, after = padded[:-2], padded[2:]
+        lower, higher = np.fmin(before, after), np.fmax(before, after)
+        ends = np.isnan(before) | np.isnan(after)
+        top = (samples >= higher) & (ends | (samples > lower)) & (self.below < len(levels))
+        bottom = (samples <= lower) & (ends | (samples < higher)) & (self.below > 0)
+        self.turns, self._sign = np.flatnonzero(top | bottom), np.where(top, -1.0, 1.0)[top | bottom]
+
+    def _below(self, samples: Array) -> Integers:
+        """Return how many levels are below each value; what is undefined is above none."""
+        return np.searchsorted(self.levels, np.where(np.isnan(samples), -math.inf, samples))
+
+    def near(self, distance: float) -> int:
+        """Return how many turning points are nearer than that to the level beyond."""
+        beyond = self.levels[self.below[self.turns] - (self._sign > 0.0)]
+        return int(np.count_nonzero(np.abs(beyond - self.samples[self.turns]) < distance))
+
+    def around(self, over: Over) -> tuple[Array, Array, Array]:
+        """Return times before and behind each passage, and the level: turning points are looked for first."""
+        times, turns = self.times, self.turns
+        first, last = times[np.maximum(turns - 1, 0)], times[np.minimum(turns + 1, len(times) - 1)]
+        middle = _lowest(over, self._sign, first, last)
+        twice, of_twice = _counted(self.below[turns], self._below(over(middle)))
+        low = np.concatenate([times[self.passes], first[twice], middle[twice]])
+        high = np.concatenate([times[self.passes + 1], middle[twice], last[twice]])
+        return low, high, self.levels[np.concatenate([self._of_passes, of_twice, of_twice])]
 
 
-def _around(
-    over: Over, times: Array, samples: Array, passes: Integers, close: tuple[Integers, Array], level: float
-) -> tuple[Array, Array]:
-    """Return times before and behind each passage of a level."""
-    above = samples[close[0]] > level
-    before, after = times[np.maximum(close[0] - 1, 0)], times[np.minimum(close[0] + 1, len(times) - 1)]
-    t = _lowest(over, np.where(above, 1.0, -1.0), before, after)
-    twice = (over(t) > level) != above
-    before, t, after = before[twice], t[twice], after[twice]
-    return np.concatenate([times[passes], before, t]), np.concatenate([times[passes + 1], t, after])
+def _counted(a: Integers, b: Integers) -> tuple[Integers, Integers]:
+    """Return all numbers from the smaller to the larger of two (exclusive), with the place of the pair each is of."""
+    least, count = np.minimum(a, b), np.abs(a - b)
+    pairs = np.repeat(np.arange(len(a)), count)
+    return pairs, np.arange(len(pairs)) - np.repeat(np.cumsum(count) - count - least, count)
 
 
-def _bisected(over: Over, low: Array, high: Array, level: float) -> Array:
-    """Return the first numbers at which a function is on the side that it is on at `high`."""
-    side = over(high) > level
+def _bisected(over: Over, low: Array, high: Array, levels: Array) -> Array:
+    """Return the first times at which a function is on the side of a level that it is on at `high`, to rounding."""
+    side, rounding = over(high) > levels, np.finfo(np.float64).eps * np.max(np.abs(high), initial=0.0)
     while True:
         middle = 0.5 * (low + high)
-        inside = (low < middle) & (middle < high)
+        inside = (low < middle) & (middle < high) & (high - low > rounding)
         if not inside.any():
             return high
-        same = (over(middle) > level) == side
+        same = (over(middle) > levels) == side
         low, high = np.where(inside & ~same, middle, low), np.where(inside & same, middle, high)
 
 
